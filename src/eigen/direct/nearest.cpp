@@ -314,11 +314,11 @@ NearestPairs NearestSolver::whole() const {
   return found;
 }
 
-void rejectIdleSolverOptions() {
+void rejectIdleSolverOptions(pencil::Method method) {
   for (const auto* prefix : {&epsPrefix, &pepPrefix, &stPrefix})
-    if (prefix->given() && !directWanted())
+    if (prefix->given() && method != pencil::Method::direct)
       throw Error("options -" + prefix->prefix + "* (" + joined(prefix->names()) +
-                  ") are used by -flutter_method direct alone");
+                  ") are used only by -flutter_method direct");
 }
 
 std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,

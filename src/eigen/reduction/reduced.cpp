@@ -8,7 +8,6 @@
 
 #include "algebra/linalg/columns.hpp"
 #include "algebra/linalg/symmetric.hpp"
-#include "base/options/options.hpp"
 #include "base/petsc/arrays.hpp"
 #include "eigen/reduction/condition.hpp"
 #include "eigen/reduction/pod.hpp"
@@ -20,20 +19,6 @@ namespace squeal::reduction {
 using subspace::Sketch;
 using subspace::SquaredNorms;
 namespace {
-
-const ChoiceOption basisOption(
-    "flutter", "reduction_basis", {"corrected", "modal", "pod"}, "corrected",
-    "corrected: free modes, static responses to friction and to residuals; pod: after each batch "
-    "of points "
-    "the principal directions of the vectors found so far; modal: free modes alone");
-const RealOption toleranceOption(
-    "flutter", "flutter_tolerance", 1e-8, "", positive,
-    "estimated relative error |ds|/|s| to which the eigenvalues of the band are corrected");
-const IntegerOption roundsOption("flutter", "flutter_rounds", 15, 0, 10'000,
-                                 "most rounds of corrections at one batch of points");
-const IntegerOption growthOption(
-    "flutter", "flutter_growth", 1000, 0, 1'000'000,
-    "most vectors that corrections may add to the basis at one batch of points");
 
 /// Pairs with a backward error below this have nothing to correct.
 constexpr double rounding = 1e-14;
@@ -81,13 +66,6 @@ std::vector<double> perPair(const Coordinates& coordinates, const std::vector<do
 
 }  // namespace
 
-Options Options::given() {
-  const std::string basis = basisOption.get();
-  const int rounds = roundsOption.get(), growth = growthOption.get();
-  return {basis != "modal", basis == "pod", toleranceOption.get(),
-          rounds,           growth,         pencil::Criteria::given()};
-}
-
 /// The state of one point while the basis is corrected.
 struct ReducedProblem::PointState : PointFound {
   PointState(PointFound found, const PointProblem& problem, const Set& its, ProjectedTerms own,
@@ -105,10 +83,10 @@ struct ReducedProblem::PointState : PointFound {
 };
 
 ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
-                               const modes::Modes& modes, const Options& options,
+                               const modes::Modes& modes, const Settings& settings,
                                Substructure substructure)
-    : options_(options),
-      band_(pencil::bandFor(modes.angularFrequency)),
+    : settings_(settings),
+      band_(pencil::bandFor(modes.angularFrequency, settings.band)),
       modes_(modes.angularFrequency),
       basis_(modes, system, std::move(substructure)),
       terms_(basis_, pencil, 0, pencil.terms().size()) {
@@ -118,7 +96,7 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const factor::Assoc
   highestMode_ = modes.angularFrequency.back();
   if (basis_.size() == unknowns_) {  // the whole space: there is nothing to correct
     band_.top = INFINITY;
-  } else if (!options_.corrected) {
+  } else if (!settings_.corrected) {
     band_.top = 0;
   }
   addSet(pencil, std::vector<unsigned char>(basis_.boundarySize(), 0));
@@ -178,9 +156,9 @@ double ReducedProblem::absoluteError(const PointState& state, std::size_t pair) 
 /// Returns true if the error is as small as asked for. Where s is zero within its error, that is
 /// relative to the lowest free mode: in s itself, or in s² where the problem is one in s².
 bool ReducedProblem::isExactEnough(const PointState& state, const pencil::Eigenvalue& e) const {
-  if (!e.mayBeZero()) return e.errorEstimate() <= options_.tolerance;
+  if (!e.mayBeZero()) return e.errorEstimate() <= settings_.tolerance;
   const double ratio = e.error / lowestMode_;
-  return (state.symmetry == pencil::Symmetry::none ? ratio : ratio * ratio) <= options_.tolerance;
+  return (state.symmetry == pencil::Symmetry::none ? ratio : ratio * ratio) <= settings_.tolerance;
 }
 
 /// Returns the estimate of |δs|/|s| that comes from what the basis lacks.
@@ -192,8 +170,8 @@ double ReducedProblem::errorOf(const PointState& state, std::size_t pair) const 
 /// done, as about errors of rounding.
 double ReducedProblem::errorRatio(const PointState& state, std::size_t pair) const {
   if (band_.top == 0 || state.backwardError[pair] < rounding) return 0;
-  return std::max(state.backwardError[pair] / options_.criteria.accuracy,
-                  errorOf(state, pair) / options_.tolerance);
+  return std::max(state.backwardError[pair] / settings_.criteria.accuracy,
+                  errorOf(state, pair) / settings_.tolerance);
 }
 
 bool ReducedProblem::isAccurate(const PointState& state) const {
@@ -393,7 +371,7 @@ std::vector<ReducedProblem::PointState*> ReducedProblem::unconfirmed(
   PointState* worst = nullptr;
   std::size_t pair = 0;
   double largest =
-      std::max(confirmed_, 1e-3 * options_.tolerance);  // below: next to nothing, or rounding
+      std::max(confirmed_, 1e-3 * settings_.tolerance);  // below: next to nothing, or rounding
   for (auto& state : states)
     for (std::size_t j = 0; j < state.spectrum.band.size(); ++j)
       if (const double error = errorOf(state, j); std::isfinite(error) && error > largest)
@@ -555,7 +533,7 @@ BatchInHand ReducedProblem::inHand(const std::vector<PointState>& states,
 void ReducedProblem::correct(std::vector<PointState>& states) {
   std::vector<PointState*> open;
   int round = 0;
-  PetscInt largest = std::min<PetscInt>(basis_.size() + options_.growth, unknowns_);
+  PetscInt largest = std::min<PetscInt>(basis_.size() + settings_.growth, unknowns_);
   if (inHand_) {
     for (std::size_t i = 0; i < states.size(); ++i) {
       static_cast<PointFound&>(states[i]) = std::move(inHand_->found[i]);
@@ -575,7 +553,7 @@ void ReducedProblem::correct(std::vector<PointState>& states) {
       if (open.empty()) open = incompleteStates(states);
       continue;
     }
-    if (round >= options_.rounds || basis_.size() >= largest) break;
+    if (round >= settings_.rounds || basis_.size() >= largest) break;
     std::vector<CorrectionRequest> requests;
     for (const auto* state : open) requests.push_back(requestOf(*state));
     if (basis_.add(directions(requests)) == 0) break;  // residuals are rounding
@@ -627,7 +605,7 @@ void ReducedProblem::exchange(checkpoint::Archive& archive) {
 std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointProblem>& batch,
                                                         Mat trial) {
   std::vector<PointState> states;
-  if (!responded_ && options_.corrected && basis_.size() < unknowns_)
+  if (!responded_ && settings_.corrected && basis_.size() < unknowns_)
     addStaticResponses(batch.front());
   responded_ = true;
   for (const auto& point : batch)
@@ -637,7 +615,7 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   std::vector<pencil::ComplexModes> points;
   for (const auto& state : states) points.push_back(result(state));
   keepShapes(points, states, trial);
-  if (!options_.compressed) {
+  if (!settings_.compressed) {
     keepPairs(states);
     return points;
   }
@@ -686,7 +664,7 @@ void ReducedProblem::settleBand(std::vector<double> values, Set& set) const {
   if (band_.top == 0 || !std::isfinite(band_.top)) return;
   values.resize(std::min(values.size(), modes_.size()));
   for (double& value : values) value = std::sqrt(std::max(value, 0.0));
-  set.top = std::min(band_.top, pencil::bandBelow(values));
+  set.top = std::min(band_.top, pencil::bandBelow(values, settings_.band.top));
   set.modesInBand = std::ranges::count_if(values, [&](double w) { return w <= set.top; });
   check(MPI_Bcast(&set.top, 1, MPI_DOUBLE, 0, basis_.comm()));
   check(MPI_Bcast(&set.modesInBand, 1, MPI_INT, 0, basis_.comm()));
@@ -737,8 +715,8 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   point.bandTop = state.set->top;
   point.freeModesInBand = state.set->modesInBand;
   point.damped = state.damped;
-  point.accuracy = options_.criteria.accuracy;
-  point.tolerance = options_.tolerance;
+  point.accuracy = settings_.criteria.accuracy;
+  point.tolerance = settings_.tolerance;
   for (std::size_t j = 0; j < state.spectrum.band.size(); ++j) {
     auto& e =
         point.eigenvalues.emplace_back(pencil::Eigenvalue{.s = state.spectrum.band[j].s,
@@ -746,7 +724,7 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
                                                           .error = absoluteError(state, j)});
     e.certified = e.backwardError <= point.accuracy && isExactEnough(state, e);
   }
-  pencil::judge(point, state.symmetry, options_.criteria);
+  pencil::judge(point, state.symmetry, settings_.criteria);
   // The shapes are made by all ranks, which must agree on the verdicts.
   static_assert(std::is_trivially_copyable_v<pencil::Eigenvalue>);
   check(MPI_Bcast(point.eigenvalues.data(), point.eigenvalues.size() * sizeof(pencil::Eigenvalue),
@@ -761,7 +739,7 @@ void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
   std::vector<std::vector<std::size_t>> wanted;
   std::vector<std::vector<Complex>> lifted;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    wanted.push_back(pencil::shapesWanted(points[i], options_.criteria));
+    wanted.push_back(pencil::shapesWanted(points[i], settings_.criteria));
     for (std::size_t index : wanted.back())
       lifted.push_back(states[i].set->space.lifted(states[i].spectrum.band[index].q));
   }

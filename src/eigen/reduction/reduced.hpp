@@ -16,6 +16,7 @@
 #include "eigen/pencil/pencil.hpp"
 #include "eigen/reduction/in_hand.hpp"
 #include "eigen/reduction/projected.hpp"
+#include "eigen/reduction/settings.hpp"
 #include "eigen/subspace/basis.hpp"
 #include "eigen/subspace/mode_count.hpp"
 #include "eigen/subspace/substructure.hpp"
@@ -48,17 +49,6 @@ struct Improvement {
   std::vector<double> roundOff;
 };
 
-/// Options of the reduced problem.
-struct Options {
-  bool corrected, compressed;  ///< `-reduction_basis` is not modal; it is pod
-  double tolerance;            ///< `-flutter_tolerance`: estimate of |δs|/|s| asked for
-  int rounds;                  ///< `-flutter_rounds`: most rounds of corrections at a batch
-  int growth;  ///< `-flutter_growth`: no round begins once a batch has added so many vectors
-  pencil::Criteria criteria;
-  /// Reads the options.
-  static Options given();
-};
-
 /// The reduced problem makes Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`,
 /// on static responses to friction forces and to its own residuals. The modes alone miss unstable
 /// eigenvalues and invent others. A round adds K0⁻¹ r for the residuals r of all bad pairs, solved
@@ -71,7 +61,7 @@ class ReducedProblem {
   /// and shares the terms of `pencil`, which hold at all points and for all unknowns. `modes` are
   /// M0-orthonormal with ascending frequencies; they are copied.
   ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
-                 const modes::Modes& modes, const Options& options = Options::given(),
+                 const modes::Modes& modes, const Settings& settings,
                  Substructure substructure = {});
   /// Collective. Makes known the points that have the boundary unknowns with has[boundary unknown
   /// of all ranks] set, and returns the number of this set. Of `pencil`, the terms that follow
@@ -90,7 +80,7 @@ class ReducedProblem {
   /// displacements by `trial` (T, N×n).
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Returns true if vectors are only added to the basis, so that exchange() can be called.
-  bool grows() const { return !options_.compressed; }
+  bool grows() const { return !settings_.compressed; }
   /// Lets solve() call `action`, which is collective, whenever the basis has grown.
   void afterEachRound(std::function<void()> action) { afterRound_ = std::move(action); }
   /// Collective. Writes what has been found since the last call, and the state of the batch that
@@ -189,7 +179,7 @@ class ReducedProblem {
   void keepForCompression(std::vector<PointState>& states);
   void compress();
 
-  const Options options_;
+  const Settings settings_;
   PetscInt unknowns_ = 0;
   pencil::WatchedBand band_;
   double lowestMode_ = 0, highestMode_ = 0;  // rad/s

@@ -36,7 +36,7 @@ bool isOfCase(const std::filesystem::path& folder) {
 }
 
 output::Naming naming() {
-  const auto names = std::make_shared<ResultNames>(sweep::readSweep().points());
+  const auto names = std::make_shared<ResultNames>(sweep::grid(sweep::Settings::given()).points());
   output::Naming naming{
       folderOption, "summary.json",
       [names](const std::filesystem::path& path) { return names->contains(path); }, formerResults};

@@ -6,8 +6,8 @@
 #include "base/options/options.hpp"
 #include "base/session/session.hpp"
 #include "base/session/stages.hpp"
-#include "eigen/direct/direct.hpp"
 #include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/report/report.hpp"
@@ -202,7 +202,8 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     summary["contact_nodes"] = analysis.contact.totalNodes;
     summary["interfaces"] = interfaceEntries(analysis.contact);
   }
-  summary["method"] = direct::directWanted() ? "direct" : "reduced";
+  summary["method"] =
+      pencil::Settings::given().method == pencil::Method::direct ? "direct" : "reduced";
   summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
   summary["frictions"] = Json::array();
   const auto points = analysis.sweep.points();
@@ -273,7 +274,6 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     total += record.seconds;
   }
   summary["wall_s"] = total;
-  if (analysis.modesFloorSeconds > 0) summary["modes_floor_s"] = analysis.modesFloorSeconds;
   summary["options"] = options;
   summary["tables"] = tableShapes(analysis.comm, folder);
   writeText(analysis.comm, folder / "summary.json", summary.dump(2) + "\n");

@@ -9,9 +9,9 @@
 #include "base/session/session.hpp"
 #include "base/system/text.hpp"
 #include "eigen/modes/modes.hpp"
-#include "eigen/pencil/band.hpp"
 #include "eigen/pencil/complex_modes.hpp"
-#include "eigen/sensitivity/sensitivity.hpp"
+#include "eigen/pencil/settings.hpp"
+#include "eigen/sensitivity/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/report/branches.hpp"
@@ -240,7 +240,7 @@ std::string recipe(MPI_Comm comm) {
 void writeTables(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
   writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
-  if (sensitivity::sensitivitiesWanted())
+  if (sensitivity::Settings::given().wanted)
     writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
   if (analysis.mesh) writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));
@@ -314,11 +314,12 @@ std::string stabilityTable(const analysis::Analysis& analysis) {
         backward = std::max(backward, point.worstBackwardError());
         estimate = std::max(estimate, point.worstErrorEstimate());
       }
-    if (top < pencil::bandAsked())
+    const double asked = pencil::Settings::given().band.top;
+    if (top < asked)
       table += formatted(
           "\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: "
           "raise -modes_count.",
-          pencil::bandAsked() / (2 * M_PI));
+          asked / (2 * M_PI));
     table +=
         (std::isfinite(top) ? formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI))
                             : "\nAll eigenvalues") +
