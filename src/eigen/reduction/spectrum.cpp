@@ -6,6 +6,7 @@
 
 #include "base/petsc/check.hpp"
 #include "eigen/reduction/eigenpair_correction.hpp"
+#include "eigen/reduction/missing.hpp"
 
 namespace squeal::reduction {
 namespace {
