@@ -7,6 +7,7 @@
 
 #include "algebra/linalg/gathered.hpp"
 #include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/spread.hpp"
 #include "base/options/options.hpp"
 #include "base/system/text.hpp"
 #include "eigen/direct/direct.hpp"

@@ -1,6 +1,7 @@
 #include "eigen/reduction/solved_pairs.hpp"
 
 #include "algebra/linalg/serialization.hpp"
+#include "algebra/linalg/spread.hpp"
 
 namespace squeal::reduction {
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "algebra/linalg/spread.hpp"
 #include "base/petsc/check.hpp"
 #include "eigen/reduction/eigenpair_correction.hpp"
 #include "eigen/reduction/missing.hpp"

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/spread.hpp"
 #include "base/system/error.hpp"
 #include "eigen/pencil/band.hpp"
 

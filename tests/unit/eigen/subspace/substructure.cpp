@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "algebra/linalg/spread.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/concatenation.hpp"
 #include "eigen/reduction/reduced.hpp"

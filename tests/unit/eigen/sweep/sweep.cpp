@@ -126,7 +126,7 @@ TEST(Sweep, OfTooManyPointsIsRefused) {
   test::setOptions("-flutter_friction 0:0.999:0.001 -flutter_speed 1:1000:1");
   const auto message = test::errorOf([] { sweep::grid(sweep::Settings::given()); });
   EXPECT_TRUE(
-      test::contains(message, "1000 x 1000 x 1 x 1 = 1000000 points; a sweep has 100000 at most"))
+      test::contains(message, "1000 x 1000 x 1 x 1 = 1000000 points; a sweep has at most 100000"))
       << message;
   test::setOptions("-flutter_friction 0:0.099:0.001 -flutter_speed 1:1000:1");
   EXPECT_EQ(sweep::grid(sweep::Settings::given()).pointCount(), 100000);
