@@ -19,6 +19,7 @@
 #include "run/analysis/analysis.hpp"
 #include "run/analysis/dry_run.hpp"
 #include "run/report/report.hpp"
+#include "run/report/settings.hpp"
 
 namespace {
 
@@ -75,7 +76,8 @@ int run(const squeal::Session& session) try {
   if (squeal::matrices::exportWanted())
     squeal::matrices::requireExportFolder(session.comm(), directory.path());
   squeal::analysis::Analysis analysis =
-      squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint");
+      squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint",
+                                squeal::report::Settings::given().modes);
   try {
     squeal::report::write(analysis, directory);
   } catch (const squeal::Error&) {

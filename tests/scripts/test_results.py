@@ -110,11 +110,10 @@ SUMMARY = {
     "dofs": 1,
     "ranks": 1,
     "frictions": [],
-    "modes_floor_s": 1.0,
     "active_sets": [],
     "stages": {
         name: {"wall_s": 1.0, "peak_memory_bytes": 1}
-        for name in ("floor", "factor", "modes", "flutter", "elasticity")
+        for name in ("factor", "modes", "flutter", "elasticity")
     },
 }
 RUN = """#!/usr/bin/python3
@@ -137,6 +136,8 @@ class Benchmark(unittest.TestCase):
                 shutil.copy(SCRIPTS / name, scripts / name)
             (scripts / "run").write_text(RUN % SUMMARY)  # in the place of a run of minutes
             (scripts / "run").chmod(0o755)
+            (scripts / "bench" / "floor").write_text("#!/bin/sh\necho 1.0\n")
+            (scripts / "bench" / "floor").chmod(0o755)
             earlier = place / "results" / "benchmark_disc_brake"
             earlier.mkdir(parents=True)
             (earlier / "summary.json").write_text(json.dumps({**SUMMARY, "case": "an earlier run"}))

@@ -11,8 +11,7 @@
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
-#include "eigen/direct/direct.hpp"
-#include "eigen/pencil/modal_damping.hpp"
+#include "eigen/pencil/settings.hpp"
 #include "problem/terms/terms.hpp"
 #include "regime/march/law.hpp"
 #include "regime/regime/follow.hpp"
@@ -304,11 +303,12 @@ void checkOptions(bool ofMesh) {
     throw Error(
         "option -regime_friction: matrices from files do not say what lifts off and sticks; the "
         "motion after flutter is followed for meshes");
-  if (direct::directWanted())
+  const auto pencil = pencil::Settings::given();
+  if (pencil.method == pencil::Method::direct)
     throw Error(
         "option -regime_friction: the motion after flutter needs the free modes and the estimates "
         "of -flutter_method reduced");
-  if (pencil::modalDampingWanted())
+  if (pencil.isModallyDamped())
     throw Error(
         "option -regime_friction: -flutter_modal_damping is not followed in time; give the damping "
         "to the materials");

@@ -7,8 +7,8 @@
 #include "base/session/session.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/mpi.hpp"
-#include "eigen/direct/direct.hpp"
 #include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/report/report.hpp"
@@ -292,7 +292,7 @@ Json runEntry(const analysis::Analysis& analysis) {
   entry["resumed"] = analysis.checkpoint.resumed();
   entry["verdict"] = verdictEntry(runVerdict(analysis));
   if (analysis.mesh) entry.update(meshEntry(*analysis.mesh, analysis.contact));
-  entry["method"] = direct::directWanted() ? "direct" : "reduced";
+  entry["method"] = pencil::Settings::given().method == pencil::Method::direct ? "direct" : "reduced";
   entry["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
   return entry;
 }
@@ -313,7 +313,6 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     for (const auto& run : study.runs) summary["regimes"].push_back(regimeEntry(study, run));
   if (!analysis.failures.empty()) summary["failures"] = analysis.failures;
   addStages(summary);
-  if (analysis.modesFloorSeconds > 0) summary["modes_floor_s"] = analysis.modesFloorSeconds;
   summary["options"] = resolvedOptions();
   summary["tables"] = tableShapes(analysis.comm, folder);
   writeText(analysis.comm, folder / "summary.json", summary.dump(2) + "\n");
