@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
@@ -13,22 +12,6 @@
 
 namespace squeal::regime {
 namespace {
-
-const FlagOption cycleOption(
-    "regime", "regime_cycle", false,
-    "periodic motions, stable or not, by shooting from the mean of the march, with their Floquet "
-    "multipliers");
-const IntegerOption stepsOption("regime", "regime_cycle_steps", 256, 16, 100'000,
-                                "time steps of the period of such a motion");
-const RealOption toleranceOption(
-    "regime", "regime_cycle_tolerance", 1e-6, "", Range{1e-10, 1e-2},
-    "change of displacements and velocities over a period, relative and in the energy norm, below "
-    "which a motion is periodic");
-const RealListOption rangeOption(
-    "regime", "regime_cycle_range", "", "", nonNegative,
-    "two frictions between which the branch of periodic motions is followed, folds included");
-const IntegerOption mostOption("regime", "regime_cycle_motions", 20, 1, 10'000,
-                               "most motions of the branch in each direction");
 
 PeriodicMotion motionOf(const cycles::Found& found) {
   PeriodicMotion motion;
@@ -55,8 +38,7 @@ std::string describe(const PeriodicMotion& motion) {
 }
 
 /// Returns why a period cannot be marched with the steps of `-regime_cycle_steps`; empty: it can.
-std::string stepBroken(const march::ReducedModel& model, double period) {
-  const int steps = stepsOption.get();
+std::string stepBroken(const march::ReducedModel& model, double period, int steps) {
   const double longest = march::longestStep(model);
   if (period / steps <= longest) return "";
   return formatted(
@@ -69,13 +51,13 @@ std::string stepBroken(const march::ReducedModel& model, double period) {
 /// attempt; its period is 0 where no march over a period came to its end. Sets the failure of the
 /// last one that did not.
 cycles::Found shootFrom(cycles::Period& period, const std::vector<cycles::Orbit>& orbits,
-                        const cycles::Told& told, std::string& failure) {
+                        double tolerance, const cycles::Told& told, std::string& failure) {
   cycles::Found found;
   for (cycles::Orbit guess : orbits) {
     try {
       // Slips that stick at the start are unknowns of their own: the fewest of them are best.
       guess.start = period.pass(guess, period.pass(guess).quietest).end;
-      found = cycles::shoot(period, guess, toleranceOption.get(), told);
+      found = cycles::shoot(period, guess, tolerance, told);
     } catch (const Error& error) {
       failure = std::string(error.what()) + "; give more -regime_cycle_steps";
     }
@@ -85,10 +67,10 @@ cycles::Found shootFrom(cycles::Period& period, const std::vector<cycles::Orbit>
 }
 
 /// Collective. Adds the motions of the branch through the first one.
-void followBranch(cycles::Period& period, const cycles::Found& first, const cycles::Told& told,
-                  Stage& stage, Cycles& cycles) {
-  const auto range = rangeOption.get();
-  const cycles::Reach reach{range[0], range[1], int(mostOption.get()), toleranceOption.get()};
+void followBranch(cycles::Period& period, const cycles::Found& first, const CycleSettings& settings,
+                  const cycles::Told& told, Stage& stage, Cycles& cycles) {
+  const auto& range = *settings.range;
+  const cycles::Reach reach{range[0], range[1], settings.motions, settings.tolerance};
   for (const bool upwards : {false, true}) {
     cycles.ways.push_back(
         cycles::follow(period, first, upwards, reach, told, [&](const cycles::Found& found) {
@@ -109,39 +91,6 @@ Complex PeriodicMotion::largestMultiplier() const {
   for (std::size_t i = 0; i < multipliers.values.size(); ++i)
     if (i != multipliers.trivial) return multipliers.values[i];
   return 0;
-}
-
-bool cyclesWanted() { return cycleOption.get(); }
-
-bool branchWanted() { return !rangeOption.get().empty(); }
-
-void checkCycleOptions(bool followed, bool massless) {
-  const auto options = {
-      static_cast<const Option*>(&cycleOption), static_cast<const Option*>(&stepsOption),
-      static_cast<const Option*>(&toleranceOption), static_cast<const Option*>(&rangeOption),
-      static_cast<const Option*>(&mostOption)};
-  for (const Option* option : options) {
-    if (!option->given()) continue;
-    if (!followed)
-      throw Error("option -" + option->name +
-                  ": nothing is followed after flutter without -regime_friction");
-    if (!cyclesWanted() && option != &cycleOption)
-      throw Error("option -" + option->name +
-                  ": periodic motions are not looked for without -regime_cycle");
-  }
-  if (!cyclesWanted()) return;
-  if (!massless)
-    throw Error(
-        "option -regime_cycle: periodic motions are found with -regime_boundary massless only");
-  const auto range = rangeOption.get();
-  if (range.empty()) {
-    if (mostOption.given())
-      throw Error(
-          "option -regime_cycle_motions: no branch is followed without "
-          "-regime_cycle_range");
-  } else if (range.size() != 2 || !(range[0] < range[1])) {
-    throw Error("option -regime_cycle_range: two frictions, the smaller one first");
-  }
 }
 
 SectionRecord::SectionRecord(const march::ReducedModel& model, const march::LinearMode& mode)
@@ -174,8 +123,8 @@ void share(MPI_Comm comm, int root, cycles::Passes& passes) {
   }
 }
 
-Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double friction,
-                  const cycles::Passes& passes, double step, Stage& stage) {
+Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSettings& settings,
+                  double friction, const cycles::Passes& passes, double step, Stage& stage) {
   Cycles cycles;
   if (passes.count == 0) {
     complain(
@@ -184,17 +133,17 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double fricti
         "so shooting has no starting point");
     return cycles;
   }
-  cycles::Period period(comm, model, friction, stepsOption.get());
+  cycles::Period period(comm, model, friction, settings.steps);
   auto orbits = cycles::firstOrbits(passes, step, period.steps());
   for (auto& orbit : orbits) orbit.friction = friction;
-  cycles.failure = stepBroken(model, orbits.front().period);
+  cycles.failure = stepBroken(model, orbits.front().period, settings.steps);
   if (!cycles.failure.empty()) return cycles;
   const auto told = [&](const cycles::Iteration& now) {
     stage.progress(formatted("shooting: change over a period %.1e, %d linearisations", now.change,
                              now.derivatives));
     stopIfAsked(comm);
   };
-  const cycles::Found first = shootFrom(period, orbits, told, cycles.failure);
+  const cycles::Found first = shootFrom(period, orbits, settings.tolerance, told, cycles.failure);
   if (first.orbit.period == 0) return cycles;  // no march over a period came to its end
   cycles.failure.clear();                      // it belongs to another orbit
   try {
@@ -206,8 +155,9 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double fricti
                formatted("warning: -regime_cycle: no periodic motion is found near the march: "
                          "Newton's method ends with a change of %.1e over a period, more than "
                          "the %.1e of -regime_cycle_tolerance",
-                         first.change, toleranceOption.get()));
-    if (first.converged && branchWanted()) followBranch(period, first, told, stage, cycles);
+                         first.change, settings.tolerance));
+    if (first.converged && settings.range)
+      followBranch(period, first, settings, told, stage, cycles);
   } catch (const Error& error) {
     cycles.failure = error.what();
   }

@@ -8,6 +8,7 @@
 #include "regime/cycles/branch.hpp"
 #include "regime/cycles/section.hpp"
 #include "regime/cycles/shooting.hpp"
+#include "regime/regime/settings.hpp"
 
 namespace squeal::regime {
 
@@ -35,14 +36,6 @@ struct Cycles {
   std::string failure;
 };
 
-/// Returns true if `-regime_cycle` asks for periodic motions.
-bool cyclesWanted();
-/// Returns true if their branch is to be followed.
-bool branchWanted();
-/// Throws Error for options of periodic motions that are idle or that exclude each other;
-/// `massless` tells whether marches have a massless boundary.
-void checkCycleOptions(bool followed, bool massless);
-
 /// Keeps the passes of a march through a section, window by window.
 class SectionRecord {
  public:
@@ -64,7 +57,7 @@ void share(MPI_Comm comm, int root, cycles::Passes& passes);
 
 /// Collective. Returns the periodic motions of the model, which was made at this friction, from
 /// the passes of a march with this step, s. An Error ends the search and is returned in the result.
-Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double friction,
-                  const cycles::Passes& passes, double step, Stage& stage);
+Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSettings& settings,
+                  double friction, const cycles::Passes& passes, double step, Stage& stage);
 
 }  // namespace squeal::regime

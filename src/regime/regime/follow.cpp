@@ -12,15 +12,16 @@ namespace squeal::regime {
 namespace {
 
 /// Not collective. Throws Interrupted, on this rank alone, once asked() is true.
-Followed follow(const ReducedModel& model, const Task& task, const StopAsked& asked, Stage& stage) {
-  const auto start = march::startOn(task.mode, startFactor());
-  const auto scheme = boundaryIsMassless() ? march::masslessScheme(model, start, task.step)
-                                           : march::moreauScheme(model, start, task.step);
+Followed follow(const ReducedModel& model, const Settings& settings, const Task& task,
+                const StopAsked& asked, Stage& stage) {
+  const auto start = march::startOn(task.mode, settings.march.startFactor);
+  const auto scheme = settings.march.massless ? march::masslessScheme(model, start, task.step)
+                                              : march::moreauScheme(model, start, task.step);
   scheme->setStop(asked);
   Recorder recorder(model, task.mode.s, task.step, largestKinetic(task.mode));
-  sound::Latest latest(model, 2 * M_PI / task.mode.s.imag(), task.step);
+  sound::Latest latest(model, settings.sound, 2 * M_PI / task.mode.s.imag(), task.step);
   std::optional<SectionRecord> section;
-  if (cyclesWanted()) section.emplace(model, task.mode);
+  if (settings.cycles.wanted) section.emplace(model, task.mode);
   while (scheme->state().time < task.time) {
     if (asked()) throw Interrupted();
     scheme->step();
@@ -31,7 +32,7 @@ Followed follow(const ReducedModel& model, const Task& task, const StopAsked& as
     if (section) section->endWindow();
     stage.progress(formatted("start on mode %s: %.1f of at most %.1f ms", task.start.c_str(),
                              1e3 * scheme->state().time, 1e3 * task.time));
-    if (timeWanted() == 0 && recorder.settled()) break;
+    if (settings.march.time == 0 && recorder.settled()) break;
   }
   Followed followed{recorder.result(*scheme, asked), {}, {}};
   if (!followed.regime.measured()) return followed;
@@ -56,8 +57,8 @@ int rankOf(MPI_Comm comm, std::size_t task) {
   return int(task % size);
 }
 
-std::vector<Followed> followAll(MPI_Comm comm, const ReducedModel& model, std::vector<Task>& tasks,
-                                Stage& stage) {
+std::vector<Followed> followAll(MPI_Comm comm, const ReducedModel& model, const Settings& settings,
+                                std::vector<Task>& tasks, Stage& stage) {
   int rank = 0;
   check(MPI_Comm_rank(comm, &rank));
   std::vector<Followed> all(tasks.size());
@@ -66,7 +67,7 @@ std::vector<Followed> followAll(MPI_Comm comm, const ReducedModel& model, std::v
       Task& task = tasks[i];
       if (rankOf(comm, i) != rank || !task.failure.empty()) continue;
       try {
-        all[i] = follow(model, task, asked, stage);
+        all[i] = follow(model, settings, task, asked, stage);
         if (!all[i].regime.measured())
           task.failure =
               formatted("the march of %g s ended before its first window", all[i].regime.duration);

@@ -7,6 +7,7 @@
 #include "base/session/stages.hpp"
 #include "regime/cycles/section.hpp"
 #include "regime/regime/record.hpp"
+#include "regime/regime/settings.hpp"
 #include "regime/regime/task.hpp"
 #include "regime/sound/latest.hpp"
 
@@ -25,7 +26,7 @@ int rankOf(MPI_Comm comm, std::size_t task);
 /// Collective. Does the marches of the tasks that have no failure. Returns on all ranks what they
 /// leave behind, [task], nothing for those that fail; traces are on the rank that marched. Sets the
 /// failures of marches that come to no end or measure nothing.
-std::vector<Followed> followAll(MPI_Comm comm, const ReducedModel& model, std::vector<Task>& tasks,
-                                Stage& stage);
+std::vector<Followed> followAll(MPI_Comm comm, const ReducedModel& model, const Settings& settings,
+                                std::vector<Task>& tasks, Stage& stage);
 
 }  // namespace squeal::regime

@@ -6,14 +6,13 @@
 #include <span>
 #include <utility>
 
-#include "base/options/options.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
 #include "eigen/direct/direct.hpp"
 #include "eigen/pencil/modal_damping.hpp"
-#include "problem/terms/terms.hpp"
+#include "problem/terms/settings.hpp"
 #include "regime/march/law.hpp"
 #include "regime/regime/follow.hpp"
 #include "regime/regime/task.hpp"
@@ -22,12 +21,6 @@ namespace squeal::regime {
 namespace {
 
 using march::Event;
-
-const RealListOption frictionOption(
-    "regime", "regime_friction", "", "", nonNegative,
-    "frictions at which the motion after flutter is followed: stick, slip and separation; added "
-    "to those of -flutter_friction where they are not among them",
-    true);
 
 /// Returns the steady sliding power.
 double steadyPower(const ReducedModel& model) {
@@ -38,19 +31,21 @@ double steadyPower(const ReducedModel& model) {
 }
 
 /// Collective. Warns where steps are longer than is safe, and where friction alone damps.
-void warn(const FullModel& full, std::span<const Task> tasks, double stable) {
+void warn(const FullModel& full, const Settings& settings, std::span<const Task> tasks,
+          double stable) {
+  const int wanted = settings.sound.cyclesKept > 0 ? settings.sound.frames : 0;
   const MPI_Comm comm = full.contact.mesh->comm;
   double step = 0;  // the longest
   for (const Task& task : tasks) {
     if (!task.failure.empty()) continue;
     step = std::max(step, task.step);
-    if (const int frames = sound::framesOfPeriod(task.shortestPeriod, task.step);
-        frames < sound::framesWanted())
+    if (const int frames = settings.sound.framesOfPeriod(task.shortestPeriod, task.step);
+        frames < wanted)
       complain(comm, formatted("warning: -regime_frames %d: a period of %.5g Hz has %d steps, and "
                                "as many frames are written",
-                               sound::framesWanted(), 1 / task.shortestPeriod, frames));
+                               wanted, 1 / task.shortestPeriod, frames));
   }
-  if (boundaryIsMassless() && step > stable)
+  if (settings.march.massless && step > stable)
     complain(comm, formatted("warning: -regime_step %g s exceeds %.3g s, the stable step while all "
                              "contact sticks; the motion may grow without bound",
                              step, stable));
@@ -65,7 +60,7 @@ void warn(const FullModel& full, std::span<const Task> tasks, double stable) {
 /// Collective. Refuses a law of friction that slips of a boundary without mass do not follow, and
 /// says where one may make them alternate.
 void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks) {
-  if (!model.law || !boundaryIsMassless()) return;
+  if (!model.law) return;
   double step = INFINITY;  // the shortest: its slips follow least
   for (const Task& task : tasks)
     if (task.failure.empty()) step = std::min(step, task.step);
@@ -111,6 +106,7 @@ linalg::Block columnsOf(PetscInt rows, std::span<const pencil::Shape* const> sha
 /// What a study has in hand: the point of the sweep, its modes, and the result as far as it is.
 struct Work {
   const FullModel& full;
+  const Settings& settings;
   const pencil::ComplexModes& point;
   std::vector<const pencil::Shape*> shapes;
   Study& result;
@@ -122,7 +118,7 @@ struct Work {
     std::vector<std::size_t> numbers;
     for (const auto* shape : shapes) numbers.push_back(shape->index + 1);
     std::vector<std::pair<std::string, Complex>> result;
-    for (auto& start : startsOn(numbers)) {
+    for (auto& start : startsOn(numbers, settings.march.starts)) {
       const std::size_t place = start == "all" ? 0 : result.size();
       result.emplace_back(std::move(start), point.eigenvalues[shapes[place]->index].s);
     }
@@ -226,9 +222,10 @@ void checkGrowth(const Work& work, const Run& run) {
 /// Collective. Finds the periodic motions of a run; what fails there leaves the march as it is.
 void addCycles(const Work& work, const ReducedModel& model, const Followed& followed, Run& run,
                Stage& stage) {
-  if (!cyclesWanted()) return;
-  run.cycles =
-      findCycles(work.comm(), model, work.point.at.friction, followed.passes, run.step, stage);
+  const CycleSettings& settings = work.settings.cycles;
+  if (!settings.wanted) return;
+  run.cycles = findCycles(work.comm(), model, settings, work.point.at.friction, followed.passes,
+                          run.step, stage);
   if (!run.cycles.failure.empty())
     work.fail(work.nameOf(run.start) + ": no periodic motions: " + run.cycles.failure);
 }
@@ -248,16 +245,17 @@ void addRuns(const Work& work, linalg::Block free) {
   result.steadyPower = steadyPower(model);
   const auto modes = modesOf(work, model);
   result.stableStep = march::stableStep(model);
-  std::vector<Task> tasks = tasksOn(model, modes, result.stableStep);
+  std::vector<Task> tasks = tasksOn(model, work.settings.march, modes, result.stableStep);
   stage.say(formatted("%s: %d modes, %d gaps and slips; unstable eigenvalues to %.1e",
                       work.name().c_str(), result.modes, result.rows, result.modelError));
-  warn(work.full, tasks, result.stableStep);
-  checkLaw(comm, model, tasks);
-  const auto followed = followAll(comm, model, tasks, stage);
+  warn(work.full, work.settings, tasks, result.stableStep);
+  if (work.settings.march.massless) checkLaw(comm, model, tasks);
+  const auto followed = followAll(comm, model, work.settings, tasks, stage);
   std::optional<sound::Observer> observer;
   if (std::ranges::any_of(tasks, [](const Task& task) { return task.failure.empty(); }))
     observer.emplace(work.full.contact,
-                     sound::Shapes{reduction.modes, reduction.responses, reduction.contactNode});
+                     sound::Shapes{reduction.modes, reduction.responses, reduction.contactNode},
+                     work.settings.sound);
   std::string last;  // what the stage ends with
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     stopIfAsked(comm);
@@ -280,26 +278,9 @@ void addRuns(const Work& work, linalg::Block free) {
 
 }  // namespace
 
-std::vector<double> frictionsWanted() {
-  auto frictions = frictionOption.get();
-  std::ranges::sort(frictions);
-  return frictions;
-}
-
-void checkOptions(bool ofMesh) {
-  checkCycleOptions(!frictionOption.get().empty(), boundaryIsMassless());
-  if (frictionOption.get().empty()) {
-    auto idle = sound::outsideOptions();
-    const auto more = taskOptions();
-    idle.insert(idle.end(), more.begin(), more.end());
-    for (const Option* option : idle)
-      if (option->given())
-        throw Error("option -" + option->name +
-                    ": nothing is followed after flutter without -regime_friction");
-    return;
-  }
-  sound::checkOutsideOptions();
-  checkTaskOptions();
+void checkOptions(const Settings& settings, bool ofMesh) {
+  if (!settings.followed()) return;
+  checkSteps(settings.march);
   if (!ofMesh)
     throw Error(
         "option -regime_friction: matrices from files do not say what lifts off and sticks; the "
@@ -312,13 +293,14 @@ void checkOptions(bool ofMesh) {
     throw Error(
         "option -regime_friction: -flutter_modal_damping is not followed in time; give the damping "
         "to the materials");
-  if (!terms::frictionDampingWanted())
+  if (!terms::Settings::given().frictionDamping)
     throw Error(
         "option -regime_friction: in time the friction force turns with the relative velocity, so "
         "that -flutter_friction_damping must be on");
 }
 
-void requireSupported(const elasticity::Bodies& bodies, const contact::Contact& contact) {
+void requireSupported(const Settings& settings, const elasticity::Bodies& bodies,
+                      const contact::Contact& contact) {
   const auto refuse = [](const std::string& why) {
     throw Error("option -regime_friction: " + why);
   };
@@ -327,15 +309,16 @@ void requireSupported(const elasticity::Bodies& bodies, const contact::Contact& 
     refuse("convective terms (-motion_convective) are not followed in time; leave them out");
   if (elasticity::prestressWanted())
     refuse("the geometric stiffness of the steady stress is not followed in time; leave it out");
-  if (cyclesWanted() && !contact.law.constant())
+  if (settings.cycles.wanted && !contact.law.constant())
     refuse(
         "the derivative of a step leaves out -friction_law, so that no periodic motions are found "
         "under it; leave out -regime_cycle");
 }
 
-Study study(const FullModel& full, linalg::Block free, const pencil::ComplexModes& point) {
+Study study(const FullModel& full, const Settings& settings, linalg::Block free,
+            const pencil::ComplexModes& point) {
   Study result;
-  const Work work{full, point, unstableShapes(point), result};
+  const Work work{full, settings, point, unstableShapes(point), result};
   result.at = point.at;
   result.unstable = point.unstableCount();
   if (result.unstable == 0) {

@@ -11,6 +11,7 @@
 #include "regime/regime/cycle.hpp"
 #include "regime/regime/record.hpp"
 #include "regime/regime/reduced_model.hpp"
+#include "regime/regime/settings.hpp"
 #include "regime/sound/outside.hpp"
 
 namespace squeal::regime {
@@ -18,16 +19,14 @@ namespace squeal::regime {
 using march::Onset;
 using mesh::Point;
 
-/// Returns the frictions of `-regime_friction`, ascending.
-std::vector<double> frictionsWanted();
-
-/// Throws Error for options of the stage that are idle or that no march can satisfy, and for others
-/// that it cannot follow.
-void checkOptions(bool ofMesh);
+/// Throws Error for settings of the stage that no march can satisfy, and for options of other
+/// stages that it cannot follow.
+void checkOptions(const Settings& settings, bool ofMesh);
 
 /// Throws Error if there is no contact, and for convective terms and prestress, which are not
 /// followed in time.
-void requireSupported(const elasticity::Bodies& bodies, const contact::Contact& contact);
+void requireSupported(const Settings& settings, const elasticity::Bodies& bodies,
+                      const contact::Contact& contact);
 
 /// One march from one start. Where it has measured nothing, `failure` says why.
 struct Run {
@@ -81,6 +80,7 @@ std::vector<ModeOnset> onsets(const elasticity::Bodies& bodies, const contact::C
 /// this rank's rows; the shapes of the unstable modes are those of the point. An Error, such as a
 /// reduced model without the certified eigenvalues, is a failure of the point, or of one start: it
 /// is printed and returned, not thrown. Throws Interrupted within a second of a request to stop.
-Study study(const FullModel& full, linalg::Block free, const pencil::ComplexModes& point);
+Study study(const FullModel& full, const Settings& settings, linalg::Block free,
+            const pencil::ComplexModes& point);
 
 }  // namespace squeal::regime

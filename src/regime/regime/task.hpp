@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/options/option_types.hpp"
 #include "regime/march/onset.hpp"
+#include "regime/regime/settings.hpp"
 
 namespace squeal::regime {
 
@@ -30,27 +30,18 @@ struct NumberedMode {
   LinearMode mode;
 };
 
-/// Returns the options of this file, which are idle unless a regime is followed.
-std::vector<const Option*> taskOptions();
-/// Throws Error for options of this file that no model can satisfy.
-void checkTaskOptions();
-
-/// Returns true if the boundary of the reduced model has no mass (`-regime_boundary massless`).
-bool boundaryIsMassless();
-/// Returns the amplitude at the start of a march over that of its onset.
-double startFactor();
-/// Returns the longest time of a march, s; 0: until it has settled.
-double timeWanted();
+/// Throws Error if step and time are given and take more steps than a march may have.
+void checkSteps(const MarchSettings& settings);
 
 /// Returns the names of the starts that are wanted on modes of these numbers, the fastest growing
 /// one first.
-std::vector<std::string> startsOn(std::span<const std::size_t> numbers);
+std::vector<std::string> startsOn(std::span<const std::size_t> numbers, Starts starts);
 
 /// Not collective. Returns the marches that start on these modes, the fastest growing one first.
 /// `stableStep` is that of the model with all nodes held, s. A march that cannot be done has its
 /// failure set: its mode does not oscillate or meets no limit of the contact, its step or its time
 /// breaks a bound.
-std::vector<Task> tasksOn(const ReducedModel& model, std::span<const NumberedMode> modes,
-                          double stableStep);
+std::vector<Task> tasksOn(const ReducedModel& model, const MarchSettings& settings,
+                          std::span<const NumberedMode> modes, double stableStep);
 
 }  // namespace squeal::regime

@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 
 namespace squeal::sound {
 namespace {
-
-const IntegerOption keptOption(
-    "regime", "regime_cycles_kept", 2, 0, 1000,
-    "latest periods of the flutter mode whose displacements are kept for an animation");
-const IntegerOption framesOption("regime", "regime_frames", 16, 4, 1000,
-                                 "frames of one of these periods");
 
 /// Returns z = y − j q, zero in the rows without z.
 std::vector<double> staticPart(const ReducedModel& model, const march::State& state) {
@@ -28,17 +21,10 @@ std::vector<double> staticPart(const ReducedModel& model, const march::State& st
 
 }  // namespace
 
-int framesWanted() { return keptOption.get() > 0 ? int(framesOption.get()) : 0; }
-
-int framesOfPeriod(double period, double step) {
-  const double steps = std::floor(period / step + 1e-6);
-  return int(std::clamp(steps, 1.0, double(framesOption.get())));
-}
-
-Latest::Latest(const ReducedModel& model, double period, double step)
+Latest::Latest(const ReducedModel& model, const Settings& settings, double period, double step)
     : model_(model),
-      frames_(framesOfPeriod(period, step)),
-      most_(keptOption.get() > 0 ? frames_ * keptOption.get() + 1 : 0),
+      frames_(settings.framesOfPeriod(period, step)),
+      most_(settings.cyclesKept > 0 ? frames_ * settings.cyclesKept + 1 : 0),
       interval_(period / frames_),
       next_(interval_) {}
 
@@ -77,13 +63,6 @@ void share(MPI_Comm comm, int root, std::vector<Sample>& samples) {
       check(MPI_Bcast(list->data(), length, MPI_DOUBLE, root, comm));
     }
   }
-}
-
-std::vector<const Option*> latestOptions() { return {&keptOption, &framesOption}; }
-
-void checkLatestOptions() {
-  if (framesOption.given() && keptOption.get() == 0)
-    throw Error("option -" + framesOption.name + ": no period is kept (-" + keptOption.name + ")");
 }
 
 }  // namespace squeal::sound

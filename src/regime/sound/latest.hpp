@@ -5,9 +5,9 @@
 #include <deque>
 #include <vector>
 
-#include "base/options/option_types.hpp"
 #include "regime/march/model.hpp"
 #include "regime/march/scheme.hpp"
+#include "regime/sound/settings.hpp"
 
 namespace squeal::sound {
 
@@ -37,7 +37,7 @@ void share(MPI_Comm comm, int root, std::vector<Sample>& samples);
 class Latest {
  public:
   /// The period is that of a mode, s, and the step that of the march. The model is borrowed.
-  Latest(const ReducedModel& model, double period, double step);
+  Latest(const ReducedModel& model, const Settings& settings, double period, double step);
   void look(const Scheme& scheme);
   /// Returns the samples in the order of time, the first and the last of them a whole number of
   /// periods apart to a time step; fewer periods if the march was shorter.
@@ -50,15 +50,5 @@ class Latest {
   double interval_, next_;  // from frame to frame, and the time of the next one, s
   std::deque<march::State> states_;
 };
-
-/// Returns the number of frames of a period that are wanted, 0 where no period is kept.
-int framesWanted();
-/// Returns the number of frames of a period, s, that a march with this step, s, can give.
-int framesOfPeriod(double period, double step);
-
-/// Returns the options of this file.
-std::vector<const Option*> latestOptions();
-/// Throws Error for options of this file that are idle beside each other.
-void checkLatestOptions();
 
 }  // namespace squeal::sound

@@ -5,44 +5,13 @@
 #include <numeric>
 #include <span>
 
-#include "base/options/options.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
-#include "base/system/text.hpp"
 #include "model/mesh/vector.hpp"
 #include "regime/sound/spectrum.hpp"
 
 namespace squeal::sound {
 namespace {
-
-const RealOption airOption("regime", "regime_air_impedance", 415, "N s/m3", positive,
-                           "characteristic impedance of the air, density times speed of sound, for "
-                           "the estimate of the sound power");
-const TextOption pointsOption(
-    "regime", "regime_spectrum_points", "",
-    "points x,y,z; x,y,z; … in m: the velocity has its spectrum at the node of the visible surface "
-    "that is nearest to each; none: at the node that moves most");
-
-/// Returns the points asked for. Throws Error for what is no point.
-std::vector<Point> pointsWanted() {
-  std::vector<Point> points;
-  for (const auto& item : split(trimmed(pointsOption.get()), ';')) {
-    Point point{};
-    const auto words = split(item, ',');
-    bool right = words.size() == 2 || words.size() == 3;
-    for (std::size_t d = 0; right && d < words.size(); ++d) {
-      const std::string word = trimmed(words[d]);
-      char* end = nullptr;
-      point[d] = std::strtod(word.c_str(), &end);
-      right = !word.empty() && *end == 0 && std::isfinite(point[d]);
-    }
-    if (!right)
-      throw Error("option -" + pointsOption.name + ": '" + trimmed(item) +
-                  "' is no point; give x,y,z, and semicolons between points");
-    points.push_back(point);
-  }
-  return points;
-}
 
 /// Collective. Returns the mean of v vᵀ over the samples of the rank `root`; zero without samples.
 DenseMatrix meanSquaresOf(MPI_Comm comm, int root, const Trace& trace, PetscInt modes) {
@@ -63,19 +32,11 @@ double trace(const DenseMatrix& a, const DenseMatrix& b) {
 
 }  // namespace
 
-std::vector<const Option*> outsideOptions() {
-  auto options = latestOptions();
-  options.push_back(&airOption), options.push_back(&pointsOption);
-  return options;
-}
-
-void checkOutsideOptions() {
-  checkLatestOptions();
-  pointsWanted();
-}
-
-Observer::Observer(const contact::Contact& contact, const Shapes& shapes)
-    : contact_(contact), shapes_(shapes), surface_(visibleSurface(*contact.mesh, contact)) {
+Observer::Observer(const contact::Contact& contact, const Shapes& shapes, const Settings& settings)
+    : contact_(contact),
+      shapes_(shapes),
+      settings_(settings),
+      surface_(visibleSurface(*contact.mesh, contact)) {
   linalg::Block product(shapes.modes.rows());
   linalg::appendProduct(surface_.normalMass, shapes.modes, product);
   radiation_ = linalg::transposedProduct(contact.mesh->comm, shapes.modes, product);
@@ -93,7 +54,7 @@ Sound Observer::soundOf(const DenseMatrix& meanSquares) const {
   const double integral = trace(radiation_, meanSquares);
   if (!(integral > 0)) return sound;  // no samples, or nothing to be seen
   sound.meanSquareVelocity = integral / sound.area;
-  sound.power = airOption.get() * integral;
+  sound.power = settings_.airImpedance * integral;
   sound.level = 10 * std::log10(sound.power / 1e-12);
   return sound;
 }
@@ -180,7 +141,7 @@ void Observer::addSpectra(int root, const Trace& trace, const DenseMatrix& meanS
                           std::vector<SurfacePoint>& points) const {
   const MPI_Comm comm = contact_.mesh->comm;
   const int dimension = contact_.mesh->dimension;
-  const auto wanted = pointsWanted();
+  const auto& wanted = settings_.spectrumPoints;
   if (surface_.area == 0) return;
   for (std::size_t i = 0; i < std::max<std::size_t>(1, wanted.size()); ++i) {
     DenseMatrix shape;

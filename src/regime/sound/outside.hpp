@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "algebra/linalg/block.hpp"
-#include "base/options/option_types.hpp"
 #include "model/contact/contact.hpp"
 #include "regime/sound/latest.hpp"
+#include "regime/sound/settings.hpp"
 #include "regime/sound/surface.hpp"
 
 namespace squeal::sound {
@@ -48,11 +48,6 @@ struct Outside {
   Frames frames;
 };
 
-/// Returns the options of what is seen outside, which are idle unless a regime is followed.
-std::vector<const Option*> outsideOptions();
-/// Throws Error for options of what is seen outside that have no meaning.
-void checkOutsideOptions();
-
 /// What leads from a reduced model back to the mesh; all of it is borrowed.
 struct Shapes {
   const linalg::Block& modes;      ///< V, nodal displacements, this rank's rows
@@ -65,7 +60,7 @@ struct Shapes {
 class Observer {
  public:
   /// The contact is borrowed.
-  Observer(const contact::Contact& contact, const Shapes& shapes);
+  Observer(const contact::Contact& contact, const Shapes& shapes, const Settings& settings);
   /// Returns what is seen of a march, of which the rank `root` has the trace.
   Outside of(int root, const Trace& trace) const;
 
@@ -88,6 +83,7 @@ class Observer {
 
   const contact::Contact& contact_;
   Shapes shapes_;
+  Settings settings_;
   Surface surface_;
   DenseMatrix radiation_;  // ∫ (n·φ_i)(n·φ_j) dA of the modes
 };

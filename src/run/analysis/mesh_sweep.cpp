@@ -60,7 +60,7 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
   OwnedMat prestress;
   if (elasticity::prestressWanted())
     prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
-  const auto friction = terms::frictionState(analysis.contact, solution);
+  const auto friction = terms::frictionState(analysis.contact, solution, terms::Settings::given());
   for (auto& shape : point.shapes)
     shape.frictionWork =
         terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction, point.at,
@@ -89,7 +89,7 @@ std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   // Modal damping is that of the free modes of a point, which prestress changes.
   if (pencil::modalDampingWanted() && elasticity::prestressWanted()) return first + 1;
   const bool alone = direct::directWanted() || sensitivity::sensitivitiesWanted() ||
-                     matrices::exportWanted() || pencil::modalDampingWanted();
+                     matrices::ExportSettings::given().wanted() || pencil::modalDampingWanted();
   const PetscInt most = alone ? 0 : releasedOption.get();
   contact::ActiveSet anywhere = steady::activeSet(analysis.steady[first]), everywhere = anywhere;
   std::size_t last = first;
@@ -251,7 +251,7 @@ std::vector<pencil::Term> MeshSegment::termsOf(const steady::Solution& solution)
     change = elasticity::geometricStiffness(*analysis_.mesh, solution.displacement);
     check(MatAXPY(change, -1, prestress_, SAME_NONZERO_PATTERN));
   }
-  return terms::pointTerms(analysis_.contact, *all_, solution, change);
+  return terms::pointTerms(analysis_.contact, *all_, solution, change, terms::Settings::given());
 }
 
 std::optional<std::vector<pencil::Term>> MeshSegment::termsAt(const sweep::Parameters& at,

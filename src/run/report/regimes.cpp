@@ -214,11 +214,11 @@ void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::pat
   writeText(comm, folder / "regime_cycles.csv", cycleTable(analysis));
   writeText(comm, folder / "regime_spectrum.csv", spectrumTable(analysis));
   writeText(comm, folder / "regime_points.csv", pointTable(analysis));
-  if (!regime::cyclesWanted()) return;
+  const auto cycles = regime::Settings::given().cycles;
+  if (!cycles.wanted) return;
   writeText(comm, folder / "periodic.csv", periodicTable(analysis));
   writeText(comm, folder / "floquet.csv", floquetTable(analysis));
-  if (regime::branchWanted())
-    writeText(comm, folder / "periodic_branch.csv", branchTable(analysis));
+  if (cycles.range) writeText(comm, folder / "periodic_branch.csv", branchTable(analysis));
 }
 
 }  // namespace squeal::report

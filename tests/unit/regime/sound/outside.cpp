@@ -32,7 +32,9 @@ struct Box {
     append(modes, [](const Point& x) { return Point{0, x[0], 0}; });
     append(responses, [](const Point&) { return Point{0, 0, 1}; });
   }
-  sound::Observer observer() const { return {model.contact, {modes, responses, contactNode}}; }
+  sound::Observer observer() const {
+    return {model.contact, {modes, responses, contactNode}, sound::Settings::given()};
+  }
   template <class Field>
   void append(linalg::Block& block, const Field& field) {
     const OwnedVec u = nodalField(*model.mesh, field);
@@ -137,13 +139,13 @@ TEST(Spectrum, AtPointsAskedFor) {
 
 std::string refusal(const std::string& options) {
   test::setOptions(options);
-  return test::errorOf([] { regime::checkOptions(true); });
+  return test::errorOf([] { regime::checkOptions(regime::Settings::given(), true); });
 }
 
 TEST(Options, PointsThatAreNone) {
   for (const std::string points : {"1", "1,2,x", "1,2,3,4", "1,2,3;", "1,,3", "1,inf,2"})
     EXPECT_TRUE(test::contains(
-        refusal("-regime_friction 0.4 -regime_spectrum_points '" + points + "'"), "is no point"))
+        refusal("-regime_friction 0.4 -regime_spectrum_points '" + points + "'"), "is not a point"))
         << points;
   EXPECT_EQ(refusal("-regime_friction 0.4 -regime_spectrum_points '1,2,3; 4,-5e-1'"), "");
 }
@@ -156,7 +158,7 @@ TEST(Options, IdleOnesAreRefusedByName) {
         refusal(option), "option " + option.substr(0, option.find(' ')) + ": nothing is followed"))
         << option;
   EXPECT_TRUE(test::contains(refusal("-regime_friction 0.4 -regime_frames 8 -regime_cycles_kept 0"),
-                             "option -regime_frames: no period is kept"));
+                             "option -regime_frames: no period is stored"));
 }
 
 // u = V q + Ψ z: q = (t, 3) and z = 5 give (t, 3 x, 5).
@@ -208,7 +210,7 @@ TEST(Latest, KeepsTheLatestPeriods) {
   model.moves = {1, 0};
   for (const auto& [periods, expected] : {std::pair{10, 33}, {1, 1}, {0, 0}}) {
     ByHand motion(model, 1.0 / 128);
-    sound::Latest latest(model, 1, 1.0 / 128);
+    sound::Latest latest(model, sound::Settings::given(), 1, 1.0 / 128);
     for (int i = 0; i < 128 * periods; ++i) motion.step(), latest.look(motion);
     const auto samples = latest.samples();
     ASSERT_EQ(samples.size(), std::size_t(expected));
