@@ -87,7 +87,8 @@ march::Massless Period::schemeOf(const Orbit& orbit, const StopAsked& asked) {
   for (std::size_t i = 0; i < nodeFriction_.size(); ++i) {
     auto& node = model_.nodes[i];
     const double change = orbit.friction - modelFriction_;
-    if (change != 0) node.friction = nodeFriction_[i] + node.sweptFriction * change;
+    node.friction = nodeFriction_[i];
+    if (change != 0) node.friction += node.sweptFriction * change;
   }
   march::Massless scheme(model_, orbit.start, orbit.period / steps_);
   scheme.setAccuracy(forceAccuracy);
