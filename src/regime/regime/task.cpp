@@ -10,7 +10,7 @@
 namespace squeal::regime {
 namespace {
 
-using march::Event;
+using march::OnsetEvent;
 
 /// A march of the largest default time, 4000 cycles of 128 steps, takes 5e5 steps.
 constexpr double mostSteps = 1e8;
@@ -31,7 +31,7 @@ std::string stepsBroken(double step, double time) {
       step, number.c_str(), time, mostSteps);
 }
 
-/// Returns the bound that step or time of a task break; empty: none.
+/// Returns the bound that the step or the time of a task breaks; empty: none.
 std::string boundBroken(const ReducedModel& model, const MarchSettings& settings, const Task& task,
                         double stableStep) {
   if (const auto broken = stepsBroken(task.step, task.time); !broken.empty())
@@ -72,7 +72,7 @@ void scale(LinearMode& mode, double factor) {
 
 /// Returns a march on one mode, without step and time.
 Task taskOn(const ReducedModel& model, const NumberedMode& one) {
-  Task task{std::to_string(one.number), one.mode, {}, 0, 0, 0, ""};
+  Task task{.start = std::to_string(one.number), .mode = one.mode};
   if (!(task.mode.s.imag() > 1e-9 * std::abs(task.mode.s))) {
     task.failure =
         "the mode grows without oscillation (divergence), and a march counts cycles; give "
@@ -81,7 +81,7 @@ Task taskOn(const ReducedModel& model, const NumberedMode& one) {
   }
   task.shortestPeriod = 1 / frequencyOf(task);
   task.onset = firstEvent(model.nodes, motionAt(model, task.mode));
-  if (task.onset.event == Event::none)
+  if (task.onset.event == OnsetEvent::none)
     task.failure = "the mode moves no node that is in contact, so that nothing bounds its growth";
   else if (!(task.onset.factor > 0))
     task.failure =

@@ -1,9 +1,9 @@
-#include "regime/sound/latest.hpp"
+#include "regime/sound/recent_history.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/petsc/check.hpp"
+#include "base/checkpoint/broadcast.hpp"
 
 namespace squeal::sound {
 namespace {
@@ -21,21 +21,22 @@ std::vector<double> staticPart(const ReducedModel& model, const march::State& st
 
 }  // namespace
 
-Latest::Latest(const ReducedModel& model, const Settings& settings, double period, double step)
+RecentHistory::RecentHistory(const ReducedModel& model, const Settings& settings, double period,
+                             double step)
     : model_(model),
       frames_(settings.framesOfPeriod(period, step)),
       most_(settings.cyclesKept > 0 ? frames_ * settings.cyclesKept + 1 : 0),
       interval_(period / frames_),
       next_(interval_) {}
 
-void Latest::look(const Scheme& scheme) {
+void RecentHistory::inspect(const Scheme& scheme) {
   if (most_ == 0 || scheme.state().time < next_) return;
   next_ += interval_;
   if (std::ssize(states_) == most_) states_.pop_front();
   states_.push_back(scheme.state());
 }
 
-std::vector<Sample> Latest::samples() const {
+std::vector<Sample> RecentHistory::samples() const {
   std::vector<Sample> result;
   const long count = states_.empty() ? 0 : (std::ssize(states_) - 1) / frames_ * frames_ + 1;
   for (auto state = states_.end() - count; state != states_.end(); ++state) {
@@ -50,19 +51,16 @@ std::vector<Sample> Latest::samples() const {
   return result;
 }
 
-void share(MPI_Comm comm, int root, std::vector<Sample>& samples) {
-  std::size_t count = samples.size();
-  check(MPI_Bcast(&count, sizeof count, MPI_BYTE, root, comm));
-  samples.resize(count);
-  for (Sample& sample : samples) {
-    check(MPI_Bcast(&sample.time, 1, MPI_DOUBLE, root, comm));
-    for (auto* list : {&sample.q, &sample.z, &sample.gap, &sample.force}) {
-      std::size_t length = list->size();
-      check(MPI_Bcast(&length, sizeof length, MPI_BYTE, root, comm));
-      list->resize(length);
-      check(MPI_Bcast(list->data(), length, MPI_DOUBLE, root, comm));
-    }
-  }
+/// The stream finds it by its argument. All members are named, so that a new one does not compile
+/// until it is broadcast too.
+void fields(checkpoint::Stream& stream, Sample& sample);
+void fields(checkpoint::Stream& stream, Sample& sample) {
+  auto& [time, q, z, gap, force] = sample;
+  stream(time, q, z, gap, force);
+}
+
+void broadcast(MPI_Comm comm, int root, std::vector<Sample>& samples) {
+  checkpoint::broadcast(comm, samples, root);
 }
 
 }  // namespace squeal::sound

@@ -1,4 +1,4 @@
-#include "regime/sound/outside.hpp"
+#include "regime/sound/visible_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "model/mesh/vector.hpp"
 #include "regime/sound/spectrum.hpp"
 
@@ -15,18 +16,17 @@ namespace {
 
 /// Collective. Returns the mean of v vᵀ over the samples of the rank `root`; zero without samples.
 DenseMatrix meanSquaresOf(MPI_Comm comm, int root, const Trace& trace, PetscInt modes) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
   DenseMatrix result(modes, modes);
-  if (rank == root && trace.velocities.rows() > 0) {
+  if (mpi::rank(comm) == root && trace.velocities.rows() > 0) {
     result = linalg::transposedProduct(trace.velocities, trace.velocities);
     for (double& entry : result.entries()) entry /= trace.velocities.rows();
   }
-  check(MPI_Bcast(result.data(), result.size(), MPI_DOUBLE, root, comm));
+  mpi::broadcastBytes(comm, result.data(), result.size() * sizeof(double), root);
   return result;
 }
 
-double trace(const DenseMatrix& a, const DenseMatrix& b) {
+/// Returns tr(Aᵀ B).
+double contraction(const DenseMatrix& a, const DenseMatrix& b) {
   return std::inner_product(a.entries().begin(), a.entries().end(), b.entries().begin(), 0.0);
 }
 
@@ -36,14 +36,14 @@ Observer::Observer(const contact::Contact& contact, const Shapes& shapes, const 
     : contact_(contact),
       shapes_(shapes),
       settings_(settings),
-      surface_(visibleSurface(*contact.mesh, contact)) {
+      surface_(radiatingSurface(*contact.mesh, contact)) {
   linalg::Block product(shapes.modes.rows());
   linalg::appendProduct(surface_.normalMass, shapes.modes, product);
   radiation_ = linalg::transposedProduct(contact.mesh->comm, shapes.modes, product);
   if (surface_.area == 0)
     complain(contact.mesh->comm,
              "warning: no face of the bodies is visible after flutter: all are in contact, tied, "
-             "cut or held; there is no sound, and no spectrum at a point");
+             "cut or held; the sound power and the spectra at points are omitted");
 }
 
 /// Returns the estimate of the sound power [M.76],
@@ -51,15 +51,15 @@ Observer::Observer(const contact::Contact& contact, const Shapes& shapes, const 
 Sound Observer::soundOf(const DenseMatrix& meanSquares) const {
   Sound sound;
   sound.area = surface_.area;
-  const double integral = trace(radiation_, meanSquares);
-  if (!(integral > 0)) return sound;  // no samples, or nothing to be seen
+  const double integral = contraction(radiation_, meanSquares);
+  if (!(integral > 0)) return sound;  // no samples, or no visible surface
   sound.meanSquareVelocity = integral / sound.area;
   sound.power = settings_.airImpedance * integral;
   sound.level = 10 * std::log10(sound.power / 1e-12);
   return sound;
 }
 
-/// Returns the rows of V of some owned nodes, all components of a node after each other.
+/// Returns the rows of V of some owned nodes, node by node.
 DenseMatrix Observer::rowsOf(std::span<const PetscInt> nodes) const {
   const int dimension = contact_.mesh->dimension;
   DenseMatrix rows(std::ssize(nodes) * dimension, shapes_.modes.columns());
@@ -70,13 +70,13 @@ DenseMatrix Observer::rowsOf(std::span<const PetscInt> nodes) const {
 }
 
 /// Returns the nodes of the surface on this rank with minus their mean square velocities.
-std::vector<Observer::Choice> Observer::byVelocity(const DenseMatrix& meanSquares) const {
+std::vector<Observer::Candidate> Observer::byVelocity(const DenseMatrix& meanSquares) const {
   constexpr std::size_t atOnce = 512;
   const auto& mesh = *contact_.mesh;
   std::vector<PetscInt> nodes;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     if (surface_.has(node)) nodes.push_back(node);
-  std::vector<Choice> result;
+  std::vector<Candidate> result;
   for (std::size_t begin = 0; begin < nodes.size(); begin += atOnce) {
     const auto some = std::span(nodes).subspan(begin, std::min(atOnce, nodes.size() - begin));
     const DenseMatrix rows = rowsOf(some), products = linalg::product(rows, meanSquares);
@@ -91,9 +91,9 @@ std::vector<Observer::Choice> Observer::byVelocity(const DenseMatrix& meanSquare
 }
 
 /// Returns the nodes of the surface on this rank with their distances from a place.
-std::vector<Observer::Choice> Observer::byDistance(const Point& place) const {
+std::vector<Observer::Candidate> Observer::byDistance(const Point& place) const {
   const auto& mesh = *contact_.mesh;
-  std::vector<Choice> result;
+  std::vector<Candidate> result;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     if (surface_.has(node)) {
       const Point& x = mesh.coordinates[node];
@@ -102,73 +102,75 @@ std::vector<Observer::Choice> Observer::byDistance(const Point& place) const {
   return result;
 }
 
-/// Collective. Returns the node of the smallest measure of all ranks and sets its rows of V. Of
-/// those that are equal up to rounding, the first by its coordinates is taken, so that the number
-/// of ranks does not matter.
-SurfacePoint Observer::pointOf(const std::vector<Choice>& own, double tolerance,
-                               const DenseMatrix& meanSquares, DenseMatrix& shape) const {
+/// Collective. Returns the node of the smallest measure of all ranks, with its rows of V. Of nodes
+/// that are equal to round-off, it is the first by its coordinates, so that the number of ranks
+/// does not matter.
+Observer::Observed Observer::observed(const std::vector<Candidate>& own, double tolerance) const {
   const auto& mesh = *contact_.mesh;
   double least = INFINITY;
-  for (const auto& choice : own) least = std::min(least, choice.measure);
-  check(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, mesh.comm));
-  std::vector<Choice> best;
-  for (const auto& choice : own) {
-    if (choice.measure > least + tolerance * std::abs(least)) continue;
+  for (const auto& candidate : own) least = std::min(least, candidate.measure);
+  least = mpi::min(mesh.comm, least);
+  std::vector<Candidate> best;
+  for (const auto& candidate : own) {
+    if (candidate.measure > least + tolerance * std::abs(least)) continue;
     if (best.empty())
-      best.push_back(choice);
-    else if (choice.position < best[0].position)
-      best[0] = choice;
+      best.push_back(candidate);
+    else if (candidate.position < best[0].position)
+      best[0] = candidate;
   }
   const Concatenation ranks(mesh.comm, best.size());
   const auto all = ranks.gathered(best);
-  SurfacePoint point;
-  shape = DenseMatrix(mesh.dimension, shapes_.modes.columns());
-  const auto first = std::ranges::min_element(all, {}, &Choice::position);
-  point.position = first->position;
+  const auto first = std::ranges::min_element(all, {}, &Candidate::position);
+  Observed result{.point = {.position = first->position},
+                  .shape = DenseMatrix(mesh.dimension, shapes_.modes.columns())};
   if (first - all.begin() == ranks.ownBegin() && !best.empty()) {
-    point.normal = surface_.normals[best[0].node];
-    shape = rowsOf(std::span(&best[0].node, 1));
+    result.point.normal = surface_.normals[best[0].node];
+    result.shape = rowsOf(std::span(&best[0].node, 1));
   }
-  // The others have zeros.
-  check(MPI_Allreduce(MPI_IN_PLACE, point.normal.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, shape.data(), shape.size(), MPI_DOUBLE, MPI_SUM, mesh.comm));
-  point.meanSquareVelocity = trace(shape, linalg::product(shape, meanSquares));
-  return point;
+  // The other ranks have zeros.
+  mpi::reduce<double>(mesh.comm, result.point.normal, MPI_SUM);
+  mpi::reduce<double>(mesh.comm, result.shape.entries(), MPI_SUM);
+  return result;
 }
 
-/// Collective. Sets the points with their spectra, which the rank `root` makes.
-void Observer::addSpectra(int root, const Trace& trace, const DenseMatrix& meanSquares,
-                          std::vector<SurfacePoint>& points) const {
-  const MPI_Comm comm = contact_.mesh->comm;
+/// Returns the spectrum of the velocity at a node, [line]; empty without samples.
+std::vector<Amplitudes> Observer::spectrum(const Observed& node,
+                                           const DenseMatrix& velocities) const {
+  const PetscInt count = velocities.rows();
+  if (count == 0) return {};
   const int dimension = contact_.mesh->dimension;
-  const auto& wanted = settings_.spectrumPoints;
-  if (surface_.area == 0) return;
-  for (std::size_t i = 0; i < std::max<std::size_t>(1, wanted.size()); ++i) {
-    DenseMatrix shape;
-    points.push_back(wanted.empty() ? pointOf(byVelocity(meanSquares), 1e-6, meanSquares, shape)
-                                    : pointOf(byDistance(wanted[i]), 1e-9, meanSquares, shape));
-    SurfacePoint& point = points.back();
-    point.name = wanted.empty() ? "largest" : std::to_string(i + 1);
-    std::vector<double> signal[4];
-    PetscInt lines = 0;
-    if (const PetscInt count = trace.velocities.rows(); count > 0) {
-      lines = count / 2 + 1;
-      for (auto& component : signal) component.assign(count, 0);
-      for (PetscInt j = 0; j < trace.velocities.columns(); ++j)
-        for (int d = 0; d < dimension; ++d)
-          for (PetscInt t = 0; t < count; ++t) signal[d][t] += shape(d, j) * trace.velocities(t, j);
-      for (int d = 0; d < dimension; ++d)
-        for (PetscInt t = 0; t < count; ++t) signal[3][t] += point.normal[d] * signal[d][t];
-    }
-    check(MPI_Bcast(&lines, 1, MPIU_INT, root, comm));
-    point.amplitude.resize(lines);
-    if (trace.velocities.rows() > 0)
-      for (int c = 0; c < 4; ++c) {
-        const auto line = amplitudes(signal[c]);
-        for (PetscInt k = 0; k < lines; ++k) point.amplitude[k][c] = line[k];
-      }
-    check(MPI_Bcast(point.amplitude.data(), 4 * lines, MPI_DOUBLE, root, comm));
+  std::array<std::vector<double>, 4> signal;  // x, y, z and along the normal
+  for (auto& component : signal) component.assign(count, 0);
+  for (PetscInt j = 0; j < velocities.columns(); ++j)
+    for (int d = 0; d < dimension; ++d)
+      for (PetscInt t = 0; t < count; ++t) signal[d][t] += node.shape(d, j) * velocities(t, j);
+  for (int d = 0; d < dimension; ++d)
+    for (PetscInt t = 0; t < count; ++t) signal[3][t] += node.point.normal[d] * signal[d][t];
+  std::vector<Amplitudes> result(count / 2 + 1);
+  for (int c = 0; c < 4; ++c) {
+    const auto line = amplitudes(signal[c]);
+    for (std::size_t k = 0; k < result.size(); ++k) result[k][c] = line[k];
   }
+  return result;
+}
+
+/// Collective. Returns the points with their spectra, which the rank `root` computes.
+std::vector<SpectrumPoint> Observer::spectrumPoints(int root, const Trace& trace,
+                                                    const DenseMatrix& meanSquares) const {
+  std::vector<SpectrumPoint> points;
+  if (surface_.area == 0) return points;
+  const auto& places = settings_.spectrumPoints;
+  for (std::size_t i = 0; i < std::max<std::size_t>(1, places.size()); ++i) {
+    Observed node = places.empty() ? observed(byVelocity(meanSquares), 1e-6)
+                                   : observed(byDistance(places[i]), 1e-9);
+    node.point.name = places.empty() ? "largest" : std::to_string(i + 1);
+    node.point.meanSquareVelocity =
+        contraction(node.shape, linalg::product(node.shape, meanSquares));
+    node.point.amplitude = spectrum(node, trace.velocities);
+    mpi::broadcast(contact_.mesh->comm, node.point.amplitude, root);
+    points.push_back(std::move(node.point));
+  }
+  return points;
 }
 
 /// Collective. Returns displacements, gaps and pressures of samples that all ranks have.
@@ -194,16 +196,15 @@ Frames Observer::framesOf(const std::vector<Sample>& samples) const {
   return frames;
 }
 
-Outside Observer::of(int root, const Trace& trace) const {
+VisibleSurface Observer::of(int root, const Trace& trace) const {
   const MPI_Comm comm = contact_.mesh->comm;
-  Outside outside;
   const auto meanSquares = meanSquaresOf(comm, root, trace, shapes_.modes.columns());
-  outside.sound = soundOf(meanSquares);
-  addSpectra(root, trace, meanSquares, outside.points);
   auto samples = trace.samples;
-  share(comm, root, samples);
-  outside.frames = framesOf(samples);
-  return outside;
+  VisibleSurface result{.sound = soundOf(meanSquares),
+                        .points = spectrumPoints(root, trace, meanSquares)};
+  broadcast(comm, root, samples);
+  result.frames = framesOf(samples);
+  return result;
 }
 
 }  // namespace squeal::sound

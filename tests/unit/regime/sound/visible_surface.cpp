@@ -1,5 +1,5 @@
 // What is heard and seen outside of motions that are made by hand.
-#include "regime/sound/outside.hpp"
+#include "regime/sound/visible_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -81,10 +81,10 @@ TEST(Sound, OfTwoModes) {
 
 TEST(Sound, OfNoSamplesIsUnknown) {
   const Box made;
-  const auto outside = made.observer().of(0, sound::Trace());
-  EXPECT_TRUE(std::isnan(outside.sound.power) && std::isnan(outside.sound.level));
-  EXPECT_EQ(outside.points.at(0).amplitude.size(), 0u);
-  EXPECT_EQ(outside.frames.time.size(), 0u);
+  const auto seen = made.observer().of(0, sound::Trace());
+  EXPECT_TRUE(std::isnan(seen.sound.power) && std::isnan(seen.sound.level));
+  EXPECT_EQ(seen.points.at(0).amplitude.size(), 0u);
+  EXPECT_EQ(seen.frames.time.size(), 0u);
 }
 
 // Clamped all round, a body is silent, and has no point to be looked at.
@@ -94,10 +94,10 @@ TEST(Sound, OfNothingVisible) {
       "-constraint_top_clamped xyz -constraint_bottom_clamped xyz");
   int root = 0;
   const auto trace = traceOf(root);
-  const auto outside = made.observer().of(root, trace);
-  EXPECT_EQ(outside.sound.area, 0);
-  EXPECT_TRUE(std::isnan(outside.sound.power));
-  EXPECT_EQ(outside.points.size(), 0u);
+  const auto seen = made.observer().of(root, trace);
+  EXPECT_EQ(seen.sound.area, 0);
+  EXPECT_TRUE(std::isnan(seen.sound.power));
+  EXPECT_EQ(seen.points.size(), 0u);
 }
 
 // The tip moves most, by a²/2 + (b L)²/2; of its nodes, alike, the first by its coordinates counts.
@@ -105,9 +105,9 @@ TEST(Spectrum, AtTheNodeThatMovesMost) {
   const Box made;
   int root = 0;
   const auto trace = traceOf(root);
-  const auto outside = made.observer().of(root, trace);
-  ASSERT_EQ(outside.points.size(), 1u);
-  const auto& point = outside.points[0];
+  const auto seen = made.observer().of(root, trace);
+  ASSERT_EQ(seen.points.size(), 1u);
+  const auto& point = seen.points[0];
   EXPECT_EQ(point.name, "largest");
   const Point corner{2, -0.15, -0.25};
   for (int d = 0; d < 3; ++d) EXPECT_NEAR(point.position[d], corner[d], 1e-12);
@@ -198,7 +198,7 @@ class ByHand : public march::Scheme {
 };
 
 // Periods of 1, 16 frames each, two periods at most: 33 samples, of which the last is the latest.
-TEST(Latest, KeepsTheLatestPeriods) {
+TEST(RecentHistory, KeepsTheLatestPeriods) {
   test::setOptions("");
   march::ReducedModel model;
   model.dimension = 2;
@@ -210,9 +210,9 @@ TEST(Latest, KeepsTheLatestPeriods) {
   model.moves = {1, 0};
   for (const auto& [periods, expected] : {std::pair{10, 33}, {1, 1}, {0, 0}}) {
     ByHand motion(model, 1.0 / 128);
-    sound::Latest latest(model, sound::Settings::given(), 1, 1.0 / 128);
-    for (int i = 0; i < 128 * periods; ++i) motion.step(), latest.look(motion);
-    const auto samples = latest.samples();
+    sound::RecentHistory history(model, sound::Settings::given(), 1, 1.0 / 128);
+    for (int i = 0; i < 128 * periods; ++i) motion.step(), history.inspect(motion);
+    const auto samples = history.samples();
     ASSERT_EQ(samples.size(), std::size_t(expected));
     for (std::size_t i = 0; i < samples.size(); ++i) {
       EXPECT_NEAR(samples[i].time, periods - (samples.size() - 1.0 - i) / 16, 1e-12);

@@ -1,5 +1,5 @@
 #pragma once
-/// The latest cycles of a march are kept, so that displacements can be made of them at its end.
+/// The recent history of a march, from which displacements are computed at its end.
 #include <mpi.h>
 
 #include <deque>
@@ -23,24 +23,24 @@ struct Sample {
   std::vector<double> force;  ///< R_N, [node], N
 };
 
-/// What is kept of a march beside its averages, on the rank that has marched.
+/// The history of a march, on the rank that has marched.
 struct Trace {
   DenseMatrix velocities;       ///< of the modes, samples × modes
-  double sampleTime = 0;        ///< from sample to sample of them, s
+  double sampleTime = 0;        ///< interval of these samples, s
   std::vector<Sample> samples;  ///< of the latest cycles
 };
 
 /// Collective. Sends samples from the rank `root` to all ranks.
-void share(MPI_Comm comm, int root, std::vector<Sample>& samples);
+void broadcast(MPI_Comm comm, int root, std::vector<Sample>& samples);
 
-/// Latest keeps the samples of the latest `-regime_cycles_kept` periods, and forgets earlier ones.
-class Latest {
+/// Stores the samples of the latest `-regime_cycles_kept` periods.
+class RecentHistory {
  public:
   /// The period is that of a mode, s, and the step that of the march. The model is borrowed.
-  Latest(const ReducedModel& model, const Settings& settings, double period, double step);
-  void look(const Scheme& scheme);
-  /// Returns the samples in the order of time, the first and the last of them a whole number of
-  /// periods apart to a time step; fewer periods if the march was shorter.
+  RecentHistory(const ReducedModel& model, const Settings& settings, double period, double step);
+  void inspect(const Scheme& scheme);
+  /// Returns the samples in the order of time. From the first to the last it is a whole number of
+  /// periods, to a time step; fewer periods if the march was shorter.
   std::vector<Sample> samples() const;
 
  private:
