@@ -73,8 +73,8 @@ int run(const squeal::Session& session) try {
   }
   squeal::beginEvents(session.comm());
   squeal::report::Directory directory(session.comm());
-  if (squeal::matrices::exportWanted())
-    squeal::matrices::requireExportFolder(session.comm(), directory.path());
+  if (const auto settings = squeal::matrices::ExportSettings::given(); settings.wanted())
+    squeal::matrices::requireExportFolder(session.comm(), settings, directory.path());
   squeal::analysis::Analysis analysis =
       squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint",
                                 squeal::report::Settings::given().modes);

@@ -45,8 +45,9 @@ void checkOptions() {
         "option -flutter_modal_damping: damping of the free modes needs the modes of "
         "-flutter_method reduced");
   sweep::grid(sweep::Settings::given());
-  regime::checkOptions(!matrices::wanted());
-  if (!matrices::wanted()) meshRequest();
+  const bool ofMesh = matrices::Settings::given().ofMesh();
+  regime::checkOptions(regime::Settings::given(), ofMesh);
+  if (ofMesh) meshRequest();
 }
 
 /// Adds frictions to those of a sweep.
@@ -60,9 +61,9 @@ static void addFrictions(sweep::Sweep& sweep, const std::vector<double>& more) {
 Analysis prepare(MPI_Comm comm) {
   Analysis analysis;
   analysis.comm = comm;
-  const bool ofMesh = !matrices::wanted();
+  const bool ofMesh = matrices::Settings::given().ofMesh();
   analysis.sweep = sweep::grid(sweep::Settings::given());
-  addFrictions(analysis.sweep, regime::frictionsWanted());
+  addFrictions(analysis.sweep, regime::Settings::given().frictions);
   if (ofMesh) {
     prepareMesh(analysis);
     warnOfDenseWork(comm, analysis.sweep, analysis.mesh->dimension * analysis.mesh->totalNodes);

@@ -49,7 +49,7 @@ class MatrixSegment : public sweep_solver::SegmentProblem {
 
 std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep) {
   Stage stage(comm, "matrices");
-  auto named = matrices::readTerms(comm);
+  auto named = matrices::readTerms(comm, matrices::Settings::given());
   rejectIdleFactors(named, sweep);
   requireFiniteSweep(named, sweep);
   std::vector<std::string> files;
@@ -76,7 +76,8 @@ void solveMatrices(Analysis& analysis) {
   for (auto& item : named) terms.push_back(std::move(item.term));
   const pencil::Pencil pencil(std::move(terms));
   const auto points = analysis.sweep.steadyPoints();
-  if (matrices::exportWanted()) matrices::exportPencil(pencil, analysis.sweep, points.size());
+  if (const auto settings = matrices::ExportSettings::given(); settings.wanted())
+    matrices::exportPencil(pencil, settings, analysis.sweep, points.size());
   MatrixSegment problem(symmetric.system, pencil, points);
   auto solved =
       sweep_solver::solveSegments(problem, requestOf(analysis), analysis.checkpoint, "matrices");

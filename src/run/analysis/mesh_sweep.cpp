@@ -59,7 +59,7 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
   OwnedMat prestress;
   if (elasticity::prestressWanted())
     prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
-  const auto friction = terms::frictionState(analysis.contact, solution);
+  const auto friction = terms::frictionState(analysis.contact, solution, terms::Settings::given());
   for (auto& shape : point.shapes)
     shape.frictionWork =
         terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction, point.at,
@@ -89,8 +89,8 @@ std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   const auto pencil = pencil::Settings::given();
   if (pencil.isModallyDamped() && elasticity::prestressWanted()) return first + 1;
   const bool alone = pencil.method == pencil::Method::direct ||
-                     sensitivity::Settings::given().wanted || matrices::exportWanted() ||
-                     pencil.isModallyDamped();
+                     sensitivity::Settings::given().wanted ||
+                     matrices::ExportSettings::given().wanted() || pencil.isModallyDamped();
   const PetscInt most = alone ? 0 : releasedOption.get();
   contact::ActiveSet anywhere = steady::activeSet(analysis.steady[first]), everywhere = anywhere;
   std::size_t last = first;
@@ -252,7 +252,7 @@ std::vector<pencil::Term> MeshSegment::termsOf(const steady::Solution& solution)
     change = elasticity::geometricStiffness(*analysis_.mesh, solution.displacement);
     check(MatAXPY(change, -1, prestress_, SAME_NONZERO_PATTERN));
   }
-  return terms::pointTerms(analysis_.contact, *all_, solution, change);
+  return terms::pointTerms(analysis_.contact, *all_, solution, change, terms::Settings::given());
 }
 
 std::optional<std::vector<pencil::Term>> MeshSegment::termsAt(const sweep::Parameters& at,

@@ -169,8 +169,8 @@ Json regimeEntry(const regime::Study& study, const regime::Run& run) {
   entry["open_nodes"] = measured(regime.means.open);
   entry["sticking_nodes"] = measured(regime.means.sticking);
   entry["largest_kinetic_energy_j"] = measured(regime.largestKinetic);
-  entry["sound_power_estimate_w"] = finite(run.outside.sound.power);
-  entry["sound_power_level_db"] = finite(run.outside.sound.level);
+  entry["sound_power_estimate_w"] = finite(run.surface.sound.power);
+  entry["sound_power_level_db"] = finite(run.surface.sound.level);
   entry["largest_defect"] = measured(regime.largestDefect);
   entry["model_error"] = finite(study.modelError);
   entry["modes"] = study.modes > 0 ? Json(study.modes) : Json();

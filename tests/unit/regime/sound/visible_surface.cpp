@@ -1,5 +1,5 @@
 // What is heard and seen outside of motions that are made by hand.
-#include "regime/sound/outside.hpp"
+#include "regime/sound/visible_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,9 @@ struct Box {
     append(modes, [](const Point& x) { return Point{0, x[0], 0}; });
     append(responses, [](const Point&) { return Point{0, 0, 1}; });
   }
-  sound::Observer observer() const { return {model.contact, {modes, responses, contactNode}}; }
+  sound::Observer observer() const {
+    return {model.contact, {modes, responses, contactNode}, sound::Settings::given()};
+  }
   template <class Field>
   void append(linalg::Block& block, const Field& field) {
     const OwnedVec u = nodalField(*model.mesh, field);
@@ -79,10 +81,10 @@ TEST(Sound, OfTwoModes) {
 
 TEST(Sound, OfNoSamplesIsUnknown) {
   const Box made;
-  const auto outside = made.observer().of(0, sound::Trace());
-  EXPECT_TRUE(std::isnan(outside.sound.power) && std::isnan(outside.sound.level));
-  EXPECT_EQ(outside.points.at(0).amplitude.size(), 0u);
-  EXPECT_EQ(outside.frames.time.size(), 0u);
+  const auto seen = made.observer().of(0, sound::Trace());
+  EXPECT_TRUE(std::isnan(seen.sound.power) && std::isnan(seen.sound.level));
+  EXPECT_EQ(seen.points.at(0).amplitude.size(), 0u);
+  EXPECT_EQ(seen.frames.time.size(), 0u);
 }
 
 // Clamped all round, a body is silent, and has no point to be looked at.
@@ -92,10 +94,10 @@ TEST(Sound, OfNothingVisible) {
       "-constraint_top_clamped xyz -constraint_bottom_clamped xyz");
   int root = 0;
   const auto trace = traceOf(root);
-  const auto outside = made.observer().of(root, trace);
-  EXPECT_EQ(outside.sound.area, 0);
-  EXPECT_TRUE(std::isnan(outside.sound.power));
-  EXPECT_EQ(outside.points.size(), 0u);
+  const auto seen = made.observer().of(root, trace);
+  EXPECT_EQ(seen.sound.area, 0);
+  EXPECT_TRUE(std::isnan(seen.sound.power));
+  EXPECT_EQ(seen.points.size(), 0u);
 }
 
 // The tip moves most, by a²/2 + (b L)²/2; of its nodes, alike, the first by its coordinates counts.
@@ -103,9 +105,9 @@ TEST(Spectrum, AtTheNodeThatMovesMost) {
   const Box made;
   int root = 0;
   const auto trace = traceOf(root);
-  const auto outside = made.observer().of(root, trace);
-  ASSERT_EQ(outside.points.size(), 1u);
-  const auto& point = outside.points[0];
+  const auto seen = made.observer().of(root, trace);
+  ASSERT_EQ(seen.points.size(), 1u);
+  const auto& point = seen.points[0];
   EXPECT_EQ(point.name, "largest");
   const Point corner{2, -0.15, -0.25};
   for (int d = 0; d < 3; ++d) EXPECT_NEAR(point.position[d], corner[d], 1e-12);
@@ -137,13 +139,13 @@ TEST(Spectrum, AtPointsAskedFor) {
 
 std::string refusal(const std::string& options) {
   test::setOptions(options);
-  return test::errorOf([] { regime::checkOptions(true); });
+  return test::errorOf([] { regime::checkOptions(regime::Settings::given(), true); });
 }
 
 TEST(Options, PointsThatAreNone) {
   for (const std::string points : {"1", "1,2,x", "1,2,3,4", "1,2,3;", "1,,3", "1,inf,2"})
     EXPECT_TRUE(test::contains(
-        refusal("-regime_friction 0.4 -regime_spectrum_points '" + points + "'"), "is no point"))
+        refusal("-regime_friction 0.4 -regime_spectrum_points '" + points + "'"), "is not a point"))
         << points;
   EXPECT_EQ(refusal("-regime_friction 0.4 -regime_spectrum_points '1,2,3; 4,-5e-1'"), "");
 }
@@ -156,7 +158,7 @@ TEST(Options, IdleOnesAreRefusedByName) {
         refusal(option), "option " + option.substr(0, option.find(' ')) + ": nothing is followed"))
         << option;
   EXPECT_TRUE(test::contains(refusal("-regime_friction 0.4 -regime_frames 8 -regime_cycles_kept 0"),
-                             "option -regime_frames: no period is kept"));
+                             "option -regime_frames: no period is stored"));
 }
 
 // u = V q + Ψ z: q = (t, 3) and z = 5 give (t, 3 x, 5).
@@ -196,7 +198,7 @@ class ByHand : public march::Scheme {
 };
 
 // Periods of 1, 16 frames each, two periods at most: 33 samples, of which the last is the latest.
-TEST(Latest, KeepsTheLatestPeriods) {
+TEST(RecentHistory, KeepsTheLatestPeriods) {
   test::setOptions("");
   march::ReducedModel model;
   model.dimension = 2;
@@ -208,9 +210,9 @@ TEST(Latest, KeepsTheLatestPeriods) {
   model.moves = {1, 0};
   for (const auto& [periods, expected] : {std::pair{10, 33}, {1, 1}, {0, 0}}) {
     ByHand motion(model, 1.0 / 128);
-    sound::Latest latest(model, 1, 1.0 / 128);
-    for (int i = 0; i < 128 * periods; ++i) motion.step(), latest.look(motion);
-    const auto samples = latest.samples();
+    sound::RecentHistory history(model, sound::Settings::given(), 1, 1.0 / 128);
+    for (int i = 0; i < 128 * periods; ++i) motion.step(), history.inspect(motion);
+    const auto samples = history.samples();
     ASSERT_EQ(samples.size(), std::size_t(expected));
     for (std::size_t i = 0; i < samples.size(); ++i) {
       EXPECT_NEAR(samples[i].time, periods - (samples.size() - 1.0 - i) / 16, 1e-12);
