@@ -22,7 +22,7 @@ struct Layers {
         model.bodies, model.contact,
         contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   }
-  modes::Modes modes() const { return modes::compute(*system); }
+  modes::Modes modes() const { return modes::compute(*system, modes::Settings::given()); }
 };
 
 }  // namespace squeal::test

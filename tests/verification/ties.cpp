@@ -30,7 +30,7 @@ std::vector<Complex> frequencies(const std::string& options) {
   const contact::CoupledSystem system(
       model.bodies, model.contact,
       contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
-  return eigenvaluesOf(modes::compute(system));
+  return eigenvaluesOf(modes::compute(system, modes::Settings::given()));
 }
 
 /// One body, finely meshed: the layers share their nodes.

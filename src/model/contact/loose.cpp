@@ -6,6 +6,7 @@
 
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/mesh/mesh.hpp"
 #include "model/mesh/vector.hpp"
@@ -61,8 +62,8 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
   for (const auto& p : mesh.coordinates)
     for (std::size_t d = 0; d < 3; ++d)
       low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
-  check(MPI_Allreduce(MPI_IN_PLACE, low, 3, MPI_DOUBLE, MPI_MIN, mesh.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, high, 3, MPI_DOUBLE, MPI_MAX, mesh.comm));
+  mpi::reduce<double>(mesh.comm, low, MPI_MIN);
+  mpi::reduce<double>(mesh.comm, high, MPI_MAX);
   double length = 0;
   for (int d = 0; d < 3; ++d) length = std::max(length, high[d] - low[d]);
   return {mesh, {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2}, length};
@@ -125,7 +126,7 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
       keep();
     }
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, g.data(), g.size(), MPI_DOUBLE, MPI_SUM, mesh.comm));
+  mpi::reduce<double>(mesh.comm, {g.data(), std::size_t(g.size())}, MPI_SUM);
   return g;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/system/mpi.hpp"
 #include "model/coupling/covered.hpp"
 #include "model/coupling/mortar_matrices.hpp"
 #include "model/coupling/periodic.hpp"
@@ -55,7 +56,7 @@ SideReport sideReport(MPI_Comm comm, const std::vector<Face>& faces,
     sums[0] += 1, sums[1] += area;
     if (isNear[i]) sums[2] += 1, sums[3] += area;
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, comm));
+  mpi::reduce<double>(comm, sums, MPI_SUM);
   return {PetscInt(sums[0]), PetscInt(sums[2]), sums[1], sums[3]};
 }
 
@@ -97,9 +98,9 @@ Coupling couple(const mesh::Mesh& mesh, const NodeExchange& exchange, const Inte
     coupling.coveredArea += face.moments.covered;
     coupling.largestGap = std::max(coupling.largestGap, face.moments.largestGap);
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, &coupling.coveredArea, 1, MPI_DOUBLE, MPI_SUM, mesh.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &coupling.sliverFaces, 1, MPIU_INT, MPI_SUM, mesh.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &coupling.largestGap, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
+  coupling.coveredArea = mpi::sum(mesh.comm, coupling.coveredArea);
+  coupling.sliverFaces = mpi::sum(mesh.comm, coupling.sliverFaces);
+  coupling.largestGap = mpi::max(mesh.comm, coupling.largestGap);
   return coupling;
 }
 

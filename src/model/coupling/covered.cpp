@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/coupling/periodic.hpp"
 #include "model/mesh/vector.hpp"
@@ -210,7 +211,7 @@ SlaveBasis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
   }
   basis.droppedOwned = droppedOwned(mesh, exchange, faces, basis);
   basis.droppedNodes = basis.droppedOwned.size();
-  check(MPI_Allreduce(MPI_IN_PLACE, &basis.droppedNodes, 1, MPIU_INT, MPI_SUM, mesh.comm));
+  basis.droppedNodes = mpi::sum(mesh.comm, basis.droppedNodes);
   return basis;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "model/mesh/vector.hpp"
 
 namespace squeal::coupling {
@@ -37,8 +38,8 @@ std::vector<Point> translations(const mesh::Mesh& mesh, const std::vector<Face>&
       for (int part : face.parts) bears[part] = 1;
   double longest = 0;
   for (const auto& image : mesh.images) longest = std::max(longest, mesh::length(image.shift));
-  check(MPI_Allreduce(MPI_IN_PLACE, bears.data(), bears.size(), MPI_INT, MPI_MAX, mesh.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &longest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
+  mpi::reduce<int>(mesh.comm, bears, MPI_MAX);
+  longest = mpi::max(mesh.comm, longest);
   if (longest == 0) return {};
   const double tolerance = 1e-4 * longest;  // pairs of nodes lie apart by less
   std::vector<Point> mine, ways, all;

@@ -65,8 +65,7 @@ struct RankBoxes {
 };
 
 RankBoxes gather(MPI_Comm comm, const std::vector<Box>& mine) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
+  const int rank = mpi::rank(comm);
   return {concatenated(comm, mine), concatenated(comm, std::vector<int>(mine.size(), rank))};
 }
 

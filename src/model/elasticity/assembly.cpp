@@ -4,6 +4,7 @@
 
 #include "base/petsc/arrays.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 
 namespace squeal::elasticity {
@@ -170,7 +171,7 @@ CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
   constexpr PetscInt most = 10;
   CellsNamed result;
   result.count = cells.size();
-  check(MPI_Allreduce(MPI_IN_PLACE, &result.count, 1, MPIU_INT, MPI_SUM, mesh.comm));
+  result.count = mpi::sum(mesh.comm, result.count);
   if (result.count == 0) return result;
   int ranks = 1;
   check(MPI_Comm_size(mesh.comm, &ranks));
@@ -210,8 +211,8 @@ void failOnInverted(const mesh::Mesh& mesh, const std::vector<InvertedCell>& inv
   }
   const auto [count, words] = named(mesh, names);
   if (count == 0) return;
-  check(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MIN, mesh.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &byCorners, 1, MPIU_INT, MPI_SUM, mesh.comm));
+  worst = mpi::min(mesh.comm, worst);
+  byCorners = mpi::sum(mesh.comm, byCorners);
   const std::string least = formatted(", at worst %.2g of its largest", worst);
   std::string message =
       count == 1 ? "inverted element: " + words + " has a Jacobian that is not positive" + least

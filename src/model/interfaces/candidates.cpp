@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/elasticity/face.hpp"
 #include "model/interfaces/algebra.hpp"
@@ -52,7 +53,7 @@ std::string earlierOwners(const mesh::Mesh& mesh, const coupling::NodeExchange& 
   std::vector<int> owns(all.options.size(), 0);
   for (const auto& tied : all.tied)
     if (std::ranges::binary_search(nodes, tied.connection.node)) owns[tied.interface] = 1;
-  check(MPI_Allreduce(MPI_IN_PLACE, owns.data(), owns.size(), MPI_INT, MPI_MAX, mesh.comm));
+  mpi::reduce<int>(mesh.comm, owns, MPI_MAX);
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < owns.size(); ++i)
     if (owns[i]) labels.push_back(all.options[i].label());
@@ -75,7 +76,7 @@ std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const coupling::Node
                                    : coupling::Interface{pad, disc, options.searchDistance},
                        velocity, excluded);
   PetscInt count = coupled.nodes.size();
-  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
+  count = mpi::sum(mesh.comm, count);
   if (count == 0 && coupled.coveredArea > 0)
     throw Error(optionsOf(options) + "all nodes of '" + (discIsSlave ? disc : pad) +
                 "' on the other side belong to " +

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/interfaces/algebra.hpp"
 
@@ -277,7 +278,7 @@ void carryHeld(const mesh::Mesh& mesh, Interfaces& all) {
   for (const auto& tied : all.tied)
     for (int d = 0; d < mesh.dimension; ++d)
       count += all.constraints.held[mesh.dimension * tied.connection.node + d];
-  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
+  count = mpi::sum(mesh.comm, count);
   if (count == 0) return;
   const OwnedMat rows = tieRows(mesh, all);
   const Equations equations = equationsOf(mesh, all, rows);

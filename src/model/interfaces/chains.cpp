@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 
 namespace squeal::interfaces {
@@ -65,7 +66,7 @@ std::string interfacesAt(const mesh::Mesh& mesh, const Interfaces& all, int leve
     if (all.connections[k].level >= level) found[all.nodes[k].interface] = 1;
   for (const auto& node : all.tied)
     if (node.connection.level >= level) found[node.interface] = 1;
-  check(MPI_Allreduce(MPI_IN_PLACE, found.data(), found.size(), MPI_INT, MPI_MAX, mesh.comm));
+  mpi::reduce<int>(mesh.comm, found, MPI_MAX);
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i]) labels.push_back(all.options[i].label());
@@ -92,7 +93,7 @@ void setLevels(const mesh::Mesh& mesh, Interfaces& all) {
       all.levels = std::max(all.levels, level);
     }
     check(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, mesh.comm));
-    check(MPI_Allreduce(MPI_IN_PLACE, &all.levels, 1, MPI_INT, MPI_MAX, mesh.comm));
+    all.levels = mpi::max(mesh.comm, all.levels);
     if (!changed) return;
   }
   throw Error("the slaves of these rest on each other in a circle: " +

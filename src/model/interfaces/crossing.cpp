@@ -7,6 +7,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/elasticity/face.hpp"
 #include "model/elasticity/shape.hpp"
@@ -98,7 +99,7 @@ Crossing crossingOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchan
     sums[0] += flux, sums[1] += around.magnitude[i], sums[2] += around.speed[i];
     if (flux > worst.value) worst.value = flux, node = i;
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, mesh.comm));
+  mpi::reduce<double>(mesh.comm, sums, MPI_SUM);
   if (!(sums[0] > facets * sums[1] && sums[0] > negligible * sums[2])) return {};
   check(MPI_Comm_rank(mesh.comm, &worst.rank));
   const int rank = worst.rank;

@@ -8,6 +8,7 @@
 
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "model/mortar/basis.hpp"
@@ -130,7 +131,7 @@ Loss lossOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, cons
   }
   Loss loss;
   places = concatenated(mesh.comm, places);
-  check(MPI_Allreduce(MPI_IN_PLACE, owns.data(), owns.size(), MPI_INT, MPI_MAX, mesh.comm));
+  mpi::reduce<int>(mesh.comm, owns, MPI_MAX);
   loss.count = places.size();
   if (loss.count == 0) return loss;
   loss.first = *std::min_element(places.begin(), places.end());

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/coupling/exchange.hpp"
 #include "model/elasticity/face.hpp"
@@ -87,7 +88,7 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   };
   double fastest = 0;
   for (const auto& node : candidates) fastest = std::max(fastest, mesh::length(velocityOf(node)));
-  check(MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
+  fastest = mpi::max(mesh.comm, fastest);
   const ReadArray normal(sums.normal), area(sums.area);
   for (const auto& candidate : candidates) {
     const auto& slave = candidate.slave;
@@ -130,7 +131,7 @@ void countNodes(MPI_Comm comm, Interfaces& all) {
   for (std::size_t i = 0; i < all.reports.size(); ++i) {
     if (all.options[i].isTied()) continue;
     PetscInt& count = all.reports[i].nodes;
-    check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
+    count = mpi::sum(comm, count);
     all.totalNodes += count;
   }
 }

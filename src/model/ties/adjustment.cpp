@@ -7,6 +7,7 @@
 #include "base/petsc/arrays.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/shape.hpp"
@@ -161,8 +162,8 @@ void rejectFolded(const mesh::Mesh& mesh, const std::vector<Point>& file, const 
   auto folded = foldedCells(mesh, file, moves, tieOf, ties.options.size());
   for (std::size_t i = 0; i < folded.size(); ++i) {
     PetscInt count = folded[i].count, first = folded[i].first;
-    check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
-    check(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPIU_INT, MPI_MIN, mesh.comm));
+    count = mpi::sum(mesh.comm, count);
+    first = mpi::min(mesh.comm, first);
     if (count == 0) continue;
     const auto& options = ties.options[i];
     const std::string adjust = adjustName(options.surfaces.name);
@@ -253,8 +254,7 @@ void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange, I
     largest = std::max(largest, length(moves[node.connection.node]));
   }
   for (auto& report : ties.reports)
-    check(
-        MPI_Allreduce(MPI_IN_PLACE, &report.largestAdjustment, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
+    report.largestAdjustment = mpi::max(mesh.comm, report.largestAdjustment);
   follow(mesh, exchange, moves);
   for (std::size_t i = 0; i < moves.size(); ++i) mesh.coordinates[i] = plus(file[i], moves[i]);
   std::vector<double> tieOf(mesh.localNodes(), 0.0);  // one more than the index of the tie

@@ -4,6 +4,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/coupling/covered.hpp"
 #include "model/coupling/exchange.hpp"
@@ -50,8 +51,8 @@ void report(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Inte
     const auto slaveNodes = slaveNodesOf(mesh, exchange, all.slaves[i].surface);
     PetscInt counts[] = {PetscInt(slaveNodes.size()), 0};
     for (const auto& node : all.tied) counts[1] += node.interface == i;
-    check(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, mesh.comm));
-    check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, mesh.comm));
+    mpi::reduce<PetscInt>(mesh.comm, counts, MPI_SUM);
+    mpi::reduce<double>(mesh.comm, sums, MPI_SUM);
     if (!report.matching) report.nodes = counts[1];
     report.untied = counts[0] - report.nodes;
     if (!report.matching) continue;

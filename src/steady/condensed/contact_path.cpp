@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/interfaces/algebra.hpp"
 
@@ -64,8 +65,7 @@ struct ExpectedChange {
 std::vector<ExpectedChange> expectedChanges(MPI_Comm comm, const ContactWay& way,
                                             const impedance::ContactSolution& begin,
                                             const impedance::ContactSolution& end) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
+  const int rank = mpi::rank(comm);
   std::vector<ExpectedChange> own;
   const auto &before = way.from->closed, &after = way.to->closed;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -101,7 +101,7 @@ class Follower {
       : problem_(problem), from_(from.at), to_(to), closed_(from.closed), sticking_(from.sticking) {
     check(MPI_Comm_rank(comm(), &rank_));
     for (const auto& state : from.contact) forceUnit_ = std::max(forceUnit_, state.normalForce);
-    check(MPI_Allreduce(MPI_IN_PLACE, &forceUnit_, 1, MPI_DOUBLE, MPI_MAX, comm()));
+    forceUnit_ = mpi::max(comm(), forceUnit_);
     if (forceUnit_ == 0) forceUnit_ = 1;  // nothing touches
   }
 
@@ -248,7 +248,7 @@ class Follower {
         path.events.push_back({at(s), i, before[i] != 0, path.count});
         ++own;
       }
-    check(MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_INT, MPI_SUM, comm()));
+    own = mpi::sum(comm(), own);
     path.count += own;
     return own > 0;
   }
@@ -267,8 +267,7 @@ class Follower {
 }  // namespace
 
 void anticipateContact(CondensedProblem& problem, const std::vector<ContactWay>& ways) {
-  int rank = 0;
-  check(MPI_Comm_rank(problem.comm(), &rank));
+  const int rank = mpi::rank(problem.comm());
   std::vector<ChosenSet> ends, sets;
   for (const auto& way : ways)
     for (const auto* solution : {way.from, way.to})

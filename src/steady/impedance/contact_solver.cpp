@@ -9,6 +9,7 @@
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 
 namespace squeal::impedance {
 
@@ -156,7 +157,7 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
   std::vector<int> same;
   for (const auto& block : blocks_)
     same.push_back(block->free == free && block->direct.get() == conditions.direct);
-  check(MPI_Allreduce(MPI_IN_PLACE, same.data(), same.size(), MPI_INT, MPI_LAND, comm));
+  mpi::reduce<int>(comm, same, MPI_LAND);
   if (const auto known = std::ranges::find(same, 1); known != same.end()) {
     const auto place = blocks_.begin() + (known - same.begin());
     std::rotate(blocks_.begin(), place, place + 1);
@@ -295,7 +296,7 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   double largest[2] = {0, 0};  // of the forces on free unknowns, and of the given ones
   for (const PetscInt i : local) largest[0] = std::max(largest[0], std::abs(effects(n + i, 0)));
   for (const double force : search.asked.given) largest[1] = std::max(largest[1], std::abs(force));
-  check(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, impedance_.comm()));
+  mpi::reduce<double>(impedance_.comm(), largest, MPI_MAX);
   result.found = std::isfinite(search.left) &&
                  search.left <= std::max(accuracy, accepted) * search.unit &&
                  largest[0] <= balancedForces * largest[1];
@@ -312,8 +313,7 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
 std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> cases) const {
   std::vector<double> orders;
   for (const auto& one : cases) orders.push_back(std::ranges::count(one.conditions.free, 1));
-  check(MPI_Allreduce(MPI_IN_PLACE, orders.data(), orders.size(), MPI_DOUBLE, MPI_SUM,
-                      impedance_.comm()));
+  mpi::reduce<double>(impedance_.comm(), orders, MPI_SUM);
   std::vector<std::size_t> begins{0};
   double bytes = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -360,8 +360,7 @@ ContactSolution ContactSolver::withGaps(const std::vector<double>& gaps, Contact
   DenseMatrix weights(columns_.columns(), 1), effects(impedance_.length(), 1, one.given);
   for (PetscInt i = 0; i < n; ++i)
     if (open[i]) weights(place_.at(first_ + i), 0) = gaps[i];
-  check(MPI_Allreduce(MPI_IN_PLACE, weights.data(), weights.size(), MPI_DOUBLE, MPI_SUM,
-                      impedance_.comm()));
+  mpi::reduce<double>(impedance_.comm(), {weights.data(), std::size_t(weights.size())}, MPI_SUM);
   if (!weights.empty()) linalg::multiplyAdd(columns_, weights, effects);
   std::fill_n(one.conditions.free.begin(), n, 0);
   one.given.assign(effects.entries().begin(), effects.entries().end());

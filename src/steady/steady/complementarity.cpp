@@ -149,6 +149,21 @@ void accept(Solution& solution, double left, const Accuracy& accuracy) {
         solution.reason.empty() ? "" : (" (" + solution.reason + ")").c_str());
 }
 
+/// Gives each Newton step to GMRES, with the Cholesky factor of the matrix without friction as
+/// preconditioner.
+static void setStepSolver(SNES snes) {
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  check(SNESGetKSP(snes, &ksp));
+  check(KSPSetType(ksp, KSPGMRES));
+  check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 100));
+  check(KSPGMRESSetRestart(ksp, 100));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(KSPSetPCSide(ksp, PC_RIGHT));
+}
+
 double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) {
   const contact::Transformation& transformation = problem.transformation();
   PetscReal xUnit = 0;
@@ -183,16 +198,7 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
     check(SNESSetFunction(snes, value, evaluate, &scaled));
     check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
     check(SNESVISetVariableBounds(snes, low, high));
-    KSP ksp = nullptr;
-    PC pc = nullptr;
-    check(SNESGetKSP(snes, &ksp));
-    check(KSPSetType(ksp, KSPGMRES));
-    check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 100));
-    check(KSPGMRESSetRestart(ksp, 100));
-    check(KSPGetPC(ksp, &pc));
-    check(PCSetType(pc, PCCHOLESKY));
-    check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-    check(KSPSetPCSide(ksp, PC_RIGHT));
+    setStepSolver(snes);
     return solveSnes(snes, x, solution);
   };
   const OwnedVec start = rightVector(jacobian);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "model/mesh/vector.hpp"
 
 namespace squeal::steady {
@@ -31,7 +32,7 @@ Point firstOf(MPI_Comm comm, std::vector<Point> positions) {
   for (std::size_t d = 0; d < 3; ++d) {
     first[d] = INFINITY;
     for (const auto& p : positions) first[d] = std::min(first[d], p[d]);
-    check(MPI_Allreduce(MPI_IN_PLACE, &first[d], 1, MPI_DOUBLE, MPI_MIN, comm));
+    first[d] = mpi::min(comm, first[d]);
     std::erase_if(positions, [&](const Point& p) {
       return p[d] > first[d] + 1e-9 * (1 + std::abs(first[d]));
     });
@@ -57,14 +58,14 @@ void addSticking(const contact::Contact& contact, int interface, const Solution&
   }
   for (const std::size_t k : held)
     resultant.leastFriction = std::max(resultant.leastFriction, ratio(k));
-  check(MPI_Allreduce(MPI_IN_PLACE, &resultant.leastFriction, 1, MPI_DOUBLE, MPI_MAX, comm));
+  resultant.leastFriction = mpi::max(comm, resultant.leastFriction);
   std::vector<Point> worst;
   for (const std::size_t k : held)
     if (ratio(k) >= (1 - 1e-9) * resultant.leastFriction)
       worst.push_back(contact.interfaces.nodes[k].position);
   resultant.worst = firstOf(comm, worst);
   for (PetscInt* count : {&resultant.released, &resultant.unheld, &resultant.overLimit})
-    check(MPI_Allreduce(MPI_IN_PLACE, count, 1, MPIU_INT, MPI_SUM, comm));
+    *count = mpi::sum(comm, *count);
 }
 
 }  // namespace
@@ -138,9 +139,8 @@ Resultant resultantOf(const contact::Contact& contact, int interface, const Solu
     side = node.side;
     for (const auto& [part, share] : node.masterParts) isMaster[part] = 1;
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, isMaster.data(), isMaster.size(), MPI_UNSIGNED_CHAR, MPI_MAX,
-                      mesh.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &side, 1, MPI_INT, MPI_MIN, mesh.comm));
+  mpi::reduce<unsigned char>(mesh.comm, isMaster, MPI_MAX);
+  side = mpi::min(mesh.comm, side);
   const bool onObstacle = contact.interfaces.options[interface].onObstacle();
   Point moments[2]{};  // about the origin, on pad and disc
   for (const bool tangential : {false, true}) {
@@ -170,7 +170,7 @@ Resultant resultantOf(const contact::Contact& contact, int interface, const Solu
   if (contact.interfaces.options[interface].role == contact::Role::sticking)
     addSticking(contact, interface, solution, resultant);
   for (Point* sum : {&resultant.normalForce, &resultant.frictionForce, &moments[0], &moments[1]})
-    check(MPI_Allreduce(MPI_IN_PLACE, sum->data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm));
+    mpi::reduce<double>(mesh.comm, *sum, MPI_SUM);
   resultant.moment = moments[0];
   resultant.momentDefect = onObstacle ? 0 : mesh::length(mesh::plus(moments[0], moments[1]));
   return resultant;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/contact/build.hpp"
 #include "model/contact/loose.hpp"
@@ -43,7 +44,7 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
       diagonal_(elasticity::nodalVector(mesh)) {
   check(MatGetDiagonal(bodies.stiffness, diagonal_));
   int released = std::count(sticking_.holds.begin(), sticking_.holds.end(), Hold::released);
-  check(MPI_Allreduce(MPI_IN_PLACE, &released, 1, MPI_INT, MPI_MAX, mesh.comm));
+  released = mpi::max(mesh.comm, released);
   anyReleased_ = released > 0;
   if (!contact.sliding.convected) return;
   check(MatMatMult(contact.sliding.jump, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
@@ -321,7 +322,7 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
     largest = std::max(largest, std::abs(state.normalForce));
     solution.contact.push_back(state);
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm));
+  largest = mpi::max(mesh_.comm, largest);
   double smallest = INFINITY;
   // SNES leaves a force of the order of its tolerance at an open gap.
   solution.negligibleForce = std::max(1e-8 * largest, 10 * noise);
@@ -331,8 +332,8 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
     solution.openNodes += !closed;
     smallest = std::min(smallest, state.pressure);
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, &solution.openNodes, 1, MPIU_INT, MPI_SUM, mesh_.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm));
+  solution.openNodes = mpi::sum(mesh_.comm, solution.openNodes);
+  smallest = mpi::min(mesh_.comm, smallest);
   solution.smallestPressure = contact_.interfaces.totalNodes ? smallest : 0;
   if (solution.converged)
     contact::requireSlip(contact_, solution.slip, solution.closed, solution.at.friction);
@@ -384,7 +385,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
       at(part, 2, d) += loads[row];
       sums.back() += std::abs(contacts[row]) + std::abs(support) + std::abs(loads[row]);
     }
-  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, mesh_.comm));
+  mpi::reduce<double>(mesh_.comm, sums, MPI_SUM);
   double worst = 0;
   for (int part = 0; part < mesh_.parts; ++part) {
     double rest = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "model/mesh/vector.hpp"
 #include "steady/steady/steady.hpp"
 
@@ -31,7 +32,7 @@ std::vector<Point> tangentialJumps(const contact::Contact& contact, Vec displace
 double largestLength(MPI_Comm comm, const std::vector<Point>& points) {
   double largest = 0;
   for (const auto& point : points) largest = std::max(largest, mesh::length(point));
-  check(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm));
+  largest = mpi::max(comm, largest);
   return largest;
 }
 
