@@ -47,7 +47,7 @@ class Folders(unittest.TestCase):
         (self.place / "link").symlink_to(self.place / "notes")
         (self.place / "root").symlink_to("/")
         os.mkfifo(self.place / "pipe")
-        root, foreign = "is the root of the file system", "is not empty and holds no earlier results"
+        root, foreign = "is the root of the file system", "is not empty and contains no earlier results"
         home = tempfile.TemporaryDirectory()  # FLTK writes there as well
         self.addCleanup(home.cleanup)
         (Path(home.name) / "notes.txt").write_text("mine")
@@ -63,7 +63,7 @@ class Folders(unittest.TestCase):
         self.assertFalse(any(Path("/").glob("*.csv")))
 
     def test_folders_that_are_taken(self):
-        """New, empty, one with results, one that holds the log of events of this run, one that a case names."""
+        """New, empty, one with results, one with the event log of this run, one that a case names."""
         (self.place / "logged").mkdir()
         for folder in ("results/case", "results/other", "named"):
             (self.place / folder).mkdir(parents=True)
@@ -79,7 +79,7 @@ class Folders(unittest.TestCase):
         for folder in ("results/case", "named"):
             self.assertEqual((self.place / folder / "notes.txt").read_text(), "mine")
             self.assertTrue((self.place / folder / "summary.json").exists())
-        self.refused("is not empty and holds no earlier results", "-options_file", "case.yaml", "-report_dir", "results/other", ranks=[1], cwd=self.place)
+        self.refused("is not empty and contains no earlier results", "-options_file", "case.yaml", "-report_dir", "results/other", ranks=[1], cwd=self.place)
         self.refused("/ is the root of the file system", "-options_file", "of_root.yaml", ranks=[2], cwd=self.place)
 
     def test_checkpoints_are_regular_files(self):

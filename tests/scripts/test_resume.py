@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs that are cut off and continued, and the log of events: test_resume.py PROGRAM MPIEXEC.
+"""Runs that are cut off and resumed, and the event log: test_resume.py PROGRAM MPIEXEC.
 
 With SQUEAL_LONG in the environment, five random moments of several kinds of runs instead of one moment of one.
 """
@@ -185,7 +185,7 @@ class Resumed(unittest.TestCase):
         ):
             run = Run(self.folder, [*BRAKE, "-resume", *words], ranks)
             self.assertEqual(run.finish(), 1)
-            self.assertIn(f"squeal: error: option -resume: the checkpoint in {entry.parent} is of another run: {message}", run.text())
+            self.assertIn(f"squeal: error: option -resume: the checkpoint in {entry.parent} belongs to another run: {message}", run.text())
             self.expect_kept(before)
         damaged = bytearray(entry.read_bytes())
         damaged[-100] ^= 1
@@ -233,7 +233,7 @@ class Resumed(unittest.TestCase):
         mine.write_text("mine")
         run = subprocess.run([PROGRAM, *map(str, BRAKE), "-report_dir", self.folder, "-log_json", mine], capture_output=True, text=True)
         self.assertEqual((run.returncode, mine.read_text()), (1, "mine"))
-        self.assertIn("is there already and is no log of events", run.stderr)
+        self.assertIn("already exists and is not an event log", run.stderr)
 
     @unittest.skipUnless(LONG, "five random moments of each kind of run: SQUEAL_LONG")
     def test_random_moments(self):

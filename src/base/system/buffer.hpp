@@ -1,5 +1,5 @@
 #pragma once
-/// This file holds the messages that carry meshes and matrices between processes.
+/// Messages that carry meshes and matrices between processes.
 #include <cstring>
 #include <string>
 #include <type_traits>
@@ -7,8 +7,8 @@
 
 namespace squeal {
 
-/// A Buffer is a flat message of numbers and texts. They are taken in the order and with the types
-/// in which they were put; nothing checks this.
+/// A flat message of numbers and texts. Take them in the order and with the types in which they
+/// were put; nothing checks this.
 class Buffer {
  public:
   template <class Number>

@@ -1,4 +1,4 @@
-// Which folders a run takes, and what it does where something else than a regular file has the name
+// Which folders a run takes, and what it does if anything except a regular file has the name
 // of one of its own.
 #include "base/output/folder.hpp"
 
@@ -67,8 +67,9 @@ TEST(Folder, RefusesOneWithFilesOfOthers) {
     for (const fs::path& path : {place.path, place.path / "", place.path / "." / ""}) {
       const std::string message = errorOf([&] { run(path, fresh); });
       EXPECT_NE(message.find(place.path.string()), std::string::npos) << message;
-      EXPECT_NE(message.find(" is not empty and holds no earlier results: a run writes into a new"),
-                std::string::npos)
+      EXPECT_NE(
+          message.find(" is not empty and contains no earlier results: a run writes only to a new"),
+          std::string::npos)
           << message;
     }
     EXPECT_EQ(filesIn(place.path), (Files{{name, "mine"}}));
@@ -104,7 +105,7 @@ TEST(Folder, RefusesTheRootAndWhatIsNoFolder) {
            {"", "the name of the folder is empty"},
            {place.path / "file", "file is a regular file, not a folder"},
            {place.path / "file/sub", "file is a regular file, not a folder"},
-           {place.path / "to_file", "to_file is a link to something else than a folder"},
+           {place.path / "to_file", "to_file is a link, but not to a folder"},
            {place.path / "pipe", "pipe is a named pipe, not a folder"},
            {place.path / "to_nothing", "nowhere, which does not exist"},
            {place.path / "to_nothing/sub", "nowhere, which does not exist"}}) {
@@ -125,7 +126,7 @@ TEST(Folder, RefusesTheRootAndWhatIsNoFolder) {
 
 // --- what has the name of a file of ours, and is none ---
 
-/// Puts something else than a file of ours there, on rank 0. A hard link is one of the foreign
+/// Puts anything except a file of ours there, on rank 0. A hard link is one of the foreign
 /// file.
 void plant(const std::string& kind, const fs::path& path, const fs::path& foreign) {
   if (first()) {

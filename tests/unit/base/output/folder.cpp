@@ -57,7 +57,7 @@ TEST(Folder, ReplacesWhatAnEarlierRunListsAndNothingElse) {
   put(folder, mine);
   run(folder, fresh);
   EXPECT_EQ(without(filesIn(folder), Manifest::name), both(fresh, mine));
-  EXPECT_FALSE(isThere(folder / "vtk" / "y"));  // was of the earlier run alone, and is empty
+  EXPECT_FALSE(isThere(folder / "vtk" / "y"));  // belonged only to the earlier run, and is empty
   run(folder, {{"summary.txt",
                 "third"}});  // leaves vtk/ with the user's file, and remembers that it is ours
   EXPECT_EQ(without(filesIn(folder), Manifest::name), both({{"summary.txt", "third"}}, mine));
@@ -194,8 +194,9 @@ TEST(Folder, RemovesNothingOutsideThatAManifestNames) {
     const test::Folder place;
     put(place.path, {{"mine.txt", "mine"}});
     putManifest(place.path / "results", {path});
-    EXPECT_NE(errorOf([&] { run(place.path / "results", fresh); }).find("no path in this folder"),
-              std::string::npos)
+    EXPECT_NE(
+        errorOf([&] { run(place.path / "results", fresh); }).find("not a path in this folder"),
+        std::string::npos)
         << path;
     EXPECT_EQ(filesIn(place.path)["mine.txt"], "mine");
   }

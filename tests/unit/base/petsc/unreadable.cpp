@@ -88,7 +88,7 @@ TEST(Unreadable, FilesWithoutPermissionSaySo) {
   }
 }
 
-// What is in a folder that cannot be entered is unknown, which is no reason to say that it is not.
+// A file in a folder that cannot be entered may exist; the message must not deny it.
 TEST(Unreadable, FoldersThatCannotBeEntered) {
   const std::string shut = SQUEAL_OUTPUT_DIR "/shut";
   if (rankHere() == 0) {

@@ -1,0 +1,159 @@
+#pragma once
+/// Serialises values to bytes and back, and broadcasts values of any serialisable type.
+#include <mpi.h>
+
+#include <cstring>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/system/error.hpp"
+#include "base/system/mpi.hpp"
+
+namespace squeal {
+
+/// Writes values consecutively as bytes, or reads them back in the same order. To make a type of
+/// several members serialisable, define `void fields(Stream&, T&)` in its namespace; it lists all
+/// members once, for both directions. Numbers and other trivially copyable types, lists, texts,
+/// optional values, pairs and maps of serialisable types are serialisable already.
+class Stream {
+ public:
+  /// Makes an empty stream to write to.
+  Stream() = default;
+  /// Takes bytes that another stream has written, to read from. `damage` is the message of the
+  /// Error that a read throws if the bytes do not contain the value.
+  explicit Stream(std::vector<char> bytes, std::string damage = "serialised values are damaged")
+      : bytes_(std::move(bytes)), damage_(std::move(damage)), reads_(true) {}
+  bool reads() const { return reads_; }
+  /// Returns true if all bytes have been read.
+  bool atEnd() const { return read_ == bytes_.size(); }
+  /// Returns the bytes written, as consecutive pieces; borrowed.
+  std::vector<std::span<const char>> pieces() const {
+    std::vector<std::span<const char>> all;
+    for (const auto& [bytes, borrowed, owner] : written_) {
+      all.emplace_back(bytes);
+      if (!borrowed.empty()) all.push_back(borrowed);
+    }
+    all.emplace_back(bytes_);
+    return all;
+  }
+  /// Returns a copy of the bytes written.
+  std::vector<char> bytes() const {
+    std::vector<char> all;
+    for (const auto& piece : pieces()) all.insert(all.end(), piece.begin(), piece.end());
+    return all;
+  }
+  /// Not collective. Writes bytes without a copy: the stream borrows them and shares `owner` during
+  /// its lifetime.
+  void borrow(std::span<const char> bytes, std::shared_ptr<const void> owner = {}) {
+    written_.push_back({std::move(bytes_), bytes, std::move(owner)});
+    bytes_.clear();
+  }
+  /// Not collective. Writes `size` bytes from `data`, or reads them to it. Throws Error if fewer
+  /// are left.
+  void raw(void* data, std::size_t size) {
+    if (!reads_) {
+      const auto* from = static_cast<const char*>(data);
+      bytes_.insert(bytes_.end(), from, from + size);
+      return;
+    }
+    if (size > bytes_.size() - read_) throw Error(damage_);
+    if (size > 0) std::memcpy(data, bytes_.data() + read_, size);
+    read_ += size;
+  }
+  /// Not collective. Writes or reads these values. Throws Error if the bytes do not contain them.
+  template <class... Values>
+  void operator()(Values&... values) {
+    (serialize(values), ...);
+  }
+
+ private:
+  template <class Value>
+  void serialize(Value& value) {
+    if constexpr (requires { fields(*this, value); }) {
+      fields(*this, value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
+      raw(&value, sizeof value);
+    }
+  }
+  /// Writes or reads a number of elements. Throws Error for more than there are bytes.
+  void serializeCount(std::size_t& count) {
+    serialize(count);
+    if (reads_ && count > bytes_.size()) throw Error(damage_);
+  }
+  template <class Value>
+  void serialize(std::vector<Value>& values) {
+    std::size_t count = values.size();
+    serializeCount(count);
+    if (reads_) values.resize(count);
+    if constexpr (std::is_trivially_copyable_v<Value> &&
+                  !requires(Stream & stream, Value & value) { fields(stream, value); })
+      raw(values.data(), count * sizeof(Value));
+    else
+      for (auto& value : values) serialize(value);
+  }
+  void serialize(std::string& text) {
+    std::size_t count = text.size();
+    serializeCount(count);
+    if (reads_) text.resize(count);
+    raw(text.data(), count);
+  }
+  template <class Value>
+  void serialize(std::optional<Value>& value) {
+    bool has = value.has_value();
+    serialize(has);
+    if (reads_ && has) value.emplace();
+    if (reads_ && !has) value.reset();
+    if (has) serialize(*value);
+  }
+  template <class First, class Second>
+  void serialize(std::pair<First, Second>& both) {
+    serialize(both.first);
+    serialize(both.second);
+  }
+  template <class Key, class Value>
+  void serialize(std::map<Key, Value>& values) {
+    std::vector<std::pair<Key, Value>> entries;
+    if (!reads_) entries.assign(values.begin(), values.end());
+    serialize(entries);
+    if (reads_) values = std::map<Key, Value>(entries.begin(), entries.end());
+  }
+
+  /// Bytes, followed by borrowed ones.
+  struct Written {
+    std::vector<char> bytes;
+    std::span<const char> borrowed;
+    std::shared_ptr<const void> owner;
+  };
+  std::vector<Written> written_;
+  std::vector<char> bytes_;  // the last ones written, or those to read
+  std::string damage_;
+  std::size_t read_ = 0;
+  bool reads_ = false;
+};
+
+/// Collective. Copies a value of any serialisable type from rank `root` to all ranks.
+template <class Value>
+void broadcast(MPI_Comm comm, Value& value, int root = 0) {
+  if (mpi::size(comm) == 1) return;
+  const bool sends = mpi::rank(comm) == root;
+  std::vector<char> bytes;
+  if (sends) {
+    Stream stream;
+    stream(value);
+    bytes = stream.bytes();
+  }
+  mpi::broadcast(comm, bytes, root);
+  if (sends) return;
+  Stream stream(std::move(bytes));
+  stream(value);
+  ensure(stream.atEnd(), "a broadcast value is read completely");
+}
+
+}  // namespace squeal
