@@ -63,9 +63,10 @@ TEST(Lists, ValuesAreReadToTheLastDigit) {
 
 // Before memory is taken for them.
 TEST(Lists, OfTooManyValuesAreRefused) {
-  EXPECT_TRUE(contains(errorOf([] { swept("0:1:1e-7"); }),
-                       "-probe_sweep 0:1:1e-7: 10000001 values; a list holds 100000 at most"));
-  EXPECT_TRUE(contains(errorOf([] { swept("0:1e9:1e-9"); }), "a list holds 100000 at most"));
+  EXPECT_TRUE(
+      contains(errorOf([] { swept("0:1:1e-7"); }),
+               "-probe_sweep 0:1:1e-7: 10000001 values; a list may contain at most 100000"));
+  EXPECT_TRUE(contains(errorOf([] { swept("0:1e9:1e-9"); }), "a list may contain at most 100000"));
   EXPECT_EQ(swept("1:100000:1").size(), 100000U);
 }
 
@@ -115,7 +116,7 @@ TEST(Lists, EmptyItemsAreRefused) {
   EXPECT_TRUE(contains(errorOf([] { list.list(); }), "-probe_list without a value"));
 }
 
-// Beside the options file that names it, then in the working folder; on the command line in the
+// Next to the options file that names it, then in the working folder; on the command line in the
 // working folder.
 TEST(Files, AreLookedForBesideTheOptionsFile) {
   const std::string folder = SQUEAL_OUTPUT_DIR "/beside here";
@@ -141,12 +142,12 @@ TEST(Files, AreLookedForBesideTheOptionsFile) {
   named("nosuch.msh");
   const auto missing = errorOf([] { rejectUnknownOptions(); });
   EXPECT_TRUE(contains(missing, "-probe_disc_file nosuch.msh") && contains(missing, "line 3") &&
-              contains(missing, "no such file") && contains(missing, "neither beside"))
+              contains(missing, "no such file") && contains(missing, "neither next to"))
       << missing;
   test::setOptions("-probe_disc_file probe.msh");
   const auto working = errorOf([] { rejectUnknownOptions(); });
   EXPECT_TRUE(contains(working, "-probe_disc_file probe.msh: there is no such file") &&
-              !contains(working, "beside"))
+              !contains(working, "next to"))
       << working;
   test::setOptions("-probe_disc_file meshes");
   EXPECT_TRUE(contains(errorOf([] { rejectUnknownOptions(); }), "this is a folder"));

@@ -82,8 +82,8 @@ TEST(Yaml, MistakesAreNamedWithTheirLine) {
       {"a: 1\nb: [1, 2\nc: 2\n", "line", "bracket left open"},
       {"- a\n- b\n", "line 1", "a list at the top"},
       {"hello\n", "line 1", "a text at the top"},
-      {"a: 1\nb: 2\na: 3\n", "line 3", "a second value of -a, which line 1 gives"},
-      {"a:\n  b: 1\na_b: 1\n", "line 3", "a second value of -a_b, which line 2 gives"},
+      {"a: 1\nb: 2\na: 3\n", "line 3", "a second value of -a, already set in line 1"},
+      {"a:\n  b: 1\na_b: 1\n", "line 3", "a second value of -a_b, already set in line 2"},
       {"a:\n  b: 1\nc: 2\na:\n  d: 1\n", "line 4", "'a' is given twice, first in line 1"},
       {"a:\n  b: {c: 1}\n  b: {d: 2}\n", "line 3", "'b' is given twice, first in line 2"},
       {"a: 1\na: {b: 2}\n", "line 2", "'a' is given twice, first in line 1"},
@@ -95,8 +95,8 @@ TEST(Yaml, MistakesAreNamedWithTheirLine) {
       {"a: 1\nb: !include c.yaml\n", "line 2", "tag '!include'"},
       {"a: 1\nb: {}\n", "line 2", "without entries"},
       {"a: 1\nb: []\n", "line 2", "list of -b is empty"},
-      {"a: 1\nb: [1, '', 2]\n", "line 2", "list of -b holds an empty item"},
-      {"a:\n  b: [1, [2, 3]]\n", "line 2", "list of -a_b holds a list"},
+      {"a: 1\nb: [1, '', 2]\n", "line 2", "list of -b contains an empty item"},
+      {"a:\n  b: [1, [2, 3]]\n", "line 2", "list of -a_b contains a list"},
       {"a: 1\n? [b]\n: 2\n", "line 2", "in place of a name"},
       {std::string("a: 1\nb: \0\1\2\n", 12), "line 2", "control characters"},
       {"a: 1\nb: \xff\xfe\n", "line 2", "UTF-8"},
@@ -141,19 +141,20 @@ TEST(Words, RefusedNamesAreGivenWithTheirRule) {
     return errorOf([&] { settingsOfCall({name, "1"}); });
   };
   const std::string is = "' is not the name of an option: ";
-  EXPECT_EQ(message("-contact_a,b_pad"),
-            "'contact_a,b_pad" + is + "it holds ',', which no name may hold; rename the group");
   EXPECT_EQ(
-      message("-material_disc#1_young"),
-      "'material_disc#1_young" + is + "it holds '#', which no name may hold; rename the group");
+      message("-contact_a,b_pad"),
+      "'contact_a,b_pad" + is + "it contains ',', which is not allowed in names; rename the group");
+  EXPECT_EQ(message("-material_disc#1_young"),
+            "'material_disc#1_young" + is +
+                "it contains '#', which is not allowed in names; rename the group");
   EXPECT_EQ(message("-material_a\x1b[31m_young"),
             "'material_a\x1b[31m_young" + is +
-                "it holds the control character \\u001b; rename the group");
+                "it contains the control character \\u001b; rename the group");
   EXPECT_EQ(yamlError("material:\n  disc:\n    young: 1\n"), "");
   const auto file = fileWith("material:\n  the disc:\n    young: 1\n", ".yaml");
   EXPECT_EQ(errorOf([&] { settingsOfFile(file); }),
             file + ", line 3: 'material_the disc_young" + is +
-                "it holds a blank; write _ for a blank in the name of a group");
+                "it contains a blank; write _ for a blank in the name of a group");
   EXPECT_TRUE(contains(message("-" + std::string(600, 'a')),
                        "is too long: 600 characters, at most 511 are allowed"));
   test::setOptions("-contact__pad top");
@@ -191,7 +192,7 @@ TEST(Words, StrayOnesAreNamedWithTheOptionBeforeThem) {
               contains(first, "-options_file disc_brake"))
       << first;
   EXPECT_TRUE(contains(message({"-a=1"}), "-a 1"));
-  EXPECT_TRUE(contains(message({"-my disc_young", "1"}), "it holds a blank"));
+  EXPECT_TRUE(contains(message({"-my disc_young", "1"}), "it contains a blank"));
   EXPECT_TRUE(contains(message({"-a", "1\n2"}), "line break"));
   EXPECT_TRUE(contains(message({"-a", "'\""}), "both kinds of quotes"));
   EXPECT_TRUE(contains(message({"-prefix_pop"}), "without -prefix_push"));
@@ -233,7 +234,7 @@ TEST(Files, MistakesAreNamedWithTheirLine) {
       {"alias -a -b\n", "line 1: 'alias' is not an option"},
       {"-help\n", "line 1: option -help belongs on the command line"},
       {"-skip_petscrc\n", "belongs on the command line"},
-      {"# nothing\n", "holds no option"}};
+      {"# nothing\n", "contains no option"}};
   for (const auto& [text, what] : mistakes) {
     const auto file = fileWith(text);
     const auto message = errorOf([&] { settingsOfFile(file); });
@@ -277,7 +278,7 @@ TEST(Files, CountInTheOrderInWhichTheyStand) {
   EXPECT_EQ(pairs(settingsOfCall({"-c", "0", "-options_file", base, "-a", "9"})),
             (Pairs{{"c", "0"}, {"a", "1"}, {"b", "1"}, {"c", "1"}, {"a", "9"}}));
   const auto loop = test::writeFile("loop.txt", "-options_file loop.txt\n");
-  EXPECT_TRUE(contains(errorOf([&] { settingsOfFile(loop); }), "reads itself"));
+  EXPECT_TRUE(contains(errorOf([&] { settingsOfFile(loop); }), "includes itself"));
 }
 
 TEST(Text, IsACommandLine) {
@@ -314,7 +315,7 @@ TEST(Database, KeepsValuesAsTheyAre) {
   clearOptions();
 }
 
-TEST(Database, KnowsWhereAValueStands) {
+TEST(Database, KnowsThePlaceOfAValue) {
   const auto file = test::writeFile("origin.yaml", "a:\n  b: 1\n");
   clearOptions();
   insertFile(PETSC_COMM_WORLD, file);
@@ -324,9 +325,9 @@ TEST(Database, KnowsWhereAValueStands) {
   clearOptions();
 }
 
-// A case that says one thing and a command line that says another are not settled in silence; the
-// same value twice is no conflict.
-TEST(Database, TellsWhichSettingsOfFilesWereReplaced) {
+// If the command line overrides a case, the program reports it; the same value twice is not a
+// conflict.
+TEST(Database, ReportsReplacedSettingsOfFiles) {
   const auto file =
       test::writeFile("replaced.yaml", "probe:\n  first: 1\n  second: 2\n  third: 3\n");
   clearOptions();
