@@ -18,9 +18,10 @@ namespace fs = std::filesystem;
 
 int rankHere() { return mpi::rank(PETSC_COMM_WORLD); }
 
+/// The folder of a checkpoint. Its parent is removed with it.
 fs::path folder(const std::string& name) {
   return fs::path(SQUEAL_OUTPUT_DIR) /
-         ("checkpoint_" + name + "_" + std::to_string(mpi::size(PETSC_COMM_WORLD)));
+         ("checkpoint_" + name + "_" + std::to_string(mpi::size(PETSC_COMM_WORLD))) / "entries";
 }
 
 /// Makes every call an entry, and leaves the option as it was.
@@ -180,7 +181,7 @@ TEST(Checkpoint, DamageIsFound) {
 
 TEST(Checkpoint, AFailedWriteDoesNotEndTheRun) {
   const EveryEntry all;
-  const fs::path file = folder("file");
+  const fs::path file = folder("file").parent_path();
   if (rankHere() == 0) std::ofstream(file) << "mine";
   MPI_Barrier(PETSC_COMM_WORLD);
   Checkpoint checkpoint(PETSC_COMM_WORLD, file / "inside", {{"a", "1"}}, false);

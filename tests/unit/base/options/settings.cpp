@@ -91,7 +91,7 @@ TEST(Yaml, MistakesAreNamedWithTheirLine) {
       {"a: &a {b: 1}\nc: &c {b: 2}\nd:\n  <<: *a\n  <<: *c\n", "line 5", "'<<' is given twice"},
       {"a: 1\n---\nb: 2\n", "line", "second document"},
       {"a: 1\nb: *c\n", "line 2", "undefined alias"},
-      {"a: 1\nb: &b\n  c: *b\n", "line", "alias hold itself"},
+      {"a: 1\nb: &b\n  c: *b\n", "line", "alias contain itself"},
       {"a: 1\nb: !include c.yaml\n", "line 2", "tag '!include'"},
       {"a: 1\nb: {}\n", "line 2", "without entries"},
       {"a: 1\nb: []\n", "line 2", "list of -b is empty"},
