@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 /// squeal: flutter of the steady sliding state of brakes. The method itself is
 /// squeal::analysis::analyse (src/analysis/analysis.cpp).
 #include <cstdio>
@@ -18,6 +19,7 @@
 #include "run/analysis/analysis.hpp"
 #include "run/analysis/dry_run.hpp"
 #include "run/report/report.hpp"
+#include "run/report/settings.hpp"
 
 namespace {
 
@@ -38,7 +40,7 @@ constexpr const char* usage =
     "Exit code: 0 done, 1 error, 2 a point or stage has no result, 3 stopped on request (SIGTERM, "
     "SIGUSR1; -resume continues).\n";
 
-/// Prints an error and writes it to the event log.
+/// Prints an error and reports it to other programs.
 void reportError(const squeal::Session& session, const std::string& message, bool onAllRanks) {
   squeal::logEvent("error", {{"text", message}});
   const squeal::ClearedLine away;
@@ -70,10 +72,11 @@ int run(const squeal::Session& session) try {
   }
   squeal::beginEvents(session.comm());
   squeal::report::Directory directory(session.comm());
-  if (squeal::matrices::exportWanted())
-    squeal::matrices::requireExportFolder(session.comm(), directory.path());
+  if (const auto settings = squeal::matrices::ExportSettings::given(); settings.wanted())
+    squeal::matrices::requireExportFolder(session.comm(), settings, directory.path());
   squeal::analysis::Analysis analysis =
-      squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint");
+      squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint",
+                                squeal::report::Settings::given().modes);
   try {
     squeal::report::write(analysis, directory);
   } catch (const squeal::Error&) {

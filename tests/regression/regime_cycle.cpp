@@ -82,7 +82,7 @@ TEST(RegimeCycle, RefusesByName) {
     EXPECT_NE(run.error.find(why), std::string::npos) << run.error;
   };
   refused({{"regime_cycle", "off"}}, "option -regime_cycle_steps");
-  refused({{"regime_boundary", "mass"}}, "-regime_boundary massless only");
+  refused({{"regime_boundary", "mass"}}, "only with -regime_boundary massless");
   refused({{"regime_cycle_range", "0.4,0.3"}}, "option -regime_cycle_range: two frictions");
   refused({{"regime_cycle_motions", "3"}}, "no branch is followed");
 }

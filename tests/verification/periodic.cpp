@@ -12,9 +12,9 @@
 namespace squeal {
 namespace {
 
-using cycles::Found;
 using cycles::Orbit;
 using cycles::Period;
+using cycles::ShootingResult;
 using test::massOnBelt;
 
 constexpr double flutter = 2 * M_PI / 1.422701;  // period of the unstable mode at friction 0.9
@@ -23,16 +23,17 @@ constexpr double tolerance = 1e-9;
 /// Returns the mean of a march as an orbit to begin with.
 Orbit guessOf(const march::ReducedModel& model, int steps) {
   const double h = flutter / 1024;
-  march::Massless scheme(model, march::handedAt({{0.05, 0.02}, {0, 0}, {0, 0}, {0, 0}}, h), h);
+  march::Massless scheme(model, march::initialStateAt({{0.05, 0.02}, {0, 0}, {0, 0}, {0, 0}}, h),
+                         h);
   cycles::Section section(model, {1, -1}, flutter);
-  while (scheme.state().time < 60) scheme.step(), section.look(scheme);
+  while (scheme.state().time < 60) scheme.step(), section.inspect(scheme);
   Orbit orbit = cycles::firstOrbits(section.take(), h, steps).at(0);
   orbit.friction = 0.9;
   return orbit;
 }
 
-Found shot(Period& period) {
-  return cycles::shoot(period, guessOf(period.model(), period.steps()), tolerance);
+ShootingResult shot(Period& period) {
+  return cycles::shoot(period, guessOf(period.model(), period.steps()), {tolerance});
 }
 
 Complex product(const std::vector<Complex>& values) {
@@ -79,7 +80,7 @@ TEST(Periodic, MassOnABelt) {
   for (const int steps : {512, 2048}) {
     const double h = 4.5601505 / steps;
     Period period(PETSC_COMM_SELF, massOnBelt(1), 0.9, steps);
-    const Found found = shot(period);
+    const ShootingResult found = shot(period);
     ASSERT_TRUE(found.converged);
     EXPECT_LT(found.change, tolerance);
     EXPECT_NEAR(found.orbit.period, 4.5601505, h / 50);
@@ -101,7 +102,7 @@ TEST(Periodic, MassOnASlowBelt) {
   auto model = massOnBelt(0.1);
   model.boundaryStiffness(1, 1) = 1e4;
   Period period(PETSC_COMM_SELF, model, 0.9, 2048);
-  const Found found = shot(period);
+  const ShootingResult found = shot(period);
   ASSERT_TRUE(found.converged);
   EXPECT_NEAR(found.orbit.period, 4.5952294, 2e-4);
   EXPECT_EQ(found.measures.sticking, 1);
@@ -113,17 +114,18 @@ TEST(Periodic, MassOnASlowBelt) {
 // Followed downwards the branch ends where motions become linear, which is where the mode is
 // neutral: the belt's stiffness has the eigenvalues μ = 2 ± √(1 − 4 f/3), and s² + 0.05 s + μ = 0
 // has an imaginary root for |Im μ| = 0.05 √(Re μ), at f = (1 + 0.05² · 2) · 3/4. The leapfrog rule
-// keeps it, as it keeps the damping; the last motion that touches a limit lies a step away.
+// keeps it, as it keeps the damping; the last motion that touches a limit lies a step aroute.
 TEST(Periodic, BranchEndsAtTheOnsetOfFlutter) {
   Period period(PETSC_COMM_SELF, massOnBelt(1), 0.9, 1024);
-  const Found found = shot(period);
+  const ShootingResult found = shot(period);
   ASSERT_TRUE(found.converged);
   std::vector<Orbit> motions;
-  const auto way = cycles::follow(period, found, false, {0.1, 2, 40, tolerance}, {},
-                                  [&](const Found& motion) { motions.push_back(motion.orbit); });
-  EXPECT_EQ(way.reason, "the motion touches no limit of the contact");
-  EXPECT_NEAR(way.end, 0.75375, 1e-4);
-  EXPECT_TRUE(way.folds.empty());
+  const auto route =
+      cycles::follow(period, found, false, {0.1, 2, 40, tolerance}, {},
+                     [&](const ShootingResult& motion) { motions.push_back(motion.orbit); });
+  EXPECT_EQ(route.reason, "the motion touches no limit of the contact");
+  EXPECT_NEAR(route.end, 0.75375, 1e-4);
+  EXPECT_TRUE(route.folds.empty());
   // At the friction of one of these motions a model made there has the same one: forces of steady
   // sliding at another friction are no more than a reference.
   ASSERT_GT(motions.size(), 2u);
@@ -133,7 +135,7 @@ TEST(Periodic, BranchEndsAtTheOnsetOfFlutter) {
   Period there(PETSC_COMM_SELF, model, motions[1].friction, 1024);
   Orbit guess = guessOf(model, 1024);
   guess.friction = motions[1].friction;
-  const Found same = cycles::shoot(there, guess, tolerance);
+  const ShootingResult same = cycles::shoot(there, guess, {tolerance});
   ASSERT_TRUE(same.converged);
   // Both begin where the phase condition puts them; the step makes a period depend on that.
   EXPECT_NEAR(same.orbit.period, motions[1].period, 1e-4);

@@ -6,13 +6,9 @@
 #include <vector>
 
 #include "eigen/pencil/pencil.hpp"
+#include "problem/matrices/settings.hpp"
 
 namespace squeal::matrices {
-
-/// Returns true if a `-matrices_<name>_file` is given. Throws Error if options of the stages of a
-/// mesh are given as well, or if another `-matrices_<name>_*` option is given for a name without a
-/// file.
-bool wanted();
 
 /// A term of the pencil and where it comes from.
 struct NamedTerm {
@@ -22,7 +18,7 @@ struct NamedTerm {
 
 /// Collective. Returns the terms of all `-matrices_<name>_file`. Throws Error as read() does,
 /// naming the option, and for matrices of different sizes.
-std::vector<NamedTerm> readTerms(MPI_Comm comm);
+std::vector<NamedTerm> readTerms(MPI_Comm comm, const Settings& settings);
 
 /// Collective. Returns the relative departure from symmetry in the Frobenius norm,
 ///   ‖A − Aᵀ‖ / ‖A‖,

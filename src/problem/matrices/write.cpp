@@ -25,14 +25,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const TextOption folderOption("report", "report_matrices", "",
-                              "folder for the matrices of the problem and an options file that "
-                              "solves it from them; none: off");
-const ChoiceOption formatOption("report", "report_matrices_format", {"petsc", "matrix_market"},
-                                "petsc", "format of these matrices");
-
 const char* const heading = "# Matrices of one problem, for squeal -options_file";
-std::string blame() { return "option -report_matrices " + folderOption.get() + ": "; }
+std::string blame(const ExportSettings& settings) {
+  return "option -report_matrices " + settings.folder + ": ";
+}
 
 std::string roleOf(const pencil::Term& term) {
   return term.power == 2 ? "mass" : term.power == 1 ? "damping" : "stiffness";
@@ -81,11 +77,11 @@ matrixfile::Entries entriesOf(Mat matrix) {
 
 /// Collective. Writes a matrix: in Matrix Market format if the name ends with .mtx, and otherwise
 /// in that of PETSc.
-void writeMatrix(Mat matrix, const fs::path& path) {
+void writeMatrix(Mat matrix, const fs::path& path, const std::string& blame) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
   if (path.extension() == ".mtx") {
     const OwnedMat whole = linalg::onRankZero(matrix);
-    onFirstRank(comm, blame(), [&] { matrixfile::writeMatrixMarket(path, entriesOf(whole)); });
+    onFirstRank(comm, blame, [&] { matrixfile::writeMatrixMarket(path, entriesOf(whole)); });
     return;
   }
   // The bytes are those of header, length and columns of the rows, and values. On a full disc PETSc
@@ -96,7 +92,7 @@ void writeMatrix(Mat matrix, const fs::path& path) {
   check(MatGetSize(matrix, &rows, nullptr));
   const unsigned long long entries = info.nz_used;
   const auto bytes = (4 + entries + rows) * sizeof(PetscInt) + entries * sizeof(PetscScalar);
-  onFirstRank(comm, blame(), [&] { output::reserve(path, bytes); });
+  onFirstRank(comm, blame, [&] { output::reserve(path, bytes); });
   OwnedViewer viewer;
   check(PetscViewerCreate(comm, viewer.out()));
   check(PetscViewerSetType(viewer, PETSCVIEWERBINARY));
@@ -150,45 +146,42 @@ bool isExport(const fs::path& path) {
          std::regex_match(path.string(), matrix);
 }
 
-output::Naming naming() {
-  const std::string folder = folderOption.get();
+output::Naming naming(const ExportSettings& settings) {
   return {.option = "-report_matrices",
           .last = "options.txt",
           .mayWrite = isExport,
-          .ofCase = !origin("report_matrices", folder).file.empty()};
+          .ofCase = settings.folderOfCase};
 }
 
 }  // namespace
 
-bool exportWanted() { return !folderOption.get().empty(); }
-
-void requireExportFolder(MPI_Comm comm, const fs::path& results) {
+void requireExportFolder(MPI_Comm comm, const ExportSettings& settings, const fs::path& results) {
   const auto place = [](const fs::path& folder) {
     return fs::weakly_canonical(fs::absolute(folder)) / "";
   };
-  if (place(results) == place(folderOption.get()))  // it has an options.txt of its own
-    throw Error(blame() + "is the folder of the results; name another one");
-  const output::Folder folder(comm, naming(), folderOption.get());
+  if (place(results) == place(settings.folder))  // it has an options.txt of its own
+    throw Error(blame(settings) + "is the folder of the results; name another one");
+  const output::Folder folder(comm, naming(settings), settings.folder);
 }
 
-void exportPencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep,
-                  std::size_t steadyPoints) {
+void exportPencil(const pencil::Pencil& pencil, const ExportSettings& settings,
+                  const sweep::Sweep& sweep, std::size_t steadyPoints) {
   requireOnePencil(pencil, sweep, steadyPoints);
   Stage stage(pencil.comm(), "matrices");
-  output::Folder folder(pencil.comm(), naming(), folderOption.get());
+  output::Folder folder(pencil.comm(), naming(settings), settings.folder);
   folder.stage();
-  const std::string extension = formatOption.get() == "petsc" ? ".petsc" : ".mtx";
+  const std::string extension = settings.format == ExportFormat::petsc ? ".petsc" : ".mtx";
   std::set<std::string> taken;
   std::string text =
       std::string(heading) + "; the rows are in the order of the run that wrote them\n";
   for (const auto& term : pencil.terms()) {
     const std::string name = nameOf(term, taken);
     const auto path = folder.staging() / (name + extension);
-    writeMatrix(term.matrix, path);
+    writeMatrix(term.matrix, path, blame(settings));
     text += optionsOf(name, term, path.filename());
   }
   text += carriedOptions();
-  onFirstRank(pencil.comm(), blame(),
+  onFirstRank(pencil.comm(), blame(settings),
               [&] { output::writeFile(folder.staging() / "options.txt", text); });
   folder.commit();
   stage.finish(formatted("%zu matrices in %s", pencil.terms().size(), folder.path().c_str()));

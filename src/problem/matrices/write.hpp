@@ -6,15 +6,14 @@
 
 #include "eigen/pencil/pencil.hpp"
 #include "eigen/sweep/sweep.hpp"
+#include "problem/matrices/settings.hpp"
 
 namespace squeal::matrices {
 
-/// Returns true if `-report_matrices` is given.
-bool exportWanted();
-
 /// Collective. Call it before work begins. Throws Error if the folder of `-report_matrices` is that
 /// of the results or cannot be written, or if something in it is in the way.
-void requireExportFolder(MPI_Comm comm, const std::filesystem::path& results);
+void requireExportFolder(MPI_Comm comm, const ExportSettings& settings,
+                         const std::filesystem::path& results);
 
 /// Collective. Writes the matrices of the pencil to the folder of `-report_matrices`, and
 /// options.txt, an -options_file that solves it again. Terms that belong to one point of the
@@ -22,7 +21,7 @@ void requireExportFolder(MPI_Comm comm, const std::filesystem::path& results);
 /// steady states of the sweep that the pencil is for. Throws Error if that is not all of them, if
 /// there are such terms and a sweep of several points, and if the folder or a file cannot be
 /// written.
-void exportPencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep,
-                  std::size_t steadyPoints);
+void exportPencil(const pencil::Pencil& pencil, const ExportSettings& settings,
+                  const sweep::Sweep& sweep, std::size_t steadyPoints);
 
 }  // namespace squeal::matrices

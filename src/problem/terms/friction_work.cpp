@@ -56,11 +56,12 @@ FrictionState frictionState(const contact::Contact& contact, const sweep::Parame
   return {at, std::move(slip), std::move(response)};
 }
 
-FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution) {
+FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution,
+                            const Settings& settings) {
   std::vector<double> normalForce;
   for (const auto& state : solution.contact) normalForce.push_back(state.normalForce);
   return frictionState(contact, solution.at, solution.slip,
-                       responseForces(solution.closed, normalForce));
+                       responseForces(solution.closed, normalForce, settings));
 }
 
 std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const FrictionState& state,

@@ -8,6 +8,7 @@
 #include "eigen/sweep/parameters.hpp"
 #include "model/contact/contact.hpp"
 #include "model/elasticity/elasticity.hpp"
+#include "problem/terms/settings.hpp"
 #include "steady/steady/steady.hpp"
 
 namespace squeal::terms {
@@ -57,7 +58,8 @@ FrictionState frictionState(const contact::Contact& contact, const sweep::Parame
                             std::vector<contact::Slip> slip,
                             const std::vector<double>& responseForce);
 /// Collective. Returns the data of friction of the steady state.
-FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution);
+FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution,
+                            const Settings& settings);
 
 /// The form −[w]ᴴ R_T* of a contact node for a test jump [w] has two parts, with [4.7]
 ///   R_T* = −f φ r_N* τ − B (s [u] − v D u_D).

@@ -14,10 +14,10 @@ constexpr double step = 1e-4;
 
 /// Returns true if the steady state enters the terms of the point by the direction and law of slip,
 /// by friction damping or by prestress.
-bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters& at,
-                        Mat prestress) {
+bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters& at, Mat prestress,
+                        const Settings& settings) {
   const bool damping =
-      frictionDampingWanted() && (contact.mesh->dimension == 3 || !contact.law.constant());
+      settings.frictionDamping && (contact.mesh->dimension == 3 || !contact.law.constant());
   return prestress || (contact.hasFriction(at.friction) && (damping || !contact.slipIsGiven()));
 }
 
@@ -79,7 +79,7 @@ std::vector<Influences::Influence> Influences::influences(const BodyPoint& state
       list.back().name = (density ? "density_" : "young_") + mesh_.bodies[body];
       list.back().body = body, list.back().density = density;
     }
-  if (!followsSteadyState(contact_, state.at, state.prestress)) return list;
+  if (!followsSteadyState(contact_, state.at, state.prestress, settings_)) return list;
   const steady::Problem problem(mesh_, bodies_, contact_);
   for (auto& influence : list)
     if (influence.member != &sweep::Parameters::damping)
@@ -117,7 +117,8 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
       check(MatMult(part.stiffness, state.solution.displacement, force));
   }
   influence.change = steady::change(problem, state.solution, state.system, cause);
-  influence.responseForce = responseForces(state.solution.closed, influence.change.normalForce);
+  influence.responseForce =
+      responseForces(state.solution.closed, influence.change.normalForce, settings_);
   if (state.prestress)
     influence.prestress = elasticity::geometricStiffness(mesh_, influence.change.displacement);
 }
@@ -189,7 +190,7 @@ Complex Influences::steadyForm(const Influence& influence, const BodyPoint& stat
     std::vector<double> force;
     for (std::size_t k = 0; k < influence.responseForce.size(); ++k)
       force.push_back(state.solution.contact[k].normalForce);
-    force = responseForces(state.solution.closed, std::move(force));
+    force = responseForces(state.solution.closed, std::move(force), settings_);
     for (std::size_t k = 0; k < force.size(); ++k)
       force[k] += sign * h * influence.responseForce[k];
     FrictionState moved = frictionState(contact_, at, contact_.slip(at.speed, u), force);

@@ -29,10 +29,10 @@ struct BodyPoint {
 /// Computes total derivatives of eigenvalues.
 class Influences {
  public:
-  /// Borrows all arguments during the life of the object.
+  /// Borrows mesh, bodies and contact during the life of the object.
   Influences(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-             const contact::Contact& contact)
-      : mesh_(mesh), bodies_(bodies), contact_(contact) {}
+             const contact::Contact& contact, const Settings& settings)
+      : mesh_(mesh), bodies_(bodies), contact_(contact), settings_(settings) {}
 
   /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point, whose
   /// terms the pencil holds. The derivatives [M.46] include the terms that follow the steady state;
@@ -58,6 +58,7 @@ class Influences {
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;
   const contact::Contact& contact_;
+  Settings settings_;
   std::vector<elasticity::BodyPart> parts_;  // [body], made when first needed
 };
 

@@ -1,15 +1,9 @@
 #include "problem/terms/terms.hpp"
 
-#include "base/options/options.hpp"
 #include "problem/terms/friction_work.hpp"
 
 namespace squeal::terms {
 namespace {
-
-const FlagOption dampingOption("flutter", "flutter_friction_damping", true,
-                               "the friction force turns with the relative velocity and follows "
-                               "the friction law: friction-induced "
-                               "damping and, with convective terms, stiffness");
 
 /// The exponents of s, of the speed and of the damping factor for a matrix of the bodies.
 struct Role {
@@ -46,8 +40,9 @@ void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& conta
 
 /// Appends the terms of the change −B w* of the friction force [4.7, M.21].
 void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contact& contact,
-                         const contact::CoupledSystem& system, const steady::Solution& solution) {
-  const FrictionState friction = frictionState(contact, solution);
+                         const contact::CoupledSystem& system, const steady::Solution& solution,
+                         const Settings& settings) {
+  const FrictionState friction = frictionState(contact, solution, settings);
   const Mat trial = system.transformation().trial;
   OwnedMat jumps, answered, damping;
   check(MatMatMult(contact.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
@@ -92,12 +87,14 @@ std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
 
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const contact::CoupledSystem& system,
-                                     const steady::Solution& solution, Mat prestressChange) {
+                                     const steady::Solution& solution, Mat prestressChange,
+                                     const Settings& settings) {
   std::vector<pencil::Term> terms;
   const bool friction = contact.hasFriction(solution.at.friction);
   if (friction && !contact.slipIsGiven())
     addFriction(terms, contact, system, solution.slip, solution.closed);
-  if (friction && dampingOption.get()) addVelocityResponse(terms, contact, system, solution);
+  if (friction && settings.frictionDamping)
+    addVelocityResponse(terms, contact, system, solution, settings);
   if (prestressChange) {
     contact::Projection change =
         contact::project(contact, system.transformation(), prestressChange);
@@ -107,11 +104,9 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
   return terms;
 }
 
-bool frictionDampingWanted() { return dampingOption.get(); }
-
 std::vector<double> responseForces(const std::vector<unsigned char>& closed,
-                                   std::vector<double> normalForce) {
-  if (!dampingOption.get()) return std::vector<double>(normalForce.size(), 0.0);
+                                   std::vector<double> normalForce, const Settings& settings) {
+  if (!settings.frictionDamping) return std::vector<double>(normalForce.size(), 0.0);
   for (std::size_t i = 0; i < normalForce.size(); ++i)
     if (!closed[i]) normalForce[i] = 0;
   return normalForce;

@@ -3,6 +3,7 @@
 /// the steady state.
 #include "eigen/pencil/pencil.hpp"
 #include "model/contact/coupled.hpp"
+#include "problem/terms/settings.hpp"
 #include "steady/steady/steady.hpp"
 
 namespace squeal::terms {
@@ -26,17 +27,14 @@ std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
 ///   −v (J T)ᵀ B (D T) in K̄, the paper's f[B_T] + f[B_N], with convective terms.
 /// Both are left out where there is no friction. The last is `prestressChange`, N×N, the change of
 /// the geometric stiffness from that in `system`, with the friction that it causes; null: none.
-/// Without
-/// `-flutter_friction_damping` the friction force changes by R_T* = −f φ R_N* τ only.
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const contact::CoupledSystem& system,
-                                     const steady::Solution& solution, Mat prestressChange);
+                                     const steady::Solution& solution, Mat prestressChange,
+                                     const Settings& settings);
 
-/// Returns the option `-flutter_friction_damping`.
-bool frictionDampingWanted();
 /// Not collective. Returns the normal forces that enter B, [owned contact node], N: R_N at the
-/// `closed` nodes, zero at the others and without `-flutter_friction_damping`.
+/// `closed` nodes, zero at the others and without friction damping.
 std::vector<double> responseForces(const std::vector<unsigned char>& closed,
-                                   std::vector<double> normalForce);
+                                   std::vector<double> normalForce, const Settings& settings);
 
 }  // namespace squeal::terms

@@ -9,7 +9,7 @@
 namespace squeal::cycles {
 namespace {
 
-/// Returns where the cubic through two values with these slopes, a distance apart, turns back.
+/// Returns the extremum of the cubic through two values with these slopes, a distance apart.
 double turningPoint(double f0, double slope0, double f1, double slope1, double distance) {
   // f = f0 + distance (slope0 t + b t² + a t³), with its extremum at 0 < t < 1.
   const double mean = (f1 - f0) / distance, a = slope0 + slope1 - 2 * mean,
@@ -20,59 +20,70 @@ double turningPoint(double f0, double slope0, double f1, double slope1, double d
   return f0 + distance * t * (slope0 + t * (b + t * a));
 }
 
+/// Returns the next motion for a guess on the tangent, and sets why there is none.
+ShootingResult correct(const Period& period, const Orbit& guess, const ShootingRequest& request,
+                       std::string& failure) {
+  if (!(guess.friction > 0)) return {};
+  try {
+    return shoot(period, guess, request);
+  } catch (const Error& error) {  // a motion without bound: a shorter step may find one
+    failure = std::string(": ") + error.what();
+    return {};
+  }
+}
+
+/// Returns why the branch ends at a motion; empty: it does not.
+std::string endAt(const ShootingResult& motion, const ContinuationLimits& limits) {
+  const double friction = motion.orbit.friction;
+  if (friction < limits.lowest || friction > limits.highest) return "the end of the range";
+  if (motion.measures.linear) return "the motion touches no limit of the contact";
+  return "";
+}
+
 }  // namespace
 
-Way follow(Period& period, const Found& first, bool upwards, const Reach& reach, const Told& told,
-           const std::function<void(const Found&)>& look) {
-  Way way;
-  Found last = first;
+Route follow(const Period& period, const ShootingResult& first, bool upwards,
+             const ContinuationLimits& limits, const Progress& progress,
+             const std::function<void(const ShootingResult&)>& inspect) {
+  Route route;
+  ShootingResult last = first;
   Direction tangent(2 * period.model().modes() + 2);
   tangent.back() = upwards ? 1 : -1;
   tangent = last.linearisation->tangent(tangent);
   // The length of a step along the branch, relative to the norm of the motion.
   constexpr double firstStep = 0.02, shortest = 1e-4, longest = 0.2;
   int motions = 0;
-  for (double length = firstStep; motions < reach.most;) {
-    way.end = last.orbit.friction;
+  for (double length = firstStep; motions < limits.most;) {
+    route.end = last.orbit.friction;
     const double step = length * norm(period.model(), last.orbit.start);
     const Orbit guess = last.linearisation->along(last.orbit, tangent, step);
-    Found next;
     std::string failure;
-    if (guess.friction > 0) try {
-        next = shoot(period, guess, reach.tolerance, told, tangent, last.linearisation);
-      } catch (const Error& error) {  // a motion without bound: a shorter step may find one
-        next = {}, failure = std::string(": ") + error.what();
-      }
+    ShootingResult next =
+        correct(period, guess, {limits.tolerance, progress, tangent, last.linearisation}, failure);
     if (!next.converged) {
       length /= 2;
       if (length >= shortest) continue;
-      way.reason = "Newton's method fails" + failure;
-      return way;
+      route.reason = "Newton's method fails" + failure;
+      return route;
     }
-    if (next.orbit.friction < reach.lowest || next.orbit.friction > reach.highest) {
-      way.end = std::clamp(next.orbit.friction, reach.lowest, reach.highest);
-      way.reason = "the end of the range";
-      return way;
-    }
-    if (next.measures.linear) {
-      way.end = next.orbit.friction;
-      way.reason = "the motion touches no limit of the contact";
-      return way;
+    if (route.reason = endAt(next, limits); !route.reason.empty()) {
+      route.end = std::clamp(next.orbit.friction, limits.lowest, limits.highest);
+      return route;
     }
     if (next.derivatives <= 2) length = std::min(longest, 1.5 * length);
     if (next.derivatives > 4) length /= 2;
     const double before = last.linearisation->frictionAlong(tangent);
     tangent = next.linearisation->tangent(tangent);
     if (const double after = next.linearisation->frictionAlong(tangent); before * after < 0)
-      way.folds.push_back(
+      route.folds.push_back(
           turningPoint(last.orbit.friction, before, next.orbit.friction, after, step));
-    look(next);
+    inspect(next);
     last = std::move(next);
     ++motions;
   }
-  way.end = last.orbit.friction;
-  way.reason = "the most motions that are wanted";
-  return way;
+  route.end = last.orbit.friction;
+  route.reason = "the most motions that are wanted";
+  return route;
 }
 
 }  // namespace squeal::cycles

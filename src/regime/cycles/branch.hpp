@@ -1,6 +1,6 @@
 #pragma once
-/// A branch of periodic motions is followed over the friction, through folds, where the branch
-/// turns back and its motions lose or regain stability [M.78].
+/// Continuation of a branch of periodic motions over the friction, through folds, at which the
+/// branch turns back and its motions lose or regain stability [M.78].
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,24 +9,24 @@
 
 namespace squeal::cycles {
 
-/// Where and how far a branch is followed.
-struct Reach {
+struct ContinuationLimits {
   double lowest = 0, highest = 0;  ///< friction
-  int most = 0;                    ///< motions in each direction
+  int most = 0;                    ///< number of motions in each direction
   double tolerance = 0;            ///< of shoot()
 };
 
-/// How a branch goes on from a motion.
-struct Way {
+/// The course of a branch in one direction.
+struct Route {
   std::vector<double> folds;  ///< frictions at which the branch turns back, interpolated
-  double end = 0;             ///< friction at which it ends
-  std::string reason;         ///< why it ends there
+  double end = 0;             ///< friction at its end
+  std::string reason;         ///< of its end
 };
 
-/// Collective. Follows the branch through a periodic motion that has converged by pseudo-arclength,
-/// first towards larger friction if `upwards`. The step adapts itself: it is halved where Newton's
-/// method fails. `look` is called for each motion found, without the first.
-Way follow(Period& period, const Found& first, bool upwards, const Reach& reach, const Told& told,
-           const std::function<void(const Found&)>& look);
+/// Collective. Follows the branch through a converged periodic motion by pseudo-arclength
+/// continuation, first towards larger friction if `upwards`. The step is adaptive: it is halved if
+/// Newton's method fails. `inspect` is called for each motion found, except the first.
+Route follow(const Period& period, const ShootingResult& first, bool upwards,
+             const ContinuationLimits& limits, const Progress& progress,
+             const std::function<void(const ShootingResult&)>& inspect);
 
 }  // namespace squeal::cycles

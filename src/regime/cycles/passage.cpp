@@ -2,25 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
-#include "base/petsc/check.hpp"
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "regime/march/products.hpp"
 
 namespace squeal::cycles {
 namespace {
 
-/// Contact forces hold to this part of the mean steady force: an error in them is one of the end.
+/// The accuracy of contact forces, relative to the mean steady force. Their error is part of that
+/// of the end of a passage.
 constexpr double forceAccuracy = 1e-10;
 
-/// Adds up what a march does, step by step.
+/// Accumulates the measures of a march, step by step.
 class Meter {
  public:
   explicit Meter(const ReducedModel& model)
       : model_(model), opened_(model.nodes.size()), rested_(model.nodes.size()) {}
 
-  void look(const march::Massless& scheme) {
+  void inspect(const march::Massless& scheme) {
     const auto& state = scheme.state();
     const auto stuck = scheme.stuck();
     int sticking = 0;
@@ -41,7 +41,7 @@ class Meter {
   }
 
   Passage result(const march::Massless& scheme, double time) const {
-    Passage passage{scheme.handed(), measures_, quietest_};
+    Passage passage{scheme.next(), measures_, quietest_};
     auto& measures = passage.measures;
     measures.opening = std::ranges::count(opened_, 1);
     measures.sticking = std::ranges::count(rested_, 1);
@@ -60,7 +60,7 @@ class Meter {
 
 }  // namespace
 
-double norm(const ReducedModel& model, const Handed& x) {
+double norm(const ReducedModel& model, const InitialState& x) {
   std::vector<double> force(model.rows());
   march::addProduct(model.boundaryStiffness, x.z, force);
   double sum = march::dot(x.z, force) + march::dot(x.v, x.v);
@@ -68,10 +68,10 @@ double norm(const ReducedModel& model, const Handed& x) {
   return std::sqrt(std::max(0.0, sum));
 }
 
-double change(const ReducedModel& model, const Handed& start, const Handed& end) {
-  Handed difference = end;
-  const auto subtract = [](std::vector<double>& from, const std::vector<double>& what) {
-    for (std::size_t i = 0; i < from.size(); ++i) from[i] -= what[i];
+double change(const ReducedModel& model, const InitialState& start, const InitialState& end) {
+  InitialState difference = end;
+  const auto subtract = [](std::vector<double>& from, const std::vector<double>& x) {
+    for (std::size_t i = 0; i < from.size(); ++i) from[i] -= x[i];
   };
   subtract(difference.q, start.q), subtract(difference.v, start.v);
   subtract(difference.z, start.z);
@@ -79,59 +79,51 @@ double change(const ReducedModel& model, const Handed& start, const Handed& end)
 }
 
 Period::Period(MPI_Comm comm, ReducedModel model, double friction, int steps)
-    : comm_(comm), model_(std::move(model)), modelFriction_(friction), steps_(steps) {
-  for (const auto& node : model_.nodes) nodeFriction_.push_back(node.friction);
-}
+    : comm_(comm), model_(std::move(model)), modelFriction_(friction), steps_(steps) {}
 
-march::Massless Period::schemeOf(const Orbit& orbit, const StopAsked& asked) {
-  for (std::size_t i = 0; i < nodeFriction_.size(); ++i) {
-    auto& node = model_.nodes[i];
-    const double change = orbit.friction - modelFriction_;
-    if (change != 0) node.friction = nodeFriction_[i] + node.sweptFriction * change;
-  }
-  march::Massless scheme(model_, orbit.start, orbit.period / steps_);
+march::Massless Period::schemeOf(const Orbit& orbit, const StopAsked& asked) const {
+  march::Massless scheme(model_, orbit.start, orbit.period / steps_,
+                         orbit.friction - modelFriction_);
   scheme.setAccuracy(forceAccuracy);
   scheme.setStop(asked);
   return scheme;
 }
 
-Passage Period::pass(const Orbit& orbit, int steps) {
+Passage Period::pass(const Orbit& orbit, int steps) const {
   Passage passage;
   workApart(comm_, [&](const StopAsked& asked) {
     march::Massless scheme = schemeOf(orbit, asked);
     Meter meter(model_);
-    for (int i = 0; i < steps; ++i) scheme.step(), meter.look(scheme);
+    for (int i = 0; i < steps; ++i) scheme.step(), meter.inspect(scheme);
     passage = meter.result(scheme, steps * orbit.period / steps_);
   });
-  // Rounding may differ between ranks; all go on from the same end.
-  for (auto* part : {&passage.end.q, &passage.end.v, &passage.end.z})
-    check(MPI_Bcast(part->data(), part->size(), MPI_DOUBLE, 0, comm_));
-  check(MPI_Bcast(&passage.quietest, 1, MPI_INT, 0, comm_));
+  // Round-off may differ between ranks; all continue from the same end.
+  for (auto* part : {&passage.end.q, &passage.end.v, &passage.end.z}) mpi::broadcast(comm_, *part);
+  mpi::broadcast(comm_, passage.quietest);
   return passage;
 }
 
-Monodromy Period::derivative(const Orbit& orbit) {
-  const PetscInt k = model_.modes(), rows = model_.rows();
-  Monodromy result;
-  // Which slips stick at the start follows from the last step before it: a periodic motion ends as
-  // it starts.
+/// Collective. Returns the slips that stick at the start. They follow from the last step before it,
+/// as a periodic motion ends in the state in which it starts.
+std::vector<PetscInt> Period::stuckAtStart(const Orbit& orbit) const {
+  std::vector<PetscInt> rows;
   workApart(comm_, [&](const StopAsked& asked) {
     march::Massless before = schemeOf(orbit, asked);
     for (int i = 0; i < steps_; ++i) before.step();
     const auto stuck = before.stuck();
-    for (PetscInt row = 0; row < rows; ++row)
-      if (stuck[row]) result.stuck.push_back(row);
+    for (PetscInt row = 0; row < model_.rows(); ++row)
+      if (stuck[row]) rows.push_back(row);
   });
-  // Rounding may differ between ranks; all go on with the same slips.
-  PetscMPIInt count = std::ssize(result.stuck);
-  check(MPI_Bcast(&count, 1, MPI_INT, 0, comm_));
-  result.stuck.resize(count);
-  check(MPI_Bcast(result.stuck.data(), count, MPIU_INT, 0, comm_));
-  const PetscInt order = 2 * k + count;
-  int rank = 0, size = 1;
-  check(MPI_Comm_rank(comm_, &rank));
-  check(MPI_Comm_size(comm_, &size));
-  const PetscInt first = order * rank / size, last = order * (rank + 1) / size, own = last - first;
+  mpi::broadcast(comm_, rows);  // round-off may differ between ranks
+  return rows;
+}
+
+/// Collective. Returns the variations of q, v and all z at the end for unit variations of the
+/// entries q, v and stuck z at the start, of which each rank computes some.
+DenseMatrix Period::variationsAtEnd(const Orbit& orbit, const std::vector<PetscInt>& stuck) const {
+  const PetscInt k = model_.modes(), rows = model_.rows(), order = 2 * k + std::ssize(stuck);
+  const int rank = mpi::rank(comm_), size = mpi::size(comm_);
+  const PetscInt first = order * rank / size, own = order * (rank + 1) / size - first;
   march::Variations x{DenseMatrix(k, own), DenseMatrix(k, own), DenseMatrix(rows, own)};
   for (PetscInt j = 0; j < own; ++j) {
     const PetscInt entry = first + j;
@@ -140,22 +132,30 @@ Monodromy Period::derivative(const Orbit& orbit) {
     else if (entry < 2 * k)
       x.v(entry - k, j) = 1;
     else
-      x.z(result.stuck[entry - 2 * k], j) = 1;
+      x.z(stuck[entry - 2 * k], j) = 1;
   }
   workApart(comm_, [&](const StopAsked& asked) {
     march::Massless scheme = schemeOf(orbit, asked);
     for (int i = 0; i < steps_; ++i) scheme.step(), scheme.propagate(x);
   });
-  DenseMatrix part(2 * k + rows, own);
+  DenseMatrix part(2 * k + rows, own), all(2 * k + rows, order);
   for (PetscInt j = 0; j < own; ++j) {
     std::ranges::copy(x.q.column(j), part.column(j).begin());
     std::ranges::copy(x.v.column(j), part.column(j).begin() + k);
     std::ranges::copy(x.z.column(j), part.column(j).begin() + 2 * k);
   }
-  DenseMatrix all(2 * k + rows, order);
   Concatenation(comm_, part.size()).gather<double>(part.entries(), all.entries());
-  check(MPI_Bcast(all.data(), all.size(), MPI_DOUBLE, 0, comm_));
-  result.z = linalg::rowRange(all, 2 * k, 2 * k + rows);
+  mpi::broadcastBytes(comm_, all.data(), all.size() * sizeof(double), 0);
+  return all;
+}
+
+Monodromy Period::derivative(const Orbit& orbit) const {
+  const PetscInt k = model_.modes();
+  Monodromy result;
+  result.stuck = stuckAtStart(orbit);
+  const DenseMatrix all = variationsAtEnd(orbit, result.stuck);
+  const PetscInt order = all.columns();
+  result.z = linalg::rowRange(all, 2 * k, 2 * k + model_.rows());
   result.end = DenseMatrix(order, order);
   for (PetscInt j = 0; j < order; ++j)
     for (PetscInt i = 0; i < order; ++i)

@@ -1,6 +1,6 @@
 #pragma once
-/// A passage is a march over a single period, from what its first step finds to what its last step
-/// hands on [M.77].
+/// A passage is a march over a single period, from the initial state of its first step to that of
+/// the step after its last one [M.77].
 #include <mpi.h>
 
 #include <vector>
@@ -11,34 +11,35 @@
 namespace squeal::cycles {
 
 using linalg::DenseMatrix;
-using march::Handed;
+using march::InitialState;
 using march::ReducedModel;
 
 /// A motion over one period, periodic or not.
 struct Orbit {
-  Handed start;         ///< what its first step finds
+  InitialState start;   ///< of its first step
   double period = 0;    ///< s
   double friction = 0;  ///< the swept coefficient
 };
 
-/// Measures tell what happens over one period.
+/// Measures of a motion over one period.
 struct Measures {
   double largestKinetic = 0;       ///< J
   double frictionPower = 0;        ///< heat of friction, W
   double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N
-  int opening = 0, sticking = 0;   ///< nodes that open, or come to rest, at some time
-  bool linear = true;              ///< no node opens, closes, rests or begins to slide
+  int opening = 0, sticking = 0;   ///< nodes that separate, or stick, at some time
+  bool linear = true;              ///< each node stays in its state of steady sliding
 };
 
 /// The end of a period.
 struct Passage {
-  Handed end;
+  InitialState end;
   Measures measures;
   int quietest = 0;  ///< the number of steps after which the fewest nodes stick
 };
 
 /// The derivative of the end of a passage with respect to its start, in the entries of q and v and
-/// of those slips in z that stick at the start: other entries of z are forgotten in a few steps.
+/// of those slips in z that stick at the start. The motion forgets other entries of z in a few
+/// steps.
 struct Monodromy {
   std::vector<PetscInt> stuck;  ///< rows of z
   DenseMatrix end;              ///< of q, v and stuck z, square
@@ -46,12 +47,12 @@ struct Monodromy {
 };
 
 /// Returns √(qᵀΛq + vᵀv + zᵀK_z z), √J.
-double norm(const ReducedModel& model, const Handed& x);
+double norm(const ReducedModel& model, const InitialState& x);
 /// Returns norm(end − start) over norm(start).
-double change(const ReducedModel& model, const Handed& start, const Handed& end);
+double change(const ReducedModel& model, const InitialState& start, const InitialState& end);
 
-/// Makes passages of one model at any friction: the model is as exact at other frictions than its
-/// own, because static responses to friction are among its displacements.
+/// Makes passages of one model at any friction. The model is as accurate at other frictions as at
+/// its own, because its displacements include static responses to friction.
 class Period {
  public:
   /// The model, which is copied, was made at the friction `friction`. A period has `steps` steps of
@@ -62,19 +63,20 @@ class Period {
   const ReducedModel& model() const { return model_; }
   int steps() const { return steps_; }
 
-  /// Collective. Returns the end of a period, or of its first `steps` steps. Throws Error where the
+  /// Collective. Returns the end of a period, or of its first `steps` steps. Throws Error if the
   /// contact forces of a step do not converge or the motion is not finite.
-  Passage pass(const Orbit& orbit, int steps);
-  Passage pass(const Orbit& orbit) { return pass(orbit, steps_); }
+  Passage pass(const Orbit& orbit, int steps) const;
+  Passage pass(const Orbit& orbit) const { return pass(orbit, steps_); }
   /// Collective. Returns the derivative of pass().
-  Monodromy derivative(const Orbit& orbit);
+  Monodromy derivative(const Orbit& orbit) const;
 
  private:
-  march::Massless schemeOf(const Orbit& orbit, const StopAsked& asked);
+  march::Massless schemeOf(const Orbit& orbit, const StopAsked& asked) const;
+  std::vector<PetscInt> stuckAtStart(const Orbit& orbit) const;
+  DenseMatrix variationsAtEnd(const Orbit& orbit, const std::vector<PetscInt>& stuck) const;
   MPI_Comm comm_;
   ReducedModel model_;
   double modelFriction_;
-  std::vector<double> nodeFriction_;  // [node] at modelFriction_
   int steps_;
 };
 

@@ -34,6 +34,17 @@ bool isLinear(const ReducedModel& model, const march::Massless& scheme) {
 
 }  // namespace
 
+// All members are named, so that a new one does not compile until it is in the stream too.
+void fields(checkpoint::Stream& stream, Pass& pass) {
+  auto& [state, acceleration, period] = pass;
+  stream(state, acceleration, period);
+}
+
+void fields(checkpoint::Stream& stream, Passes& passes) {
+  auto& [count, sum, nearest, change] = passes;
+  stream(count, sum, nearest, change);
+}
+
 void Passes::add(const Passes& other) {
   if (other.count == 0) return;
   addTo(sum.state.q, other.sum.state.q), addTo(sum.state.v, other.sum.state.v);
@@ -48,12 +59,12 @@ Section::Section(const ReducedModel& model, const std::vector<Complex>& q, doubl
   for (std::size_t i = 0; i < q.size(); ++i) weight_.push_back(model.stiffness[i] * q[i].real());
 }
 
-void Section::look(const march::Massless& scheme) {
-  Handed now = scheme.handed();
+void Section::inspect(const march::Massless& scheme) {
+  InitialState now = scheme.next();
   const double time = scheme.state().time, level = march::dot(weight_, now.q);
   if (linear_) linear_ = isLinear(model_, scheme);
   if (!last_.q.empty() && before_ < 0 && level >= 0) {
-    // States between two steps lie on the line between them.
+    // The state is interpolated linearly between two steps.
     const double part = before_ / (before_ - level), at = lastTime_ + part * (time - lastTime_);
     const auto between = [&](const std::vector<double>& a, const std::vector<double>& b) {
       std::vector<double> result(a.size());
@@ -80,7 +91,7 @@ std::vector<Orbit> firstOrbits(const Passes& passes, double step, int steps) {
     Orbit orbit{pass.state, pass.period / count, 0};
     for (auto* part : {&orbit.start.q, &orbit.start.v, &orbit.start.z})
       for (double& entry : *part) entry /= count;
-    // v belongs to half a step before.
+    // v is that of half a step before.
     for (std::size_t i = 0; i < orbit.start.v.size(); ++i)
       orbit.start.v[i] += (step - orbit.period / steps) / 2 * pass.acceleration[i] / count;
     orbits.push_back(std::move(orbit));

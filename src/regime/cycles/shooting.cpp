@@ -16,44 +16,56 @@ namespace {
 constexpr int mostLinearisations = 12;
 constexpr double smallestStep = 1.0 / 64;  // of Newton's
 
-/// The part of period and friction by which derivatives are taken.
+/// Relative step of central differences in period and friction.
 constexpr double difference = 1e-6;
 
 }  // namespace
 
-Linearisation::Linearisation(Period& period, const Orbit& at) : monodromy_(period.derivative(at)) {
+Linearisation::Linearisation(const Period& period, const Orbit& at)
+    : monodromy_(period.derivative(at)) {
   const ReducedModel& model = period.model();
-  const PetscInt k = model.modes();
   for (const double square : model.stiffness) frequency_.push_back(std::sqrt(square));
   scale_ = frequency_;
-  scale_.resize(2 * k, 1.0);
+  scale_.resize(2 * modes(), 1.0);
   for (const PetscInt row : monodromy_.stuck)
     scale_.push_back(std::sqrt(model.boundaryStiffness(row, row)));
-  const double norm = cycles::norm(period.model(), at.start);
+  const double norm = cycles::norm(model, at.start);
   periodScale_ = norm / at.period, frictionScale_ = norm / std::max(at.friction, 1e-3);
+  byPeriod_ = derivative(period, at, &Orbit::period, periodScale_);
+  byFriction_ = derivative(period, at, &Orbit::friction, frictionScale_);
+  phase_ = phase(period, at);
+}
 
-  const auto derivative = [&](double Orbit::*parameter, double scale, std::vector<double>& all,
-                              std::vector<double>& z) {
-    Orbit ahead = at, behind = at;
-    const double step = difference * norm / scale;
-    ahead.*parameter += step, behind.*parameter -= step;
-    const Handed to = period.pass(ahead).end, from = period.pass(behind).end;
-    const double factor = 1 / (2 * step * scale);
-    for (PetscInt i = 0; i < k; ++i) all.push_back((to.q[i] - from.q[i]) * factor * scale_[i]);
-    for (PetscInt i = 0; i < k; ++i) all.push_back((to.v[i] - from.v[i]) * factor);
-    for (std::size_t i = 0; i < to.z.size(); ++i) z.push_back((to.z[i] - from.z[i]) * factor);
-    for (std::size_t i = 0; i < monodromy_.stuck.size(); ++i)
-      all.push_back(z[monodromy_.stuck[i]] * scale_[2 * k + i]);
-  };
-  derivative(&Orbit::period, periodScale_, byPeriod_, zByPeriod_);
-  derivative(&Orbit::friction, frictionScale_, byFriction_, zByFriction_);
+/// Collective. Returns the scaled derivative of the end with respect to a parameter of the orbit.
+Linearisation::EndDerivative Linearisation::derivative(const Period& period, const Orbit& at,
+                                                       double Orbit::*parameter,
+                                                       double scale) const {
+  const PetscInt k = modes();
+  Orbit ahead = at, behind = at;
+  const double step = difference * cycles::norm(period.model(), at.start) / scale;
+  ahead.*parameter += step, behind.*parameter -= step;
+  const InitialState to = period.pass(ahead).end, from = period.pass(behind).end;
+  const double factor = 1 / (2 * step * scale);
+  EndDerivative result;
+  for (PetscInt i = 0; i < k; ++i) result.x.push_back((to.q[i] - from.q[i]) * factor * scale_[i]);
+  for (PetscInt i = 0; i < k; ++i) result.x.push_back((to.v[i] - from.v[i]) * factor);
+  for (std::size_t i = 0; i < to.z.size(); ++i) result.z.push_back((to.z[i] - from.z[i]) * factor);
+  for (std::size_t i = 0; i < monodromy_.stuck.size(); ++i)
+    result.x.push_back(result.z[monodromy_.stuck[i]] * scale_[2 * k + i]);
+  return result;
+}
 
-  const Handed next = period.pass(at, 1).end;
-  for (PetscInt i = 0; i < k; ++i) phase_.push_back((next.q[i] - at.start.q[i]) * scale_[i]);
-  for (PetscInt i = 0; i < k; ++i) phase_.push_back(next.v[i] - at.start.v[i]);
-  const double length = std::sqrt(march::dot(phase_, phase_));
-  for (double& entry : phase_) entry /= length;
-  phase_.resize(scale_.size(), 0.0);
+/// Collective. Returns the direction of the motion at the start, 2-norm 1, [entry of x].
+std::vector<double> Linearisation::phase(const Period& period, const Orbit& at) const {
+  const PetscInt k = modes();
+  const InitialState next = period.pass(at, 1).end;
+  std::vector<double> phase;
+  for (PetscInt i = 0; i < k; ++i) phase.push_back((next.q[i] - at.start.q[i]) * scale_[i]);
+  for (PetscInt i = 0; i < k; ++i) phase.push_back(next.v[i] - at.start.v[i]);
+  const double length = std::sqrt(march::dot(phase, phase));
+  for (double& entry : phase) entry /= length;
+  phase.resize(scale_.size(), 0.0);
+  return phase;
 }
 
 /// Solves with a last equation; `last` is a Direction.
@@ -66,13 +78,13 @@ std::vector<double> Linearisation::solve(std::vector<double> right, const Direct
     a(n, j) = phase_[j];
     a(n + 1, j) = j < 2 * k ? last[j] : 0;
   }
-  for (PetscInt i = 0; i < n; ++i) a(i, n) = byPeriod_[i], a(i, n + 1) = byFriction_[i];
+  for (PetscInt i = 0; i < n; ++i) a(i, n) = byPeriod_.x[i], a(i, n + 1) = byFriction_.x[i];
   a(n + 1, n) = last[2 * k], a(n + 1, n + 1) = last[2 * k + 1];
   linalg::Lu<double>(std::move(a)).solve(std::span(right));
   return right;
 }
 
-Linearisation::Step Linearisation::step(const Handed& start, const Handed& end,
+Linearisation::Step Linearisation::step(const InitialState& start, const InitialState& end,
                                         const Direction& tangent) const {
   const PetscInt n = std::ssize(scale_), k = modes();
   std::vector<double> right(n + 2);
@@ -95,7 +107,7 @@ Linearisation::Step Linearisation::step(const Handed& start, const Handed& end,
     for (std::size_t i = 0; i < result.z.size(); ++i) result.z[i] += monodromy_.z(i, j) * entry;
   }
   for (std::size_t i = 0; i < result.z.size(); ++i)
-    result.z[i] += zByPeriod_[i] * x[n] + zByFriction_[i] * x[n + 1];
+    result.z[i] += byPeriod_.z[i] * x[n] + byFriction_.z[i] * x[n + 1];
   return result;
 }
 
@@ -149,13 +161,13 @@ Orbit Linearisation::along(const Orbit& orbit, const Direction& direction, doubl
   return result;
 }
 
-Orbit Linearisation::changed(const Orbit& orbit, const Handed& end, const Step& step,
+Orbit Linearisation::changed(const Orbit& orbit, const InitialState& end, const Step& step,
                              double factor) const {
   Orbit result = along(orbit, step.direction, factor);
   auto& z = result.start.z;
   std::vector<unsigned char> sticks(z.size());
   for (const PetscInt row : monodromy_.stuck) sticks[row] = 1;
-  // A z that does not stick is that of the end of the period.
+  // A slip that does not stick takes the value of the end of the period.
   for (std::size_t i = 0; i < z.size(); ++i)
     if (!sticks[i]) z[i] += factor * (end.z[i] - z[i] + step.z[i]);
   for (std::size_t i = 0; i < step.stuck.size(); ++i)
@@ -163,56 +175,82 @@ Orbit Linearisation::changed(const Orbit& orbit, const Handed& end, const Step& 
   return result;
 }
 
-Found shoot(Period& period, const Orbit& guess, double tolerance, const Told& told,
-            const Direction& tangent, std::shared_ptr<const Linearisation> linearisation) {
-  Found found;
-  found.orbit = guess;
-  Passage passage = period.pass(found.orbit);
-  found.change = cycles::change(period.model(), found.orbit.start, passage.end);
-  bool fresh = false;
-  const auto tell = [&] {
-    if (told) told({found.change, found.derivatives});
-  };
-  const auto renew = [&] {
-    tell();
-    linearisation = std::make_shared<const Linearisation>(period, found.orbit);
-    ++found.derivatives;
-    fresh = true;
-  };
-  while (found.change > tolerance) {
-    if (!linearisation) renew();
-    const auto step = linearisation->step(found.orbit.start, passage.end, tangent);
-    bool better = false;
-    double factor = 1;
-    for (; factor >= (fresh ? smallestStep : 1); factor /= 2) {
-      const Orbit trial = linearisation->changed(found.orbit, passage.end, step, factor);
+namespace {
+
+/// Newton's method with damping and with linearisations that are used again.
+class Newton {
+ public:
+  Newton(const Period& period, const Orbit& guess, const ShootingRequest& request)
+      : period_(period),
+        request_(request),
+        linearisation_(request.linearisation),
+        passage_(period.pass(guess)) {
+    result_.orbit = guess;
+    result_.change = cycles::change(period.model(), guess.start, passage_.end);
+  }
+
+  ShootingResult solve() {
+    while (result_.change > request_.tolerance) {
+      if (!linearisation_) renew();
+      if (improve()) {
+        fresh_ = false;
+        report();
+        if (linearisation_ || result_.derivatives < mostLinearisations) continue;
+        break;
+      }
+      if (fresh_ || result_.derivatives >= mostLinearisations) break;
+      linearisation_.reset();
+    }
+    result_.measures = passage_.measures;
+    result_.converged = result_.change <= request_.tolerance;
+    if (result_.converged) renew(), result_.linearisation = linearisation_;
+    return std::move(result_);
+  }
+
+ private:
+  void report() const {
+    if (request_.progress) request_.progress({result_.change, result_.derivatives});
+  }
+  void renew() {
+    report();
+    linearisation_ = std::make_shared<const Linearisation>(period_, result_.orbit);
+    ++result_.derivatives;
+    fresh_ = true;
+  }
+
+  /// Takes a step that reduces the change over a period. Returns false if there is none.
+  bool improve() {
+    const auto step = linearisation_->step(result_.orbit.start, passage_.end, request_.tangent);
+    for (double factor = 1; factor >= (fresh_ ? smallestStep : 1); factor /= 2) {
+      const Orbit trial = linearisation_->changed(result_.orbit, passage_.end, step, factor);
       if (!(trial.period > 0 && trial.friction > 0)) continue;
       try {
-        Passage there = period.pass(trial);
-        const double change = cycles::change(period.model(), trial.start, there.end);
-        better = change < (1 - factor / 10) * found.change;
-        if (!better) continue;
-        // A linearisation that is used again must be worth it.
-        const bool slow = change > found.change / 4;
-        found.orbit = trial, found.change = change, passage = std::move(there);
-        if (slow) fresh = false, linearisation.reset();
-        break;
+        Passage there = period_.pass(trial);
+        const double change = cycles::change(period_.model(), trial.start, there.end);
+        if (!(change < (1 - factor / 10) * result_.change)) continue;
+        // A linearisation is used again only if it converges fast.
+        const bool slow = change > result_.change / 4;
+        result_.orbit = trial, result_.change = change, passage_ = std::move(there);
+        if (slow) linearisation_.reset();
+        return true;
       } catch (const Error&) {  // a motion without bound
       }
     }
-    if (better) {
-      fresh = false;
-      tell();
-      if (linearisation || found.derivatives < mostLinearisations) continue;
-      break;
-    }
-    if (fresh || found.derivatives >= mostLinearisations) break;
-    linearisation.reset();
+    return false;
   }
-  found.measures = passage.measures;
-  found.converged = found.change <= tolerance;
-  if (found.converged) renew(), found.linearisation = linearisation;
-  return found;
+
+  const Period& period_;
+  const ShootingRequest& request_;
+  std::shared_ptr<const Linearisation> linearisation_;
+  bool fresh_ = false;  // the linearisation is about the orbit of the result
+  Passage passage_;     // of that orbit
+  ShootingResult result_;
+};
+
+}  // namespace
+
+ShootingResult shoot(const Period& period, const Orbit& guess, const ShootingRequest& request) {
+  return Newton(period, guess, request).solve();
 }
 
 }  // namespace squeal::cycles

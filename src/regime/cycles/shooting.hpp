@@ -1,6 +1,6 @@
 #pragma once
-/// Shooting finds periodic motions of the reduced model, stable or not, and Floquet multipliers
-/// tell which of them a brake can keep [M.77].
+/// Periodic motions of the reduced model by shooting, and their Floquet multipliers [M.77]. A brake
+/// can perform only the stable ones.
 #include <functional>
 #include <memory>
 #include <vector>
@@ -10,85 +10,97 @@
 
 namespace squeal::cycles {
 
-/// A direction in the unknowns (q, v, period, friction), each in √J: q by its frequency, period and
-/// friction relative to their values and by the norm of the motion.
+/// A direction in the unknowns (q, v, period, friction), all in √J: q is scaled by the frequency,
+/// period and friction by the norm of the motion over their values.
 using Direction = std::vector<double>;
 
 /// Floquet multipliers: a disturbance of a periodic motion is multiplied by them in each period.
 struct Multipliers {
   std::vector<Complex> values;  ///< by descending modulus
-  /// The place of the one that belongs to a shift in time, by its vector: it is 1, up to the error
-  /// of the step.
+  /// Index of the multiplier of a shift in time, identified by its vector. It is 1 to the error of
+  /// the step.
   std::size_t trivial = 0;
 };
 
 /// The equations of a periodic motion, linearised about one:
 ///   (M − 1) δx + ∂x(T)/∂T δT + ∂x(T)/∂f δf = −(x(T) − x),   ẋᵀ δx = 0,   and δf = 0 or tᵀδ = 0,
-/// in entries x of q, v and of slips that stick, with the scales of Direction.
+/// in entries x of q, v and slips that stick, with the scales of Direction.
 class Linearisation {
  public:
   /// Collective.
-  Linearisation(Period& period, const Orbit& at);
+  Linearisation(const Period& period, const Orbit& at);
   const Monodromy& monodromy() const { return monodromy_; }
 
-  /// A change of the unknowns and, of all z, of what it makes of the end of a period.
+  /// A change of the unknowns, and of all z at the end of a period.
   struct Step {
     Direction direction;
     std::vector<double> stuck;  ///< changes of the slips that stick at the start, m
     std::vector<double> z;      ///< m
   };
-  /// Not collective. Returns the step that makes the end of a period its start, to first order;
-  /// with a tangent across it, without one at the same friction.
-  Step step(const Handed& start, const Handed& end, const Direction& tangent) const;
+  /// Not collective. Returns the step after which the end of a period equals its start, to first
+  /// order: across the tangent if there is one, otherwise at the same friction.
+  Step step(const InitialState& start, const InitialState& end, const Direction& tangent) const;
   /// Not collective. Returns the direction of the branch over the friction, along `near`, 2-norm 1.
   Direction tangent(const Direction& near) const;
-  /// Returns by how much the friction changes along a direction of length 1, √J.
+  /// Returns the change of the friction along a direction of length 1, √J.
   double frictionAlong(const Direction& direction) const {
     return direction.back() / frictionScale_;
   }
   /// Not collective. Returns the eigenvalues of the monodromy.
   Multipliers multipliers() const;
-  /// Returns the orbit changed by a factor of the direction alone.
+  /// Returns the orbit changed by a factor times the direction.
   Orbit along(const Orbit& orbit, const Direction& direction, double factor) const;
-  /// Returns the orbit changed by a factor of the step, where the given end is that of a period.
-  Orbit changed(const Orbit& orbit, const Handed& end, const Step& step, double factor) const;
+  /// Returns the orbit changed by a factor times the step; `end` is that of a period.
+  Orbit changed(const Orbit& orbit, const InitialState& end, const Step& step, double factor) const;
 
  private:
+  /// A derivative of the end of a period.
+  struct EndDerivative {
+    std::vector<double> x;  // scaled, [entry of x]
+    std::vector<double> z;  // of all z
+  };
+  EndDerivative derivative(const Period& period, const Orbit& at, double Orbit::*parameter,
+                           double scale) const;
+  std::vector<double> phase(const Period& period, const Orbit& at) const;
   std::vector<double> solve(std::vector<double> right, const Direction& last) const;
   PetscInt modes() const { return std::ssize(frequency_); }
 
   Monodromy monodromy_;
-  std::vector<double> frequency_;                // √Λ, [mode]
-  std::vector<double> scale_;                    // [entry of x] from its own unit to √J
-  double periodScale_, frictionScale_;           // the same of period and friction
-  std::vector<double> byPeriod_, byFriction_;    // scaled derivatives of the end, [entry of x]
-  std::vector<double> zByPeriod_, zByFriction_;  // of all z
-  std::vector<double> phase_;                    // ẋ, scaled, [entry of x]
+  std::vector<double> frequency_;       // √Λ, [mode]
+  std::vector<double> scale_;           // [entry of x] from its own unit to √J
+  double periodScale_, frictionScale_;  // from period and friction to √J
+  EndDerivative byPeriod_, byFriction_;
+  std::vector<double> phase_;  // ẋ, scaled, [entry of x]
 };
 
 /// The result of Newton's method.
-struct Found {
+struct ShootingResult {
   Orbit orbit;
   bool converged = false;
-  int derivatives = 0;  ///< linearisations made for it
-  double change = 0;    ///< over a period, that is left
+  int derivatives = 0;  ///< number of linearisations
+  double change = 0;    ///< over a period
   Measures measures;
-  std::shared_ptr<const Linearisation> linearisation;  ///< about the orbit, where it has converged
+  std::shared_ptr<const Linearisation> linearisation;  ///< about the orbit, if it has converged
 };
 
-/// An Iteration tells what Newton's method has come to.
+/// The state of Newton's method.
 struct Iteration {
   double change = 0;    ///< over a period
-  int derivatives = 0;  ///< linearisations made
+  int derivatives = 0;  ///< number of linearisations so far
 };
-using Told = std::function<void(const Iteration&)>;
+/// Called on all ranks before each linearisation and after each step.
+using Progress = std::function<void(const Iteration&)>;
 
-/// Collective. Finds a periodic motion from one that nearly repeats itself, to a `tolerance` of
-/// change(). With a `tangent` the friction is an unknown, and the orbit is sought across it.
-/// A linearisation about an orbit nearby saves one. `told` is called, on all ranks, before each
-/// linearisation and after each step.
-Found shoot(Period& period, const Orbit& guess, double tolerance, const Told& told = {},
-            const Direction& tangent = {},
-            std::shared_ptr<const Linearisation> linearisation = nullptr);
+struct ShootingRequest {
+  double tolerance = 0;    ///< of change()
+  Progress progress = {};  ///< empty: none
+  /// With a tangent the friction is an unknown, and the orbit is sought across the tangent.
+  Direction tangent = {};
+  /// A linearisation about an orbit nearby saves one.
+  std::shared_ptr<const Linearisation> linearisation = nullptr;
+};
+
+/// Collective. Computes a periodic motion from one that nearly repeats itself.
+ShootingResult shoot(const Period& period, const Orbit& guess, const ShootingRequest& request);
 
 }  // namespace squeal::cycles

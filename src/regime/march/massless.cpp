@@ -12,7 +12,7 @@
 namespace squeal::march {
 namespace {
 
-/// Returns (K_z + C_z / h)⁻¹, with zeros in the rows and columns of what does not move.
+/// Returns (K_z + C_z / h)⁻¹, with zeros in the rows and columns that do not move.
 DenseMatrix boundaryCompliance(const ReducedModel& model, double h) {
   const PetscInt m = model.rows();
   DenseMatrix a = model.boundaryStiffness, inverse(m, m);
@@ -38,24 +38,31 @@ DenseMatrix modalInverse(const ReducedModel& model, double h) {
 
 }  // namespace
 
-Handed handedAt(const Start& start, double h) {
-  Handed handed{start.q, start.v, start.z};
-  for (std::size_t i = 0; i < start.acceleration.size(); ++i)
-    handed.v[i] -= h / 2 * start.acceleration[i];
-  for (std::size_t i = 0; i < start.zRate.size(); ++i) handed.z[i] -= h * start.zRate[i];
-  return handed;
+// All members are named, so that a new one does not compile until it is in the stream too.
+void fields(checkpoint::Stream& stream, InitialState& state) {
+  auto& [q, v, z] = state;
+  stream(q, v, z);
 }
 
-Massless::Massless(const ReducedModel& model, const Handed& handed, double h)
-    : Scheme(model),
+InitialState initialStateAt(const Start& start, double h) {
+  InitialState state{start.q, start.v, start.z};
+  for (std::size_t i = 0; i < start.acceleration.size(); ++i)
+    state.v[i] -= h / 2 * start.acceleration[i];
+  for (std::size_t i = 0; i < start.zRate.size(); ++i) state.z[i] -= h * start.zRate[i];
+  return state;
+}
+
+Massless::Massless(const ReducedModel& model, const InitialState& initial, double h,
+                   double sweptChange)
+    : Scheme(model, sweptChange),
       h_(h),
       solver_(boundaryCompliance(model, h), model.dimension, model.moves),
       modalInverse_(modalInverse(model, h)),
       active_(model.nodes.size(), 1),
-      q_(handed.q),
-      v_(handed.v),
-      z_(handed.z),
-      jump_(handed.z),
+      q_(initial.q),
+      v_(initial.v),
+      z_(initial.z),
+      jump_(initial.z),
       damped_(model.rows()),
       before_(steadyForce_) {
   addProduct(model.boundaryDamping, z_, damped_);
@@ -69,12 +76,34 @@ Massless::Massless(const ReducedModel& model, const Handed& handed, double h)
 
 void Massless::setAccuracy(double relative) { tolerance_ *= relative / accuracy; }
 
+/// The arrays of one step.
+struct Massless::StepArrays {
+  std::vector<double> carried;  // j q
+  std::vector<double> jump;     // y
+  std::vector<double> z, rate;  // z and ż
+  std::vector<double> change;   // R*
+  std::vector<double> damped;   // C_z z
+  std::vector<double> mean;     // v̄
+};
+
 void Massless::step() {
-  const PetscInt k = model_.modes(), m = model_.rows();
   updateFriction();
-  // What acts on the boundary beside the contact forces, and these as the last two steps
-  // continue.
-  std::vector<double> guess(m), load(m);
+  StepArrays step = predict();
+  solveContact(step);
+  update(step);
+  addWork(step);
+  finish(std::move(step));
+}
+
+/// Returns the part of d that does not depend on the forces and on z of this step.
+double Massless::known(PetscInt i) const {
+  return isNormal(i) ? steadyGap_[i] : h_ * steadyVelocity_[i] - jump_[i];
+}
+
+/// Extrapolates the contact forces of the last two steps, and sets d = b + W R for them [M.72].
+Massless::StepArrays Massless::predict() {
+  const PetscInt m = model_.rows();
+  std::vector<double> guess(m), load(m);  // R, and all that acts on the boundary
   for (PetscInt i = 0; i < m; ++i) {
     guess[i] = 2 * state_.force[i] - before_[i];
     load[i] = damped_[i] / h_ - steadyForce_[i];
@@ -85,64 +114,84 @@ void Massless::step() {
   addProduct(model_.couplingStiffness, q_, load, -1);
   addProduct(model_.couplingDamping, v_, load, -1);
   for (PetscInt i = 0; i < m; ++i) load[i] += guess[i];
-  std::vector<double> carried(m), jump(m);
-  addProduct(model_.jump, q_, carried);
-  addProduct(solver_.w(), load, jump);
+  StepArrays step;
+  step.carried.resize(m), step.jump.resize(m);
+  addProduct(model_.jump, q_, step.carried);
+  addProduct(solver_.w(), load, step.jump);
   increments_.resize(m);
   for (PetscInt i = 0; i < m; ++i) {
-    jump[i] += carried[i];
-    increments_[i] = jump[i] + (isNormal(i) ? steadyGap_[i] : h_ * steadyVelocity_[i] - jump_[i]);
+    step.jump[i] += step.carried[i];
+    increments_[i] = step.jump[i] + known(i);
   }
   before_ = std::exchange(state_.force, std::move(guess));
+  return step;
+}
+
+/// Solves for the contact forces, and sets y, z, ż, R* and C_z z.
+void Massless::solveContact(StepArrays& step) {
+  const PetscInt m = model_.rows();
   sweeps_ = solver_.solve(friction_, active_, tolerance_, state_.force, increments_, stopAsked_);
-  std::vector<double> change(m), rate(m), z(m);  // R*, ż
+  step.z.resize(m), step.rate.resize(m), step.change.resize(m), step.damped.resize(m);
   for (PetscInt i = 0; i < m; ++i) {
-    jump[i] = increments_[i] - (isNormal(i) ? steadyGap_[i] : h_ * steadyVelocity_[i] - jump_[i]);
-    z[i] = jump[i] - carried[i];
-    rate[i] = (z[i] - z_[i]) / h_;
-    change[i] = state_.force[i] - steadyForce_[i];
+    step.jump[i] = increments_[i] - known(i);
+    step.z[i] = step.jump[i] - step.carried[i];
+    step.rate[i] = (step.z[i] - z_[i]) / h_;
+    step.change[i] = state_.force[i] - steadyForce_[i];
   }
-  std::vector<double> damped(m), force(k), mean(k), acceleration(k);
-  addProduct(model_.boundaryDamping, z, damped);
+  addProduct(model_.boundaryDamping, step.z, step.damped);
+}
+
+/// Integrates q and v over the step.
+void Massless::update(StepArrays& step) {
+  const PetscInt k = model_.modes();
+  std::vector<double> force(k), acceleration(k);
   addProduct(model_.damping, v_, force, -1);
-  addProduct(model_.couplingDamping, rate, force, -1, true);
+  addProduct(model_.couplingDamping, step.rate, force, -1, true);
   for (PetscInt i = 0; i < k; ++i) force[i] -= model_.stiffness[i] * q_[i];
-  addProduct(model_.couplingStiffness, z, force, -1, true);
-  addProduct(model_.jump, change, force, 1, true);
+  addProduct(model_.couplingStiffness, step.z, force, -1, true);
+  addProduct(model_.jump, step.change, force, 1, true);
   // C acts on the mean of the velocities before and after the step.
   addProduct(modalInverse_, force, acceleration);
   state_.q = q_;
-  double kinetic = 0;
+  state_.kinetic = 0;
+  step.mean.resize(k);
   for (PetscInt i = 0; i < k; ++i) {
-    mean[i] = v_[i] + h_ / 2 * acceleration[i];
-    kinetic += mean[i] * mean[i] / 2;
+    step.mean[i] = v_[i] + h_ / 2 * acceleration[i];
+    state_.kinetic += step.mean[i] * step.mean[i] / 2;
     v_[i] += h_ * acceleration[i];
     q_[i] += h_ * v_[i];
   }
-  std::vector<double> resisting(k);  // of damping
-  addProduct(model_.damping, mean, resisting, -1);
-  addProduct(model_.couplingDamping, rate, resisting, -1, true);
-  if (!std::isfinite(kinetic)) throw Error("the motion is not finite: the time step is too long");
-  // Damping works on q and z; what it does to z is C_z ż + C_zq v.
-  std::vector<double> onBoundary(m);
+  if (!std::isfinite(state_.kinetic))
+    throw Error("the motion is not finite: the time step is too long");
+}
+
+/// Adds the work of the step, and sets the velocities of the contact.
+void Massless::addWork(const StepArrays& step) {
+  const PetscInt k = model_.modes(), m = model_.rows();
+  // Damping works on q and z: the force on z is C_z ż + C_zq v.
+  std::vector<double> resisting(k), onBoundary(m), along(m);
+  addProduct(model_.damping, step.mean, resisting, -1);
+  addProduct(model_.couplingDamping, step.rate, resisting, -1, true);
   addProduct(model_.couplingDamping, v_, onBoundary);
-  for (PetscInt i = 0; i < m; ++i) onBoundary[i] += (damped[i] - damped_[i]) / h_;
-  work_.damping += h_ * (dot(rate, onBoundary) - dot(mean, resisting));
-  std::vector<double> along(m);  // j v̄ + ż
-  addProduct(model_.jump, mean, along);
+  for (PetscInt i = 0; i < m; ++i) onBoundary[i] += (step.damped[i] - damped_[i]) / h_;
+  work_.damping += h_ * (dot(step.rate, onBoundary) - dot(step.mean, resisting));
+  addProduct(model_.jump, step.mean, along);  // j v̄
+  state_.rate.resize(m);
   for (PetscInt i = 0; i < m; ++i) {
-    const double power = change[i] * (along[i] + rate[i]);
+    const double power = step.change[i] * (along[i] + step.rate[i]);
     work_.contact += h_ * power;
     work_.moved += h_ * std::abs(power);
-    state_.rate.resize(m);
-    state_.rate[i] = steadyVelocity_[i] + (jump[i] - jump_[i]) / h_;
+    state_.rate[i] = steadyVelocity_[i] + (step.jump[i] - jump_[i]) / h_;
     if (!isNormal(i)) work_.friction -= h_ * state_.force[i] * state_.rate[i];
   }
-  state_.v = std::move(mean);
-  state_.jump = jump;
-  state_.kinetic = kinetic;
+}
+
+/// Makes the arrays of the step those of the last one.
+void Massless::finish(StepArrays step) {
+  state_.v = std::move(step.mean);
+  state_.jump = step.jump;
   state_.time += h_;
-  jump_ = std::move(jump), z_ = std::move(z), damped_ = std::move(damped);
+  jump_ = std::move(step.jump), z_ = std::move(step.z), damped_ = std::move(step.damped);
 }
 
 double Massless::energy() const {
@@ -155,14 +204,14 @@ double Massless::energy() const {
   return sum;
 }
 
-/// Returns true if both slips of a node that is in contact rested in the last step.
+/// Returns true if both slips of a node in contact stuck in the last step.
 bool Massless::sticks(std::size_t node) const {
   const PetscInt row = node * model_.dimension;
   double to[2] = {0, 0};
   for (int c = 1; c < model_.dimension; ++c)
     if (model_.moves[row + c])
       to[c - 1] = state_.force[row + c] - stiffness_[node] * increments_[row + c];
-  // The projection onto the cone leaves what sticks within it.
+  // The projection onto the cone does not change a force within the cone.
   return std::hypot(to[0], to[1]) < friction_[node] * state_.force[row];
 }
 
@@ -176,51 +225,63 @@ std::vector<unsigned char> Massless::stuck() const {
   return result;
 }
 
-/// Returns the variations δR for given ones of b in d = b + W R. A node in contact has δd_N = 0;
-/// where it sticks δd_T = 0; where it slides, with e = d_T/|d_T|,
+/// Returns the rows that carry force in the last step.
+std::vector<PetscInt> Massless::loadedRows() const {
+  std::vector<PetscInt> rows;
+  for (std::size_t node = 0; node < model_.nodes.size(); ++node)
+    for (int c = 0; c < model_.dimension; ++c)
+      if (const PetscInt normal = node * model_.dimension, row = normal + c;
+          state_.force[normal] > 0 && (c == 0 || model_.moves[row]) && solver_.w()(row, row) > 0)
+        rows.push_back(row);
+  return rows;
+}
+
+/// Sets row i of a δR = right, for the slip of a node that slides, divided by the size of its
+/// diagonal: with e = d_T/|d_T|,
 ///   δR_T = −f e δR_N − (f R_N/|d_T|) (1 − e eᵀ) δd_T.
-DenseMatrix Massless::forceVariations(const DenseMatrix& b) const {
+void Massless::setSlidingRow(PetscInt i, const std::vector<PetscInt>& rows, const DenseMatrix& b,
+                             DenseMatrix& a, DenseMatrix& right) const {
   const DenseMatrix& w = solver_.w();
   const int dimension = model_.dimension;
-  std::vector<PetscInt> rows;  // that carry force
-  for (std::size_t node = 0; node < model_.nodes.size(); ++node)
-    for (int c = 0; c < dimension; ++c)
-      if (const PetscInt row = node * dimension + c;
-          state_.force[node * dimension] > 0 && (c == 0 || model_.moves[row]) && w(row, row) > 0)
-        rows.push_back(row);
+  const PetscInt row = rows[i], normal = row - row % dimension;
+  double d[2] = {0, 0};
+  for (int c = 1; c < dimension; ++c)
+    if (model_.moves[normal + c]) d[c - 1] = increments_[normal + c];
+  const double length = std::hypot(d[0], d[1]), f = friction_[row / dimension];
+  const double across = f * state_.force[normal] / length;
+  const double scale = 1 / (1 + across * w(row, row));
+  const int own = row - normal - 1;
+  for (PetscInt j = 0; j < a.columns(); ++j) {
+    double sum = rows[j] == row ? 1 : rows[j] == normal ? f * d[own] / length : 0;
+    for (int c = 0; c + 1 < dimension; ++c)
+      if (model_.moves[normal + 1 + c])
+        sum += across * ((c == own) - d[own] * d[c] / length / length) * w(normal + 1 + c, rows[j]);
+    a(i, j) = scale * sum;
+  }
+  for (PetscInt j = 0; j < right.columns(); ++j)
+    for (int c = 0; c + 1 < dimension; ++c)
+      if (model_.moves[normal + 1 + c])
+        right(i, j) -=
+            scale * across * ((c == own) - d[own] * d[c] / length / length) * b(normal + 1 + c, j);
+}
+
+/// Returns the variations δR for given ones of b in d = b + W R. A node in contact has δd_N = 0,
+/// and if it sticks δd_T = 0.
+DenseMatrix Massless::forceVariations(const DenseMatrix& b) const {
+  const DenseMatrix& w = solver_.w();
+  const auto rows = loadedRows();
   const PetscInt n = std::ssize(rows), columns = b.columns();
   DenseMatrix result(model_.rows(), columns);
   if (n == 0) return result;
   DenseMatrix a(n, n), right(n, columns);
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt row = rows[i], normal = row - row % dimension;
-    const std::size_t node = row / dimension;
-    if (isNormal(row) || sticks(node)) {
-      for (PetscInt j = 0; j < n; ++j) a(i, j) = w(row, rows[j]) / w(row, row);
-      for (PetscInt j = 0; j < columns; ++j) right(i, j) = -b(row, j) / w(row, row);
+    const PetscInt row = rows[i];
+    if (!isNormal(row) && !sticks(row / model_.dimension)) {
+      setSlidingRow(i, rows, b, a, right);
       continue;
     }
-    double d[2] = {0, 0};
-    for (int c = 1; c < dimension; ++c)
-      if (model_.moves[normal + c]) d[c - 1] = increments_[normal + c];
-    const double length = std::hypot(d[0], d[1]), f = friction_[node];
-    const double across = f * state_.force[normal] / length;
-    // The row is divided by the size of its diagonal.
-    const double scale = 1 / (1 + across * w(row, row));
-    const int own = row - normal - 1;
-    for (PetscInt j = 0; j < n; ++j) {
-      double sum = rows[j] == row ? 1 : rows[j] == normal ? f * d[own] / length : 0;
-      for (int c = 0; c + 1 < dimension; ++c)
-        if (model_.moves[normal + 1 + c])
-          sum +=
-              across * ((c == own) - d[own] * d[c] / length / length) * w(normal + 1 + c, rows[j]);
-      a(i, j) = scale * sum;
-    }
-    for (PetscInt j = 0; j < columns; ++j)
-      for (int c = 0; c + 1 < dimension; ++c)
-        if (model_.moves[normal + 1 + c])
-          right(i, j) -= scale * across * ((c == own) - d[own] * d[c] / length / length) *
-                         b(normal + 1 + c, j);
+    for (PetscInt j = 0; j < n; ++j) a(i, j) = w(row, rows[j]) / w(row, row);
+    for (PetscInt j = 0; j < columns; ++j) right(i, j) = -b(row, j) / w(row, row);
   }
   linalg::Lu<double>(std::move(a)).solve(right);
   for (PetscInt j = 0; j < columns; ++j)
@@ -257,7 +318,7 @@ void Massless::propagate(Variations& x) const {
 }
 
 std::unique_ptr<Scheme> masslessScheme(const ReducedModel& model, const Start& start, double h) {
-  return std::make_unique<Massless>(model, handedAt(start, h), h);
+  return std::make_unique<Massless>(model, initialStateAt(start, h), h);
 }
 
 }  // namespace squeal::march

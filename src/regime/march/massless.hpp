@@ -1,23 +1,26 @@
 #pragma once
 /// The scheme of the massless boundary [M.72]: the leapfrog rule for q, the backward Euler rule for
-/// z. Its step is a map of what one step hands on to the next, and the derivative of this map is
-/// known: periodic motions and their stability follow from it.
+/// z. A step maps an initial state to the next one. The derivative of this map is known, and gives
+/// periodic motions and their stability.
 #include <vector>
 
+#include "base/checkpoint/archive.hpp"
 #include "regime/march/contact_forces.hpp"
 #include "regime/march/model.hpp"
 #include "regime/march/scheme.hpp"
 
 namespace squeal::march {
 
-/// A step hands these on to the next one: q_n, v_{n−1/2} and z_{n−1}.
-struct Handed {
+/// The state from which step n starts: q_n, v_{n−1/2} and z_{n−1}.
+struct InitialState {
   std::vector<double> q, v, z;
 };
-/// Returns what a step of length h finds at the start of a march.
-Handed handedAt(const Start& start, double h);
+/// Writes the state to a stream, or reads it.
+void fields(checkpoint::Stream& stream, InitialState& state);
+/// Returns the initial state of the first step, of length h.
+InitialState initialStateAt(const Start& start, double h);
 
-/// Columns of variations of Handed.
+/// Columns of variations of an InitialState.
 struct Variations {
   DenseMatrix q, v, z;  ///< modes × columns, modes × columns, rows × columns
 };
@@ -31,23 +34,33 @@ struct Variations {
 class Massless : public Scheme {
  public:
   /// The model is borrowed; h is the step, s.
-  Massless(const ReducedModel& model, const Handed& handed, double h);
+  Massless(const ReducedModel& model, const InitialState& initial, double h,
+           double sweptChange = 0);
   void step() override;
   double energy() const override;
 
-  /// Returns what the last step hands on.
-  Handed handed() const { return {q_, v_, z_}; }
-  /// Lets the contact forces of a step hold to this part of the mean steady force.
+  /// Returns the initial state of the next step.
+  InitialState next() const { return {q_, v_, z_}; }
+  /// Sets the accuracy of the contact forces of a step, relative to the mean steady force.
   void setAccuracy(double relative);
   /// Returns the slips that stuck in the last step, [row].
   std::vector<unsigned char> stuck() const;
-  /// Replaces variations of what went into the last step by those of what it hands on, with each
-  /// node open, sticking or sliding as it was. The coefficients of friction stay.
+  /// Replaces variations of the initial state of the last step by those of the next one. Each node
+  /// stays open, sticking or sliding, and its coefficient of friction is constant.
   void propagate(Variations& x) const;
 
  private:
-  bool isNormal(PetscInt row) const { return row % model_.dimension == 0; }
+  struct StepArrays;
+  StepArrays predict();
+  void solveContact(StepArrays& step);
+  void update(StepArrays& step);
+  void addWork(const StepArrays& step);
+  void finish(StepArrays step);
+  double known(PetscInt i) const;
   bool sticks(std::size_t node) const;
+  std::vector<PetscInt> loadedRows() const;
+  void setSlidingRow(PetscInt i, const std::vector<PetscInt>& rows, const DenseMatrix& b,
+                     DenseMatrix& a, DenseMatrix& right) const;
   DenseMatrix forceVariations(const DenseMatrix& increments) const;
 
   double h_;

@@ -14,7 +14,7 @@ namespace {
 using linalg::ComplexMatrix;
 using linalg::Lu;
 
-/// The linearised model in the unknowns that steady sliding leaves free: q and the z of free rows.
+/// The linearised model in the unknowns that are free in steady sliding: q and the z of free rows.
 /// In held rows y = 0, that is z = −j q.
 class Linearised {
  public:
@@ -80,7 +80,7 @@ class Linearised {
     for (const PetscInt row : held_) z[row] = -model_.jump(row, j);
   }
 
-  /// Sets the forces that a motion (q, z) e^{st} needs, those of q first.
+  /// Sets the forces of a motion (q, z) e^{st}, those of q first.
   void forces(Complex s, const std::vector<Complex>& q, const std::vector<Complex>& z,
               std::span<Complex> result) const {
     const PetscInt k = model_.modes(), m = model_.rows();
@@ -162,6 +162,11 @@ void normalise(std::vector<Complex>& x) {
 }
 
 }  // namespace
+
+double coefficient(const ReducedModel& model, const Node& node, double speed, double sweptChange) {
+  if (model.law && node.lawCoefficient != 0) return node.lawCoefficient * model.law(speed);
+  return sweptChange == 0 ? node.friction : node.friction + node.sweptFriction * sweptChange;
+}
 
 LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& asked) {
   const Linearised linearised(model);

@@ -5,8 +5,8 @@
 ///   q̈ + C q̇ + Λ q + K_zqᵀ z + C_zqᵀ ż = jᵀ R*,
 ///   M_z z̈ + C_z ż + K_z z + K_zq q + C_zq q̇ = R*,
 /// with the jump y of gaps and slips and the contact forces R = R_s + R*. The contact moves with
-/// the modes, j q, and by z, which the modes do not carry. M_z is left out unless a scheme asks for
-/// it: the boundary is then massless, and an impact has no impulse.
+/// the modes, j q, and by z, which the modes do not carry. Only the scheme of Moreau and Jean uses
+/// M_z. Without it the boundary is massless, and an impact has no impulse.
 #include <array>
 #include <functional>
 #include <vector>
@@ -27,10 +27,10 @@ struct Node {
   Point position{};
   Point normal{};                    ///< unit, from disc to pad
   std::array<Point, 2> tangents{};   ///< unit; the first along τ where the node slides
-  double friction = 0;               ///< coefficient of friction, at the steady sliding velocity
-  double lawCoefficient = 0;         ///< what the law is multiplied by; 0: no law applies
-  double frictionSlope = 0;          ///< derivative of `friction` by the speed of sliding, s/m
-  double sweptFriction = 0;          ///< derivative of `friction` by the swept one
+  double friction = 0;               ///< coefficient of friction in steady sliding
+  double lawCoefficient = 0;         ///< factor on the friction law; 0: no law applies
+  double frictionSlope = 0;          ///< derivative of `friction` by the sliding speed, s/m
+  double sweptFriction = 0;          ///< derivative of `friction` by the swept coefficient
   double area = 0;                   ///< m²
   double gap = 0;                    ///< steady gap, m; 0 where it is pressed
   double normalForce = 0;            ///< steady R_N, N, ≥ 0
@@ -52,14 +52,18 @@ struct ReducedModel {
   DenseMatrix boundaryStiffness;  ///< K_z
   DenseMatrix couplingDamping;    ///< C_zq, rows × modes
   DenseMatrix couplingStiffness;  ///< K_zq
-  /// [row] false for a slip that supports hold, or that no friction acts on: it has no z.
+  /// [row] false for a slip that supports hold or that has no friction: it has no z.
   std::vector<unsigned char> moves;
-  /// φ, the law of the sliding speed, m/s; empty: coefficients do not depend on it.
+  /// φ, the friction law, of the sliding speed, m/s; empty: constant coefficients.
   std::function<double(double)> law;
 
   PetscInt modes() const { return std::ssize(stiffness); }
   PetscInt rows() const { return std::ssize(nodes) * dimension; }
 };
+
+/// Not collective. Returns the coefficient of friction of a node at a sliding speed, m/s, if the
+/// swept coefficient exceeds that of the model by `sweptChange`.
+double coefficient(const ReducedModel& model, const Node& node, double speed, double sweptChange);
 
 /// A motion of the linearised model, e^{st} times these amplitudes.
 struct LinearMode {
@@ -72,15 +76,15 @@ struct LinearMode {
 /// Not collective. Returns the eigenpair of the model linearised about steady sliding that Newton's
 /// method finds from s: pressed nodes stay closed, sliding ones obey
 ///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7],
-/// sticking ones stick, open ones are free. Throws Error if the method does not converge, and
-/// Interrupted, on this rank alone, once asked() is true.
+/// sticking ones stick, open ones are free. Throws Error if the method does not converge. Throws
+/// Interrupted, only on this rank, once asked() is true.
 LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& asked = {});
 
 /// Not collective. Returns the largest step, s, at which the leapfrog rule is stable with all nodes
-/// held: 2/ω of its fastest motion.
+/// held: 2/ω of the highest frequency.
 double stableStep(const ReducedModel& model);
-/// Not collective. Returns the same with all nodes free. More nodes in contact make the model
-/// stiffer: a longer step is unstable whatever the contact does.
+/// Not collective. Returns the largest stable step, s, with all nodes free. More nodes in contact
+/// make the model stiffer, so a longer step is unstable in any state of the contact.
 double longestStep(const ReducedModel& model);
 
 }  // namespace squeal::march

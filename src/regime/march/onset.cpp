@@ -21,7 +21,7 @@ double reaches(const std::array<double, 2>& a, const std::array<double, 2>& b, d
   return x > 0 ? x : never;
 }
 
-/// Returns the factor at which a node that sticks slides at the first phase.
+/// Returns the smallest factor at which a sticking node slides at some phase.
 double slides(const Node& node, const NodeMotion& motion) {
   if (!std::isfinite(node.friction)) return never;
   double first = never;
@@ -38,36 +38,27 @@ double slides(const Node& node, const NodeMotion& motion) {
 
 }  // namespace
 
-const char* text(Event event) {
-  switch (event) {
-    case Event::none:
-      return "none";
-    case Event::opens:
-      return "opens";
-    case Event::rests:
-      return "comes_to_rest";
-    case Event::slides:
-      return "slides";
-  }
-  return "";
+const char* text(OnsetEvent event) {
+  constexpr const char* texts[] = {"none", "opens", "comes_to_rest", "slides"};
+  return texts[static_cast<int>(event)];
 }
 
 Onset firstEvent(std::span<const Node> nodes, std::span<const NodeMotion> motion) {
   Onset onset;
   onset.factor = never;
-  const auto consider = [&](double factor, Event event, std::size_t node) {
+  const auto consider = [&](double factor, OnsetEvent event, std::size_t node) {
     if (factor < onset.factor) onset = {event, factor, node, 0};
   };
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Node& node = nodes[i];
     if (!node.pressed()) continue;
     if (const double size = std::abs(motion[i].normalForce); size > 0)
-      consider(node.normalForce / size, Event::opens, i);
+      consider(node.normalForce / size, OnsetEvent::opens, i);
     if (!node.rubs()) continue;
     if (node.sticks()) {
-      consider(slides(node, motion[i]), Event::slides, i);
+      consider(slides(node, motion[i]), OnsetEvent::slides, i);
     } else if (const double size = std::abs(motion[i].rate[0]); size > 0) {
-      consider(node.velocity[0] / size, Event::rests, i);
+      consider(node.velocity[0] / size, OnsetEvent::rests, i);
     }
   }
   for (std::size_t i = 0; i < nodes.size(); ++i)

@@ -1,6 +1,6 @@
 #pragma once
-/// A mode grows linearly until a contact node opens or comes to rest for the first time, or one
-/// that sticks begins to slide [M.75].
+/// The onset of nonlinearity: a growing mode is linear until the first contact node separates or
+/// comes to rest, or a sticking one begins to slide [M.75].
 #include <span>
 #include <string>
 #include <vector>
@@ -17,15 +17,15 @@ struct NodeMotion {
   std::array<Complex, 2> rate{};   ///< w* along the tangents, m/s
 };
 
-enum class Event { none, opens, rests, slides };
-const char* text(Event event);
+enum class OnsetEvent { none, opens, rests, slides };
+const char* text(OnsetEvent event);
 
 /// The first event of a mode u e^{st} that grows.
 struct Onset {
-  Event event = Event::none;
-  double factor = 0;     ///< of the mode as it is given, at the event
-  std::size_t node = 0;  ///< at which it happens, of those given
-  double turning = 0;    ///< largest |w*_⊥| / |w| of the nodes that slide, at this factor
+  OnsetEvent event = OnsetEvent::none;
+  double factor = 0;     ///< on the given mode at the event
+  std::size_t node = 0;  ///< of the event, an index into the given nodes
+  double turning = 0;    ///< largest |w*_⊥| / |w| of the sliding nodes, at this factor
 };
 
 /// Not collective. Returns the first event: at a pressed node that slides |R_N*| = R_N, or

@@ -7,8 +7,9 @@
 
 namespace squeal::march {
 
-Scheme::Scheme(const ReducedModel& model)
+Scheme::Scheme(const ReducedModel& model, double sweptChange)
     : model_(model),
+      sweptChange_(sweptChange),
       steadyForce_(model.rows()),
       steadyVelocity_(model.rows()),
       steadyGap_(model.rows()) {
@@ -17,7 +18,8 @@ Scheme::Scheme(const ReducedModel& model)
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
     const PetscInt row = i * model.dimension;
-    friction_.push_back(node.friction);
+    friction_.push_back(
+        coefficient(model, node, std::hypot(node.velocity[0], node.velocity[1]), sweptChange));
     steadyForce_[row] = node.normalForce;
     steadyGap_[row] = node.gap;
     for (int c = 1; c < model.dimension; ++c)
@@ -35,10 +37,9 @@ void Scheme::updateFriction() {
   if (!model_.law) return;
   for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
     const PetscInt row = i * model_.dimension;
-    if (model_.nodes[i].lawCoefficient == 0) continue;
     const double across = model_.dimension > 2 ? state_.rate[row + 2] : 0;
-    friction_[i] =
-        model_.nodes[i].lawCoefficient * model_.law(std::hypot(state_.rate[row + 1], across));
+    friction_[i] = coefficient(model_, model_.nodes[i], std::hypot(state_.rate[row + 1], across),
+                               sweptChange_);
   }
 }
 

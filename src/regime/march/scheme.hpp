@@ -1,5 +1,5 @@
 #pragma once
-/// The reduced model is integrated in time with the conditions of contact at the end of each step.
+/// Time integration of the reduced model, with the conditions of contact at the end of each step.
 #include <memory>
 #include <utility>
 #include <vector>
@@ -20,25 +20,25 @@ struct State {
   double kinetic = 0;         ///< kinetic energy, J
 };
 
-/// Work since the start, J.
-struct Work {
-  double contact = 0;   ///< done by R* on the jump
+/// Mechanical work since the start, J.
+struct MechanicalWork {
+  double contact = 0;   ///< of R* on the jump
   double friction = 0;  ///< heat of friction, −Σ R_T·w
-  double damping = 0;   ///< lost in the material and in dashpots
+  double damping = 0;   ///< dissipated in the material and in dashpots
   double moved = 0;     ///< sum of |R*·dy|, the scale of the other figures
 };
 
-/// A Scheme is a rule that takes the motion over one step.
+/// A Scheme is a rule of time integration.
 class Scheme {
  public:
   virtual ~Scheme() = default;
   /// Takes one step. Throws Error if the contact forces do not converge or the motion is not
-  /// finite, and Interrupted, on this rank alone, once setStop() says so.
+  /// finite. Throws Interrupted, only on this rank, once the function of setStop() returns true.
   virtual void step() = 0;
-  /// Lets a step end once asked() is true.
+  /// Sets the function that requests the end of a step.
   void setStop(StopAsked asked) { stopAsked_ = std::move(asked); }
   const State& state() const { return state_; }
-  const Work& work() const { return work_; }
+  const MechanicalWork& work() const { return work_; }
   int sweeps() const { return sweeps_; }  ///< of the last step
   /// Returns the kinetic and elastic energy of the motion about steady sliding, J.
   virtual double energy() const = 0;
@@ -50,20 +50,23 @@ class Scheme {
   double lastDefect() const;
 
  protected:
-  /// Contact forces of a step hold to this part of the mean steady force. Each sweep of the solver
-  /// costs as much; they are said to hold to ten times this.
+  /// The accuracy of the contact forces of a step, relative to the mean steady force. All sweeps of
+  /// the solver cost the same. The documents promise ten times this.
   static constexpr double accuracy = 1e-6;
-  explicit Scheme(const ReducedModel& model);
+  /// The swept coefficient of friction exceeds that of the model by `sweptChange`.
+  explicit Scheme(const ReducedModel& model, double sweptChange = 0);
   void updateFriction();
+  bool isNormal(PetscInt row) const { return row % model_.dimension == 0; }
   const ReducedModel& model_;
+  double sweptChange_;
   State state_;
-  Work work_;
+  MechanicalWork work_;
   int sweeps_ = 0;
   double tolerance_;                                              // of the forces, N
-  std::vector<double> friction_;                                  // [node] coefficients in force
+  std::vector<double> friction_;                                  // [node] coefficients of the step
   std::vector<double> steadyForce_, steadyVelocity_, steadyGap_;  // [row], zero in the other rows
   std::vector<double> increments_;                                // d of the last step
-  std::vector<double> stiffness_;  // [node] that weighs gaps in a defect, N/m
+  std::vector<double> stiffness_;  // [node] weight of gaps in a defect, N/m
   StopAsked stopAsked_;            // empty: never
 };
 
@@ -77,7 +80,7 @@ Start startOn(const LinearMode& mode, double factor);
 /// Returns the scheme of the massless boundary (Massless). The model is borrowed; h is the step, s.
 std::unique_ptr<Scheme> masslessScheme(const ReducedModel& model, const Start& start, double h);
 /// Returns the scheme of Moreau and Jean with θ = 1/2 and with the mass of the boundary [M.73]:
-/// contact conditions on velocities, no restitution. Rows whose mass is zero keep them on
+/// contact conditions on velocities, no restitution. In rows without mass the conditions are on
 /// positions.
 std::unique_ptr<Scheme> moreauScheme(const ReducedModel& model, const Start& start, double h);
 

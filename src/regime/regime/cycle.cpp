@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
@@ -14,23 +13,7 @@
 namespace squeal::regime {
 namespace {
 
-const FlagOption cycleOption(
-    "regime", "regime_cycle", false,
-    "periodic motions, stable or not, by shooting from the mean of the march, with their Floquet "
-    "multipliers");
-const IntegerOption stepsOption("regime", "regime_cycle_steps", 256, 16, 100'000,
-                                "time steps of the period of such a motion");
-const RealOption toleranceOption(
-    "regime", "regime_cycle_tolerance", 1e-6, "", Range{1e-10, 1e-2},
-    "change of displacements and velocities over a period, relative and in the energy norm, below "
-    "which a motion is periodic");
-const RealListOption rangeOption(
-    "regime", "regime_cycle_range", "", "", nonNegative,
-    "two frictions between which the branch of periodic motions is followed, folds included");
-const IntegerOption mostOption("regime", "regime_cycle_motions", 20, 1, 10'000,
-                               "most motions of the branch in each direction");
-
-PeriodicMotion motionOf(const cycles::Found& found) {
+PeriodicMotion motionOf(const cycles::ShootingResult& found) {
   PeriodicMotion motion;
   motion.friction = found.orbit.friction;
   motion.period = found.orbit.period;
@@ -54,9 +37,8 @@ std::string describe(const PeriodicMotion& motion) {
       motion.stable() ? "stable" : "unstable");
 }
 
-/// Returns why a period cannot be marched with the steps of `-regime_cycle_steps`; empty: it can.
-std::string stepBroken(const march::ReducedModel& model, double period) {
-  const int steps = stepsOption.get();
+/// Returns the bound that the steps of a period break; empty: none.
+std::string stepBroken(const march::ReducedModel& model, double period, int steps) {
   const double longest = march::longestStep(model);
   if (period / steps <= longest) return "";
   return formatted(
@@ -65,17 +47,18 @@ std::string stepBroken(const march::ReducedModel& model, double period) {
       steps, period / steps, longest, std::ceil(1.05 * period / longest));
 }
 
-/// Collective. Returns the first periodic motion that is found from the orbits, else the last
-/// attempt; its period is 0 where no march over a period came to its end. Sets the failure of the
-/// last one that did not.
-cycles::Found shootFrom(cycles::Period& period, const std::vector<cycles::Orbit>& orbits,
-                        const cycles::Told& told, std::string& failure) {
-  cycles::Found found;
+/// Collective. Returns the first periodic motion found from the orbits, otherwise the last attempt;
+/// its period is 0 if no march over a period came to its end. Sets the failure of the last one that
+/// did not.
+cycles::ShootingResult shootFrom(const cycles::Period& period,
+                                 const std::vector<cycles::Orbit>& orbits,
+                                 const cycles::ShootingRequest& request, std::string& failure) {
+  cycles::ShootingResult found;
   for (cycles::Orbit guess : orbits) {
     try {
-      // Slips that stick at the start are unknowns of their own: the fewest of them are best.
+      // Slips that stick at the start are additional unknowns: start with the fewest of them.
       guess.start = period.pass(guess, period.pass(guess).quietest).end;
-      found = cycles::shoot(period, guess, toleranceOption.get(), told);
+      found = cycles::shoot(period, guess, request);
     } catch (const Error& error) {
       failure = std::string(error.what()) + "; give more -regime_cycle_steps";
     }
@@ -85,21 +68,22 @@ cycles::Found shootFrom(cycles::Period& period, const std::vector<cycles::Orbit>
 }
 
 /// Collective. Adds the motions of the branch through the first one.
-void followBranch(cycles::Period& period, const cycles::Found& first, const cycles::Told& told,
-                  Stage& stage, Cycles& cycles) {
-  const auto range = rangeOption.get();
-  const cycles::Reach reach{range[0], range[1], int(mostOption.get()), toleranceOption.get()};
+void followBranch(const cycles::Period& period, const cycles::ShootingResult& first,
+                  const CycleSettings& settings, const cycles::Progress& progress, Stage& stage,
+                  Cycles& cycles) {
+  const auto& range = *settings.range;
+  const cycles::ContinuationLimits limits{range[0], range[1], settings.motions, settings.tolerance};
+  const auto inspect = [&](const cycles::ShootingResult& found) {
+    cycles.motions.push_back(motionOf(found));
+    stage.say(describe(cycles.motions.back()));
+  };
   for (const bool upwards : {false, true}) {
-    cycles.ways.push_back(
-        cycles::follow(period, first, upwards, reach, told, [&](const cycles::Found& found) {
-          cycles.motions.push_back(motionOf(found));
-          stage.say(describe(cycles.motions.back()));
-        }));
-    const auto& way = cycles.ways.back();
-    for (const double fold : way.folds)
+    cycles.routes.push_back(cycles::follow(period, first, upwards, limits, progress, inspect));
+    const auto& route = cycles.routes.back();
+    for (const double fold : route.folds)
       stage.say(formatted("the branch of periodic motions turns back at friction %.6g", fold));
     stage.say(formatted("towards %s friction the branch ends at %.6g: %s",
-                        upwards ? "larger" : "smaller", way.end, way.reason.c_str()));
+                        upwards ? "larger" : "smaller", route.end, route.reason.c_str()));
   }
 }
 
@@ -111,45 +95,12 @@ Complex PeriodicMotion::largestMultiplier() const {
   return 0;
 }
 
-bool cyclesWanted() { return cycleOption.get(); }
-
-bool branchWanted() { return !rangeOption.get().empty(); }
-
-void checkCycleOptions(bool followed, bool massless) {
-  const auto options = {
-      static_cast<const Option*>(&cycleOption), static_cast<const Option*>(&stepsOption),
-      static_cast<const Option*>(&toleranceOption), static_cast<const Option*>(&rangeOption),
-      static_cast<const Option*>(&mostOption)};
-  for (const Option* option : options) {
-    if (!option->given()) continue;
-    if (!followed)
-      throw Error("option -" + option->name +
-                  ": nothing is followed after flutter without -regime_friction");
-    if (!cyclesWanted() && option != &cycleOption)
-      throw Error("option -" + option->name +
-                  ": periodic motions are not looked for without -regime_cycle");
-  }
-  if (!cyclesWanted()) return;
-  if (!massless)
-    throw Error(
-        "option -regime_cycle: periodic motions are found with -regime_boundary massless only");
-  const auto range = rangeOption.get();
-  if (range.empty()) {
-    if (mostOption.given())
-      throw Error(
-          "option -regime_cycle_motions: no branch is followed without "
-          "-regime_cycle_range");
-  } else if (range.size() != 2 || !(range[0] < range[1])) {
-    throw Error("option -regime_cycle_range: two frictions, the smaller one first");
-  }
-}
-
 SectionRecord::SectionRecord(const march::ReducedModel& model, const march::LinearMode& mode)
     : section_(model, mode.q, 2 * M_PI / mode.s.imag()) {}
 
-void SectionRecord::look(const march::Scheme& scheme) {
+void SectionRecord::inspect(const march::Scheme& scheme) {
   if (const auto* massless = dynamic_cast<const march::Massless*>(&scheme))
-    section_.look(*massless);
+    section_.inspect(*massless);
 }
 
 cycles::Passes SectionRecord::last(std::size_t windows) const {
@@ -160,41 +111,28 @@ cycles::Passes SectionRecord::last(std::size_t windows) const {
   return result;
 }
 
-void share(MPI_Comm comm, int root, cycles::Passes& passes) {
-  check(MPI_Bcast(&passes.count, 1, MPI_INT, root, comm));
-  check(MPI_Bcast(&passes.change, 1, MPI_DOUBLE, root, comm));
-  for (cycles::Pass* pass : {&passes.sum, &passes.nearest}) {
-    check(MPI_Bcast(&pass->period, 1, MPI_DOUBLE, root, comm));
-    for (auto* part : {&pass->state.q, &pass->state.v, &pass->state.z, &pass->acceleration}) {
-      PetscInt64 size = std::ssize(*part);
-      check(MPI_Bcast(&size, 1, MPIU_INT64, root, comm));
-      part->resize(size);
-      check(MPI_Bcast(part->data(), size, MPI_DOUBLE, root, comm));
-    }
-  }
-}
-
-Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double friction,
-                  const cycles::Passes& passes, double step, Stage& stage) {
+Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSettings& settings,
+                  const CycleStart& start, Stage& stage) {
   Cycles cycles;
-  if (passes.count == 0) {
+  if (start.passes.count == 0) {
     complain(
         comm,
         "warning: -regime_cycle: no node separated or stuck during a full window of the march, "
         "so shooting has no starting point");
     return cycles;
   }
-  cycles::Period period(comm, model, friction, stepsOption.get());
-  auto orbits = cycles::firstOrbits(passes, step, period.steps());
-  for (auto& orbit : orbits) orbit.friction = friction;
-  cycles.failure = stepBroken(model, orbits.front().period);
+  const cycles::Period period(comm, model, start.friction, settings.steps);
+  auto orbits = cycles::firstOrbits(start.passes, start.step, period.steps());
+  for (auto& orbit : orbits) orbit.friction = start.friction;
+  cycles.failure = stepBroken(model, orbits.front().period, settings.steps);
   if (!cycles.failure.empty()) return cycles;
-  const auto told = [&](const cycles::Iteration& now) {
+  const auto progress = [&](const cycles::Iteration& now) {
     stage.progress(formatted("shooting: change over a period %.1e, %d linearisations", now.change,
                              now.derivatives));
     stopIfAsked(comm);
   };
-  const cycles::Found first = shootFrom(period, orbits, told, cycles.failure);
+  const cycles::ShootingResult first =
+      shootFrom(period, orbits, {settings.tolerance, progress}, cycles.failure);
   if (first.orbit.period == 0) return cycles;  // no march over a period came to its end
   cycles.failure.clear();                      // it belongs to another orbit
   try {
@@ -206,8 +144,9 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double fricti
                formatted("warning: -regime_cycle: no periodic motion is found near the march: "
                          "Newton's method ends with a change of %.1e over a period, more than "
                          "the %.1e of -regime_cycle_tolerance",
-                         first.change, toleranceOption.get()));
-    if (first.converged && branchWanted()) followBranch(period, first, told, stage, cycles);
+                         first.change, settings.tolerance));
+    if (first.converged && settings.range)
+      followBranch(period, first, settings, progress, stage, cycles);
   } catch (const Error& error) {
     cycles.failure = error.what();
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// The periodic motions after flutter, stable or not, are found by shooting from a march, and
-/// followed over the friction [M.77, M.78].
+/// The periodic motions after flutter, stable or not: by shooting from a march, and by continuation
+/// over the friction [M.77, M.78].
 #include <string>
 #include <vector>
 
@@ -8,6 +8,7 @@
 #include "regime/cycles/branch.hpp"
 #include "regime/cycles/section.hpp"
 #include "regime/cycles/shooting.hpp"
+#include "regime/regime/settings.hpp"
 
 namespace squeal::regime {
 
@@ -16,40 +17,32 @@ struct PeriodicMotion {
   double friction = 0;  ///< the swept coefficient
   double period = 0;    ///< s
   bool converged = false;
-  double change = 0;  ///< over a period, that Newton's method has left
+  double change = 0;  ///< over a period, at the end of Newton's method
   cycles::Measures measures;
   /// By descending modulus, none below a tenth; empty unless it has converged.
   cycles::Multipliers multipliers;
   Complex trivialMultiplier() const { return multipliers.values[multipliers.trivial]; }
-  /// Returns the largest one but the trivial one; 0 if there is none.
+  /// Returns the largest one except the trivial one; 0 if there is none.
   Complex largestMultiplier() const;
   bool stable() const { return std::abs(largestMultiplier()) < 1; }
 };
 
-/// Cycles hold what shooting from one march has found.
+/// The periodic motions from one march.
 struct Cycles {
   std::vector<PeriodicMotion> motions;  ///< the first at the friction of the march, then the branch
-  /// Where the branch goes from the first motion, towards smaller and towards larger friction.
-  std::vector<cycles::Way> ways;
-  /// The error by which the search has ended, with option and remedy; empty: none.
+  /// The branch from the first motion towards smaller and towards larger friction.
+  std::vector<cycles::Route> routes;
+  /// The error that ended the search, with option and remedy; empty: none.
   std::string failure;
 };
 
-/// Returns true if `-regime_cycle` asks for periodic motions.
-bool cyclesWanted();
-/// Returns true if their branch is to be followed.
-bool branchWanted();
-/// Throws Error for options of periodic motions that are idle or that exclude each other;
-/// `massless` tells whether marches have a massless boundary.
-void checkCycleOptions(bool followed, bool massless);
-
-/// Keeps the passes of a march through a section, window by window.
+/// Stores the passes of a march through a section, window by window.
 class SectionRecord {
  public:
   /// The model is borrowed.
   SectionRecord(const march::ReducedModel& model, const march::LinearMode& mode);
   /// Does nothing for a scheme that is not massless.
-  void look(const march::Scheme& scheme);
+  void inspect(const march::Scheme& scheme);
   void endWindow() { windows_.push_back(section_.take()); }
   /// Returns the passes of the last `windows` windows.
   cycles::Passes last(std::size_t windows) const;
@@ -59,12 +52,16 @@ class SectionRecord {
   std::vector<cycles::Passes> windows_;
 };
 
-/// Collective. Sends passes from the rank `root` to all ranks.
-void share(MPI_Comm comm, int root, cycles::Passes& passes);
+/// The start of shooting.
+struct CycleStart {
+  double friction = 0;           ///< at which the model was made
+  const cycles::Passes& passes;  ///< of a march; borrowed
+  double step = 0;               ///< of that march, s
+};
 
-/// Collective. Returns the periodic motions of the model, which was made at this friction, from
-/// the passes of a march with this step, s. An Error ends the search and is returned in the result.
-Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double friction,
-                  const cycles::Passes& passes, double step, Stage& stage);
+/// Collective. Returns the periodic motions of the model. An Error ends the search and is returned
+/// in the result.
+Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSettings& settings,
+                  const CycleStart& start, Stage& stage);
 
 }  // namespace squeal::regime

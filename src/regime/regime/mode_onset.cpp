@@ -1,16 +1,19 @@
+#include "regime/regime/mode_onset.hpp"
+
 #include <mpi.h>
 
 #include <cmath>
 
 #include "base/petsc/check.hpp"
+#include "base/system/mpi.hpp"
 #include "problem/terms/friction_work.hpp"
-#include "regime/regime/regime.hpp"
+#include "regime/regime/contact_nodes.hpp"
 
 namespace squeal::regime {
 namespace {
 
-using march::Event;
 using march::NodeMotion;
+using march::OnsetEvent;
 using terms::ComplexPoint;
 
 /// Collective. Returns E⁻¹ v of complex values v at the nodes.
@@ -52,15 +55,14 @@ void takeFirst(MPI_Comm comm, ModeOnset& mode) {
   struct {
     double factor;
     int rank;
-  } own{mode.onset.factor, 0}, first{};
-  check(MPI_Comm_rank(comm, &own.rank));
+  } own{mode.onset.factor, mpi::rank(comm)}, first{};
   check(MPI_Allreduce(&own, &first, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm));
   // The turning is that at the factor of this rank's event.
-  double turning = std::isfinite(own.factor) ? mode.onset.turning / own.factor : 0;
-  check(MPI_Allreduce(MPI_IN_PLACE, &turning, 1, MPI_DOUBLE, MPI_MAX, comm));
-  check(MPI_Bcast(&mode.onset, sizeof mode.onset, MPI_BYTE, first.rank, comm));
-  check(MPI_Bcast(&mode.position, sizeof mode.position, MPI_BYTE, first.rank, comm));
-  check(MPI_Bcast(&mode.interface, 1, MPI_INT, first.rank, comm));
+  const double turning =
+      mpi::max(comm, std::isfinite(own.factor) ? mode.onset.turning / own.factor : 0.0);
+  mpi::broadcast(comm, mode.onset, first.rank);
+  mpi::broadcast(comm, mode.position, first.rank);
+  mpi::broadcast(comm, mode.interface, first.rank);
   mode.onset.node = 0;
   mode.onset.turning = std::isfinite(first.factor) ? turning * first.factor : 0;
 }
@@ -77,9 +79,9 @@ std::vector<ModeOnset> onsets(const elasticity::Bodies& bodies, const contact::C
     if (!eigenvalue.unstable) continue;
     const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
     const auto forces = terms::motionForces(bodies, point.at, eigenvalue.s, u, prestress);
-    ModeOnset mode{point.at, shape.index, eigenvalue.s, {}, {}, -1, 0};
+    ModeOnset mode{.at = point.at, .mode = shape.index, .s = eigenvalue.s};
     mode.onset = firstEvent(nodes, motionAt(contact, nodes, eigenvalue.s, u, forces.forces));
-    if (mode.onset.event != Event::none) {
+    if (mode.onset.event != OnsetEvent::none) {
       mode.position = nodes[mode.onset.node].position;
       mode.interface = nodes[mode.onset.node].interface;
     }

@@ -6,87 +6,23 @@
 #include <span>
 #include <utility>
 
-#include "base/options/options.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
-#include "eigen/direct/direct.hpp"
-#include "eigen/pencil/modal_damping.hpp"
-#include "problem/terms/terms.hpp"
-#include "regime/march/law.hpp"
-#include "regime/regime/follow.hpp"
+#include "regime/regime/checks.hpp"
 #include "regime/regime/task.hpp"
+#include "regime/regime/trajectory.hpp"
 
 namespace squeal::regime {
 namespace {
 
-using march::Event;
-
-const RealListOption frictionOption(
-    "regime", "regime_friction", "", "", nonNegative,
-    "frictions at which the motion after flutter is followed: stick, slip and separation; added "
-    "to those of -flutter_friction where they are not among them",
-    true);
-
-/// Returns the steady sliding power.
+/// Returns the heat of friction of steady sliding, W.
 double steadyPower(const ReducedModel& model) {
   double power = 0;
   for (const Node& node : model.nodes)
     for (int c = 0; c < 2; ++c) power -= node.shear[c] * node.velocity[c];
   return power;
-}
-
-/// Collective. Warns where steps are longer than is safe, and where friction alone damps.
-void warn(const FullModel& full, std::span<const Task> tasks, double stable) {
-  const MPI_Comm comm = full.contact.mesh->comm;
-  double step = 0;  // the longest
-  for (const Task& task : tasks) {
-    if (!task.failure.empty()) continue;
-    step = std::max(step, task.step);
-    if (const int frames = sound::framesOfPeriod(task.shortestPeriod, task.step);
-        frames < sound::framesWanted())
-      complain(comm, formatted("warning: -regime_frames %d: a period of %.5g Hz has %d steps, and "
-                               "as many frames are written",
-                               sound::framesWanted(), 1 / task.shortestPeriod, frames));
-  }
-  if (boundaryIsMassless() && step > stable)
-    complain(comm, formatted("warning: -regime_step %g s exceeds %.3g s, the stable step while all "
-                             "contact sticks; the motion may grow without bound",
-                             step, stable));
-  PetscReal size = 0;
-  if (full.bodies.damping) check(MatNorm(full.bodies.damping, NORM_FROBENIUS, &size));
-  if (size * full.damping == 0)
-    complain(comm,
-             "warning: the bodies are undamped, so that a motion that never separates or sticks "
-             "grows without bound; give -material_<group>_loss_factor");
-}
-
-/// Collective. Refuses a law of friction that slips of a boundary without mass do not follow, and
-/// says where one may make them alternate.
-void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks) {
-  if (!model.law || !boundaryIsMassless()) return;
-  double step = INFINITY;  // the shortest: its slips follow least
-  for (const Task& task : tasks)
-    if (task.failure.empty()) step = std::min(step, task.step);
-  if (!std::isfinite(step)) return;
-  const auto slopes = march::steadySlopes(model);
-  if (const double gain = march::lawGain(model, step, slopes); !(gain < 1))
-    throw Error(
-        formatted("option -regime_friction: the coefficient of friction changes with the speed "
-                  "%.3g times faster than slips of the massless boundary follow at the time step "
-                  "%g s (-friction_law); give -regime_boundary mass",
-                  gain, step));
-  if (!(march::lawGain(model, 0, slopes) < 1))
-    complain(comm,
-             "warning: the coefficient of friction falls with the speed faster than the damping of "
-             "the massless boundary holds its slips, so that the motion does not converge with "
-             "-regime_step; give the materials at the contact damping, or -regime_boundary mass");
-  for (const bool lowest : {true, false})
-    if (!(march::lawGain(model, step, march::steepestSlopes(model, lowest)) < 1))
-      complain(comm,
-               "warning: near the steepest part of -friction_law slips of the massless boundary "
-               "may alternate from step to step; compare with -regime_boundary mass");
 }
 
 /// Returns the shapes of the unstable modes of a point, the fastest growing one first.
@@ -108,81 +44,87 @@ linalg::Block columnsOf(PetscInt rows, std::span<const pencil::Shape* const> sha
   return columns;
 }
 
-/// What a study has in hand: the point of the sweep, its modes, and the result as far as it is.
-struct Work {
+/// A point of the sweep that is studied; all of it is borrowed.
+struct StudiedPoint {
   const FullModel& full;
-  const pencil::ComplexModes& point;
-  std::vector<const pencil::Shape*> shapes;
-  Study& result;
+  const Settings& settings;
+  const pencil::ComplexModes& modes;
+  std::vector<const pencil::Shape*> shapes;  // of the unstable modes
 
   MPI_Comm comm() const { return full.contact.mesh->comm; }
-  std::string name() const { return sweep::parameterText(point.at); }
-  /// Returns the starts that are wanted, with the certified eigenvalue of the mode of each.
+  std::string name() const { return sweep::parameterText(modes.at); }
+  std::string nameOf(const std::string& start) const {
+    return name() + (start == "all" ? ", start on all modes" : ", start on mode " + start);
+  }
+  /// Returns the name of a run, without its start if there is only one.
+  std::string nameOf(const Run& run) const {
+    return starts().size() > 1 ? nameOf(run.start) : name();
+  }
+  /// Returns the starts with the certified eigenvalue of the mode of each.
   std::vector<std::pair<std::string, Complex>> starts() const {
     std::vector<std::size_t> numbers;
     for (const auto* shape : shapes) numbers.push_back(shape->index + 1);
     std::vector<std::pair<std::string, Complex>> result;
-    for (auto& start : startsOn(numbers)) {
+    for (auto& start : startsOn(numbers, settings.march.starts)) {
       const std::size_t place = start == "all" ? 0 : result.size();
-      result.emplace_back(std::move(start), point.eigenvalues[shapes[place]->index].s);
+      result.emplace_back(std::move(start), modes.eigenvalues[shapes[place]->index].s);
     }
     return result;
   }
-  /// Collective. Prints a failure and keeps it.
-  void fail(const std::string& what) const {
-    complain(comm(), what);
-    result.failures.push_back(what);
-  }
-  std::string nameOf(const std::string& start) const {
-    return name() + (start == "all" ? ", start on all modes" : ", start on mode " + start);
-  }
-  /// Returns the name of a run, without its start where there is one start only.
-  std::string nameOf(const Run& run) const {
-    return starts().size() > 1 ? nameOf(run.start) : name();
-  }
-  void fail(Run& run, const std::string& why) const {
-    run.failure = why;
-    fail(nameOf(run.start) + ": nothing measured: " + why);
-  }
 };
 
-/// Collective. Returns the unstable modes of the reduced model, and sets the error of the model.
-std::vector<NumberedMode> modesOf(const Work& work, const ReducedModel& model) {
-  const auto& point = work.point;
+/// Collective. Prints a failure and adds it to the study.
+void fail(const StudiedPoint& point, const std::string& failure, Study& study) {
+  complain(point.comm(), failure);
+  study.failures.push_back(failure);
+}
+
+/// The unstable modes of the reduced model.
+struct UnstableModes {
   std::vector<NumberedMode> modes;
-  work.result.modelError = 0;
-  for (const auto* shape : work.shapes) {
-    const Complex certified = point.eigenvalues[shape->index].s;
+  double error = 0;     // largest |δs|/|s|
+  std::string failure;  // empty: none
+};
+
+/// Collective. Returns the unstable modes of the reduced model.
+UnstableModes unstableModes(const StudiedPoint& point, const ReducedModel& model) {
+  UnstableModes result;
+  const double tolerance = point.modes.tolerance;
+  for (const auto* shape : point.shapes) {
+    const Complex certified = point.modes.eigenvalues[shape->index].s;
     const std::string name =
         formatted("mode %zu (%.5g Hz)", shape->index + 1, certified.imag() / (2 * M_PI));
     NumberedMode one{shape->index + 1, {}};
     try {
-      workApart(work.comm(), [&](const StopAsked& asked) {
+      workApart(point.comm(), [&](const StopAsked& asked) {
         one.mode = march::nearestMode(model, certified, asked);
       });
     } catch (const Error& error) {
-      throw Error(name + ": " + error.what() +
-                  "; give more -modes_count, or a smaller -flutter_tolerance");
+      result.failure =
+          name + ": " + error.what() + "; give more -modes_count, or a smaller -flutter_tolerance";
+      return result;
     }
     const double relative = std::abs(one.mode.s - certified) / std::abs(certified);
-    work.result.modelError = std::max(work.result.modelError, relative);
-    if (!(relative <= point.tolerance))
-      throw Error(
-          formatted("%s: the reduced model has this unstable eigenvalue to %.1e only, not "
-                    "to the %.1e of -flutter_tolerance; give more -modes_count, or a "
-                    "smaller -flutter_tolerance",
-                    name.c_str(), relative, point.tolerance));
-    modes.push_back(std::move(one));
+    result.error = std::max(result.error, relative);
+    if (!(relative <= tolerance)) {
+      result.failure = formatted(
+          "%s: the reduced model has this unstable eigenvalue only to %.1e, not to the "
+          "%.1e of -flutter_tolerance; give more -modes_count, or a smaller "
+          "-flutter_tolerance",
+          name.c_str(), relative, tolerance);
+      return result;
+    }
+    result.modes.push_back(std::move(one));
   }
-  return modes;
+  return result;
 }
 
-/// Returns the run of a task that nothing is known of but how it starts.
+/// Returns the run of a task before its march.
 Run runOf(const ReducedModel& model, const Task& task) {
   Run run;
   run.start = task.start;
   run.s = task.mode.s;
-  if (task.onset.event == Event::none || !(task.onset.factor > 0)) return run;
+  if (task.onset.event == march::OnsetEvent::none || !(task.onset.factor > 0)) return run;
   run.onset = task.onset;
   run.onsetPosition = model.nodes[task.onset.node].position;
   run.onsetKinetic = largestKinetic(task.mode);
@@ -190,168 +132,141 @@ Run runOf(const ReducedModel& model, const Task& task) {
   return run;
 }
 
-/// Returns a sentence on what a run has measured.
-std::string describe(const Work& work, const Run& run) {
+/// Returns a sentence on the results of a run.
+std::string describe(const StudiedPoint& point, const Study& study, const Run& run) {
   const Regime& regime = run.regime;
   return formatted(
       "%s: %s%s, carrier %.5g Hz (flutter %.5g Hz), friction %.4g, %.4g W (steady sliding %.4g W), "
       "open %.3g, sticking %.3g of %zu nodes, largest kinetic energy %.4g J, defect %.1e, "
       "energy %.1e",
-      work.nameOf(run).c_str(), text(regime.kind), regime.settled ? "" : " (not settled)",
+      point.nameOf(run).c_str(), text(regime.kind), regime.settled ? "" : " (not settled)",
       regime.carrier, run.s.imag() / (2 * M_PI), regime.means.frictionCoefficient,
-      regime.means.frictionPower, work.result.steadyPower, regime.means.open, regime.means.sticking,
-      work.result.nodes.size(), regime.largestKinetic, regime.largestDefect, regime.imbalance);
+      regime.means.frictionPower, study.steadyPower, regime.means.open, regime.means.sticking,
+      study.nodes.size(), regime.largestKinetic, regime.largestDefect, regime.imbalance);
 }
 
-/// Says what is heard of a run.
-void sayHeard(const Work& work, const Run& run, Stage& stage) {
-  const sound::Sound& heard = run.outside.sound;
+/// Collective. Returns the motion of the visible surface in a march, and logs its sound.
+sound::VisibleSurface surfaceOf(const sound::Observer& observer, int root,
+                                const Trajectory& trajectory, const std::string& name,
+                                Stage& stage) {
+  auto surface = observer.of(root, trajectory.trace);
+  const sound::Sound& heard = surface.sound;
   if (std::isfinite(heard.power))
     stage.say(formatted("%s: sound power about %.3g W (%.1f dB) from %.4g m2 of visible surface",
-                        work.nameOf(run).c_str(), heard.power, heard.level, heard.area));
+                        name.c_str(), heard.power, heard.level, heard.area));
+  return surface;
 }
 
-/// Collective. Warns where the march does not grow as the mode does.
-void checkGrowth(const Work& work, const Run& run) {
+/// Collective. Warns if the march does not grow as the mode does.
+void checkGrowth(MPI_Comm comm, const Run& run) {
   const double growth = run.s.real();
-  if (run.start == "all") return;  // several modes grow, each by its own rate
+  if (run.start == "all") return;  // several modes grow, each at its own rate
   if (std::abs(run.regime.growth - growth) > 0.2 * growth)
-    complain(work.comm(),
+    complain(comm,
              formatted("warning: in the linear range the march grows by %.4g 1/s, the mode by "
                        "%.4g 1/s: the error of the step, which a shorter -regime_step makes "
                        "smaller in proportion",
                        run.regime.growth, growth));
 }
 
-/// Collective. Finds the periodic motions of a run; what fails there leaves the march as it is.
-void addCycles(const Work& work, const ReducedModel& model, const Followed& followed, Run& run,
-               Stage& stage) {
-  if (!cyclesWanted()) return;
-  run.cycles =
-      findCycles(work.comm(), model, work.point.at.friction, followed.passes, run.step, stage);
-  if (!run.cycles.failure.empty())
-    work.fail(work.nameOf(run.start) + ": no periodic motions: " + run.cycles.failure);
+/// Collective. Returns the periodic motions of a run. Their failure leaves the march as it is.
+Cycles cyclesOf(const StudiedPoint& point, const ReducedModel& model, const Trajectory& trajectory,
+                const Run& run, Stage& stage, Study& study) {
+  const CycleSettings& settings = point.settings.cycles;
+  if (!settings.wanted) return {};
+  Cycles cycles = findCycles(point.comm(), model, settings,
+                             {point.modes.at.friction, trajectory.passes, run.step}, stage);
+  if (!cycles.failure.empty())
+    fail(point, point.nameOf(run.start) + ": no periodic motions: " + cycles.failure, study);
+  return cycles;
 }
 
-/// Collective. Adds the runs of a point to the result. What throws Error here is a failure of the
-/// whole point.
-void addRuns(const Work& work, linalg::Block free) {
-  const MPI_Comm comm = work.comm();
-  Study& result = work.result;
-  if (work.shapes.empty()) throw Error("the unstable modes are not kept; raise -flutter_shapes");
-  Stage stage(comm, "regime");
-  linalg::Block unstable = columnsOf(free.rows(), work.shapes);
-  const Reduction reduction = reduce(work.full, std::move(free), unstable);
+/// Collective. Makes the reduced model, sets its data in the study, and returns it.
+Reduction reductionOf(const StudiedPoint& point, linalg::Block free, Study& study) {
+  linalg::Block unstable = columnsOf(free.rows(), point.shapes);
+  Reduction reduction = reduce(point.full, std::move(free), unstable);
   const ReducedModel& model = reduction.model;
-  result.modes = model.modes(), result.rows = model.rows();
-  result.nodes = model.nodes, result.contactNode = reduction.contactNode;
-  result.steadyPower = steadyPower(model);
-  const auto modes = modesOf(work, model);
-  result.stableStep = march::stableStep(model);
-  std::vector<Task> tasks = tasksOn(model, modes, result.stableStep);
+  study.modes = model.modes(), study.rows = model.rows();
+  study.nodes = model.nodes, study.contactNode = reduction.contactNode;
+  study.steadyPower = steadyPower(model);
+  return reduction;
+}
+
+/// Collective. Returns the marches of a point.
+std::vector<Task> tasksOf(const StudiedPoint& point, const ReducedModel& model, Stage& stage,
+                          Study& study) {
+  const UnstableModes unstable = unstableModes(point, model);
+  study.modelError = unstable.error;
+  if (!unstable.failure.empty()) throw Error(unstable.failure);
+  study.stableStep = march::stableStep(model);
+  auto tasks = tasksOn(model, point.settings.march, unstable.modes, study.stableStep);
   stage.say(formatted("%s: %d modes, %d gaps and slips; unstable eigenvalues to %.1e",
-                      work.name().c_str(), result.modes, result.rows, result.modelError));
-  warn(work.full, tasks, result.stableStep);
-  checkLaw(comm, model, tasks);
-  const auto followed = followAll(comm, model, tasks, stage);
+                      point.name().c_str(), study.modes, study.rows, study.modelError));
+  warnAboutSteps(point.comm(), point.settings, tasks, study.stableStep);
+  warnAboutDamping(point.full);
+  if (point.settings.march.massless) checkLaw(point.comm(), model, tasks);
+  return tasks;
+}
+
+/// Collective. Adds the runs of a point to the study. An Error here is a failure of the whole
+/// point.
+void addRuns(const StudiedPoint& point, linalg::Block free, Study& study) {
+  const MPI_Comm comm = point.comm();
+  if (point.shapes.empty())
+    throw Error("the shapes of the unstable modes are not stored; raise -flutter_shapes");
+  Stage stage(comm, "regime");
+  const Reduction reduction = reductionOf(point, std::move(free), study);
+  const ReducedModel& model = reduction.model;
+  auto tasks = tasksOf(point, model, stage, study);
+  const auto marched = trajectories(comm, model, point.settings, tasks, stage);
   std::optional<sound::Observer> observer;
   if (std::ranges::any_of(tasks, [](const Task& task) { return task.failure.empty(); }))
-    observer.emplace(work.full.contact,
-                     sound::Shapes{reduction.modes, reduction.responses, reduction.contactNode});
-  std::string last;  // what the stage ends with
+    observer.emplace(point.full.contact,
+                     sound::Shapes{reduction.modes, reduction.responses, reduction.contactNode},
+                     point.settings.sound);
+  std::string last;  // the result of the stage
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     stopIfAsked(comm);
-    result.runs.push_back(runOf(model, tasks[i]));
-    Run& run = result.runs.back();
-    if (!tasks[i].failure.empty()) {
-      work.fail(run, tasks[i].failure);
+    study.runs.push_back(runOf(model, tasks[i]));
+    Run& run = study.runs.back();
+    run.failure = tasks[i].failure;
+    if (!run.failure.empty()) {
+      fail(point, point.nameOf(run.start) + ": nothing measured: " + run.failure, study);
       continue;
     }
     if (!last.empty()) stage.say(last);
-    run.regime = followed[i].regime;
-    run.outside = observer->of(rankOf(comm, i), followed[i].trace);
-    sayHeard(work, run, stage);
-    checkGrowth(work, run);
-    addCycles(work, model, followed[i], run, stage);
-    last = describe(work, run);
+    run.regime = marched[i].regime;
+    run.surface = surfaceOf(*observer, rankOf(comm, i), marched[i], point.nameOf(run), stage);
+    checkGrowth(comm, run);
+    run.cycles = cyclesOf(point, model, marched[i], run, stage, study);
+    last = describe(point, study, run);
   }
-  stage.finish(last.empty() ? work.name() + ": " + text(Kind::unmeasured) : last);
+  stage.finish(last.empty() ? point.name() + ": " + text(Kind::unmeasured) : last);
 }
 
 }  // namespace
 
-std::vector<double> frictionsWanted() {
-  auto frictions = frictionOption.get();
-  std::ranges::sort(frictions);
-  return frictions;
-}
-
-void checkOptions(bool ofMesh) {
-  checkCycleOptions(!frictionOption.get().empty(), boundaryIsMassless());
-  if (frictionOption.get().empty()) {
-    auto idle = sound::outsideOptions();
-    const auto more = taskOptions();
-    idle.insert(idle.end(), more.begin(), more.end());
-    for (const Option* option : idle)
-      if (option->given())
-        throw Error("option -" + option->name +
-                    ": nothing is followed after flutter without -regime_friction");
-    return;
-  }
-  sound::checkOutsideOptions();
-  checkTaskOptions();
-  if (!ofMesh)
-    throw Error(
-        "option -regime_friction: matrices from files do not say what lifts off and sticks; the "
-        "motion after flutter is followed for meshes");
-  if (direct::directWanted())
-    throw Error(
-        "option -regime_friction: the motion after flutter needs the free modes and the estimates "
-        "of -flutter_method reduced");
-  if (pencil::modalDampingWanted())
-    throw Error(
-        "option -regime_friction: -flutter_modal_damping is not followed in time; give the damping "
-        "to the materials");
-  if (!terms::frictionDampingWanted())
-    throw Error(
-        "option -regime_friction: in time the friction force turns with the relative velocity, so "
-        "that -flutter_friction_damping must be on");
-}
-
-void requireSupported(const elasticity::Bodies& bodies, const contact::Contact& contact) {
-  const auto refuse = [](const std::string& why) {
-    throw Error("option -regime_friction: " + why);
-  };
-  if (contact.totalNodes == 0) refuse("there is no contact");
-  if (bodies.gyroscopic || bodies.rotationStiffness || contact.convected)
-    refuse("convective terms (-motion_convective) are not followed in time; leave them out");
-  if (elasticity::prestressWanted())
-    refuse("the geometric stiffness of the steady stress is not followed in time; leave it out");
-  if (cyclesWanted() && !contact.law.constant())
-    refuse(
-        "the derivative of a step leaves out -friction_law, so that no periodic motions are found "
-        "under it; leave out -regime_cycle");
-}
-
-Study study(const FullModel& full, linalg::Block free, const pencil::ComplexModes& point) {
+Study study(const FullModel& full, const Settings& settings, linalg::Block free,
+            const pencil::ComplexModes& modes) {
+  const StudiedPoint point{full, settings, modes, unstableShapes(modes)};
   Study result;
-  const Work work{full, point, unstableShapes(point), result};
-  result.at = point.at;
-  result.unstable = point.unstableCount();
+  result.at = modes.at;
+  result.unstable = modes.unstableCount();
   if (result.unstable == 0) {
-    say(work.comm(), work.name() + ": no mode is unstable, and none is followed after flutter");
+    say(point.comm(), point.name() + ": no mode is unstable, and none is followed after flutter");
     return result;
   }
-  if (!work.shapes.empty() && std::ssize(work.shapes) < result.unstable)
-    say(work.comm(),
-        formatted("%s: %zu of %d unstable modes have kept shapes (-flutter_shapes), and these "
-                  "are held exactly by the reduced model of the regime",
-                  work.name().c_str(), work.shapes.size(), result.unstable));
+  if (!point.shapes.empty() && std::ssize(point.shapes) < result.unstable)
+    say(point.comm(),
+        formatted("%s: the shapes of %zu of %d unstable modes are stored (-flutter_shapes); the "
+                  "reduced model of the regime contains only these exactly",
+                  point.name().c_str(), point.shapes.size(), result.unstable));
   try {
-    addRuns(work, std::move(free));
+    addRuns(point, std::move(free), result);
   } catch (const Error& error) {
-    work.fail(work.name() + ": not followed after flutter (nothing measured): " + error.what());
-    const auto starts = work.starts();
+    fail(point, point.name() + ": not followed after flutter (nothing measured): " + error.what(),
+         result);
+    const auto starts = point.starts();
     for (std::size_t i = result.runs.size(); i < starts.size(); ++i) {
       Run run;
       run.start = starts[i].first, run.s = starts[i].second, run.failure = error.what();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 #include "base/system/text.hpp"
 #include "regime/regime/record.hpp"
@@ -11,35 +10,16 @@
 namespace squeal::regime {
 namespace {
 
-using march::Event;
+using march::OnsetEvent;
 
 /// A march of the largest default time, 4000 cycles of 128 steps, takes 5e5 steps.
 constexpr double mostSteps = 1e8;
 /// Peaks of cycles and spectra need as many steps in a period.
 constexpr int fewestSteps = 16;
 
-const RealOption timeOption(
-    "regime", "regime_time", 0, "s", nonNegative,
-    "maximum simulated time, at least 32 cycles of the mode; 0: the longer of 400 cycles and 10 "
-    "e-folding times of the mode, but no more than 4000 cycles");
-const RealOption stepOption(
-    "regime", "regime_step", 0, "s", nonNegative,
-    "time step, at least 16 in a period of the mode and at most 1e8 in a march; 0: a 128th of the "
-    "period, but no more than 0.8 of the stable step");
-const RealOption startOption("regime", "regime_start_factor", 0.5, "", Range{0, 100, true, false},
-                             "amplitude at the start, over that at which the first node opens or "
-                             "comes to rest");
-const ChoiceOption startsOption("regime", "regime_starts", {"fastest", "each", "all"}, "fastest",
-                                "starts of the motion: on the fastest growing unstable mode, on "
-                                "each of them, or on each and on their sum");
-const ChoiceOption boundaryOption(
-    "regime", "regime_boundary", {"massless", "mass"}, "massless",
-    "boundary of the reduced model: massless with the leapfrog rule, or with its mass by the "
-    "scheme of Moreau and Jean, to check the first");
-
 double frequencyOf(const Task& task) { return task.mode.s.imag() / (2 * M_PI); }
 
-/// Returns what is wrong with the number of steps; empty: nothing.
+/// Returns the bound that the number of steps breaks; empty: none.
 std::string stepsBroken(double step, double time) {
   const double steps = time / step;
   if (steps <= mostSteps) return "";
@@ -51,14 +31,15 @@ std::string stepsBroken(double step, double time) {
       step, number.c_str(), time, mostSteps);
 }
 
-/// Returns the bound that step or time of a task break; empty: none.
-std::string boundBroken(const ReducedModel& model, const Task& task, double stableStep) {
+/// Returns the bound that the step or the time of a task breaks; empty: none.
+std::string boundBroken(const ReducedModel& model, const MarchSettings& settings, const Task& task,
+                        double stableStep) {
   if (const auto broken = stepsBroken(task.step, task.time); !broken.empty())
-    return broken + (stepOption.get() > 0 || task.step > 0.01 * task.shortestPeriod / 128
+    return broken + (settings.step > 0 || task.step > 0.01 * task.shortestPeriod / 128
                          ? ""
                          : "; the stable step of the reduced model is short, and fewer "
                            "-modes_count make it longer");
-  if (boundaryIsMassless() && task.step > stableStep)
+  if (settings.massless && task.step > stableStep)
     if (const double longest = march::longestStep(model); task.step > longest)
       return formatted(
           "-regime_step %g s exceeds %.3g s, the stable step while all contact is open: 2/ω of the "
@@ -91,7 +72,7 @@ void scale(LinearMode& mode, double factor) {
 
 /// Returns a march on one mode, without step and time.
 Task taskOn(const ReducedModel& model, const NumberedMode& one) {
-  Task task{std::to_string(one.number), one.mode, {}, 0, 0, 0, ""};
+  Task task{.start = std::to_string(one.number), .mode = one.mode};
   if (!(task.mode.s.imag() > 1e-9 * std::abs(task.mode.s))) {
     task.failure =
         "the mode grows without oscillation (divergence), and a march counts cycles; give "
@@ -100,7 +81,7 @@ Task taskOn(const ReducedModel& model, const NumberedMode& one) {
   }
   task.shortestPeriod = 1 / frequencyOf(task);
   task.onset = firstEvent(model.nodes, motionAt(model, task.mode));
-  if (task.onset.event == Event::none)
+  if (task.onset.event == OnsetEvent::none)
     task.failure = "the mode moves no node that is in contact, so that nothing bounds its growth";
   else if (!(task.onset.factor > 0))
     task.failure =
@@ -112,14 +93,15 @@ Task taskOn(const ReducedModel& model, const NumberedMode& one) {
 }
 
 /// Sets step and time, and the failure where these break a bound.
-void setStepAndTime(const ReducedModel& model, double stableStep, Task& task) {
+void setStepAndTime(const ReducedModel& model, const MarchSettings& settings, double stableStep,
+                    Task& task) {
   const double period = 1 / frequencyOf(task);
-  task.step = stepOption.get();
+  task.step = settings.step;
   if (task.step == 0) task.step = std::min(task.shortestPeriod / 128, 0.8 * stableStep);
-  task.time = timeOption.get();
+  task.time = settings.time;
   if (task.time == 0)
     task.time = std::min(4000 * period, std::max(400 * period, 10 / task.mode.s.real()));
-  task.failure = boundBroken(model, task, stableStep);
+  task.failure = boundBroken(model, settings, task, stableStep);
 }
 
 /// Returns the march that starts on the sum of the modes of others that can be done.
@@ -146,40 +128,30 @@ Task sumOf(const std::vector<Task>& tasks) {
 
 }  // namespace
 
-std::vector<const Option*> taskOptions() {
-  return {&timeOption, &stepOption, &startOption, &startsOption, &boundaryOption};
-}
-
-void checkTaskOptions() {
-  if (!(stepOption.get() > 0) || !(timeOption.get() > 0)) return;
-  if (const auto broken = stepsBroken(stepOption.get(), timeOption.get()); !broken.empty())
+void checkSteps(const MarchSettings& settings) {
+  if (!(settings.step > 0) || !(settings.time > 0)) return;
+  if (const auto broken = stepsBroken(settings.step, settings.time); !broken.empty())
     throw Error("option " + broken);
 }
 
-bool boundaryIsMassless() { return boundaryOption.get() == "massless"; }
-
-double startFactor() { return startOption.get(); }
-
-double timeWanted() { return timeOption.get(); }
-
-std::vector<std::string> startsOn(std::span<const std::size_t> numbers) {
+std::vector<std::string> startsOn(std::span<const std::size_t> numbers, Starts starts) {
   std::vector<std::string> names;
   for (const std::size_t number : numbers) names.push_back(std::to_string(number));
-  if (startsOption.get() == "fastest" && !names.empty()) names.resize(1);
-  if (startsOption.get() == "all" && names.size() > 1) names.push_back("all");
+  if (starts == Starts::fastest && !names.empty()) names.resize(1);
+  if (starts == Starts::all && names.size() > 1) names.push_back("all");
   return names;
 }
 
-std::vector<Task> tasksOn(const ReducedModel& model, std::span<const NumberedMode> modes,
-                          double stableStep) {
+std::vector<Task> tasksOn(const ReducedModel& model, const MarchSettings& settings,
+                          std::span<const NumberedMode> modes, double stableStep) {
   std::vector<Task> tasks;
   for (const auto& one : modes) {
     tasks.push_back(taskOn(model, one));
-    if (startsOption.get() == "fastest") break;
+    if (settings.starts == Starts::fastest) break;
   }
-  if (startsOption.get() == "all" && tasks.size() > 1) tasks.push_back(sumOf(tasks));
+  if (settings.starts == Starts::all && tasks.size() > 1) tasks.push_back(sumOf(tasks));
   for (Task& task : tasks)
-    if (task.failure.empty()) setStepAndTime(model, stableStep, task);
+    if (task.failure.empty()) setStepAndTime(model, settings, stableStep, task);
   return tasks;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-/// The marches that one point of the sweep asks for: where each starts, its step and its time, and
-/// the bounds that these must keep [§ 17].
+/// The marches of one point of the sweep: their starts, steps and times, and the bounds on these
+/// [§ 17].
 #include <span>
 #include <string>
 #include <vector>
 
-#include "base/options/option_types.hpp"
 #include "regime/march/onset.hpp"
+#include "regime/regime/settings.hpp"
 
 namespace squeal::regime {
 
@@ -14,14 +14,14 @@ using march::LinearMode;
 using march::Onset;
 using march::ReducedModel;
 
-/// A march to be done.
+/// A planned march.
 struct Task {
-  std::string start;  ///< the number of the unstable mode, or "all"
-  LinearMode mode;    ///< scaled to its onset
-  Onset onset;
-  double shortestPeriod = 0;  ///< of the modes that it starts on, s
+  std::string start = {};  ///< the number of the unstable mode, or "all"
+  LinearMode mode = {};    ///< scaled to its onset
+  Onset onset = {};
+  double shortestPeriod = 0;  ///< of its modes, s
   double step = 0, time = 0;  ///< s
-  std::string failure;        ///< why it cannot be done; empty: it can
+  std::string failure = {};   ///< the reason not to do it; empty: none
 };
 
 /// An unstable mode of the reduced model.
@@ -30,27 +30,17 @@ struct NumberedMode {
   LinearMode mode;
 };
 
-/// Returns the options of this file, which are idle unless a regime is followed.
-std::vector<const Option*> taskOptions();
-/// Throws Error for options of this file that no model can satisfy.
-void checkTaskOptions();
+/// Throws Error if step and time are given and take more steps than a march may have.
+void checkSteps(const MarchSettings& settings);
 
-/// Returns true if the boundary of the reduced model has no mass (`-regime_boundary massless`).
-bool boundaryIsMassless();
-/// Returns the amplitude at the start of a march over that of its onset.
-double startFactor();
-/// Returns the longest time of a march, s; 0: until it has settled.
-double timeWanted();
-
-/// Returns the names of the starts that are wanted on modes of these numbers, the fastest growing
-/// one first.
-std::vector<std::string> startsOn(std::span<const std::size_t> numbers);
+/// Returns the names of the starts on modes of these numbers, the fastest growing one first.
+std::vector<std::string> startsOn(std::span<const std::size_t> numbers, Starts starts);
 
 /// Not collective. Returns the marches that start on these modes, the fastest growing one first.
-/// `stableStep` is that of the model with all nodes held, s. A march that cannot be done has its
-/// failure set: its mode does not oscillate or meets no limit of the contact, its step or its time
-/// breaks a bound.
-std::vector<Task> tasksOn(const ReducedModel& model, std::span<const NumberedMode> modes,
-                          double stableStep);
+/// `stableStep` is that of the model with all nodes held, s. The failure of a march is set if its
+/// mode does not oscillate or reaches no limit of the contact, or if its step or time breaks a
+/// bound.
+std::vector<Task> tasksOn(const ReducedModel& model, const MarchSettings& settings,
+                          std::span<const NumberedMode> modes, double stableStep);
 
 }  // namespace squeal::regime

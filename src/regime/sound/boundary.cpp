@@ -7,6 +7,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "model/elasticity/face.hpp"
 #include "model/elasticity/shape.hpp"
 #include "model/mesh/vector.hpp"
@@ -83,7 +84,8 @@ Point centreOf(const mesh::Mesh& mesh, std::span<const PetscInt> nodes) {
 }
 
 /// Returns the face of a cell with its sign.
-BoundaryFace made(const mesh::Mesh& mesh, std::span<const PetscInt> cell, const LocalFace& local) {
+BoundaryFace boundaryFace(const mesh::Mesh& mesh, std::span<const PetscInt> cell,
+                          const LocalFace& local) {
   BoundaryFace face{local.type, {}, 1};
   std::vector<Point> points;
   for (const int node : local.nodes) {
@@ -117,26 +119,26 @@ Single singleFaces(const mesh::Mesh& mesh) {
         if (found != faces.end())
           faces.erase(found);
         else
-          faces.emplace(key, made(mesh, cell, local));
+          faces.emplace(key, boundaryFace(mesh, cell, local));
       }
   }
   return faces;
 }
 
 /// Collective. Removes the faces that a cell of another rank has too. At least one of the two ranks
-/// has a ghost among their nodes, so that the ranks show each other these faces alone.
+/// has a ghost among their nodes, so that the ranks exchange only such faces.
 void removeShared(const mesh::Mesh& mesh, Single& faces) {
-  std::vector<Key> shown;
+  std::vector<Key> sent;
   for (const auto& [key, face] : faces)
     if (std::ranges::any_of(face.nodes, [&](PetscInt node) { return node >= mesh.ownedNodes; }))
-      shown.push_back(key);
-  const Concatenation ranks(mesh.comm, shown.size());
-  const auto all = ranks.gathered(shown);
+      sent.push_back(key);
+  const Concatenation ranks(mesh.comm, sent.size());
+  const auto all = ranks.gathered(sent);
   std::vector<int> shared(all.size());
   for (int i = 0; i < ranks.size(); ++i)
-    if (i < ranks.ownBegin() || i >= ranks.ownBegin() + std::ssize(shown))
+    if (i < ranks.ownBegin() || i >= ranks.ownBegin() + std::ssize(sent))
       shared[i] = faces.contains(all[i]);
-  check(MPI_Allreduce(MPI_IN_PLACE, shared.data(), shared.size(), MPI_INT, MPI_MAX, mesh.comm));
+  mpi::reduce<int>(mesh.comm, shared, MPI_MAX);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (shared[i]) faces.erase(all[i]);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The boundary faces of all bodies are found from the cells: those that no other cell has.
+/// The boundary faces of all bodies: the faces of cells that no other cell has.
 #include <vector>
 
 #include "model/mesh/mesh.hpp"

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "model/elasticity/assembly.hpp"
 #include "model/elasticity/face.hpp"
 #include "model/mesh/vector.hpp"
@@ -94,7 +95,7 @@ Face geometryOf(const mesh::Mesh& mesh, const BoundaryFace& face) {
 /// Returns true if supports hold the normal displacement of all nodes.
 bool isHeld(const mesh::Mesh& mesh, const std::vector<double>& held, const BoundaryFace& face,
             const std::vector<Point>& normals) {
-  constexpr double alongTheFace = 1e-3;  // of a unit normal: rounding of CAD programs
+  constexpr double alongTheFace = 1e-3;  // of a unit normal: round-off of CAD programs
   for (std::size_t i = 0; i < face.nodes.size(); ++i)
     for (int d = 0; d < mesh.dimension; ++d)
       if (std::abs(normals[i][d]) > alongTheFace && !held[mesh.dimension * face.nodes[i] + d])
@@ -116,21 +117,24 @@ std::vector<Point> unitNormals(const mesh::Mesh& mesh, Vec sums) {
   return normals;
 }
 
+/// Returns true if all nodes of the face have the marks of one of the lists.
+bool isHidden(const std::vector<Marks>& lists, const BoundaryFace& face) {
+  return std::ranges::any_of(lists, [&](const Marks& marks) {
+    return std::ranges::all_of(face.nodes, [&](PetscInt node) { return marks[node]; });
+  });
+}
+
 }  // namespace
 
-Surface visibleSurface(const mesh::Mesh& mesh, const contact::Contact& contact) {
+RadiatingSurface radiatingSurface(const mesh::Mesh& mesh, const contact::Contact& contact) {
   const auto hidden = hiddenNodes(mesh, contact);
   const auto held = heldComponents(mesh, contact);
   const OwnedVec sums = elasticity::nodalVector(mesh);
   elasticity::Triples triples;
-  Surface surface;
+  RadiatingSurface surface;
   for (const auto& face : boundaryFaces(mesh)) {
     const auto [points, normals] = geometryOf(mesh, face);
-    if (std::ranges::any_of(hidden, [&](const Marks& marks) {
-          return std::ranges::all_of(face.nodes, [&](PetscInt node) { return marks[node]; });
-        }))
-      continue;
-    if (isHeld(mesh, held, face, normals)) continue;
+    if (isHidden(hidden, face) || isHeld(mesh, held, face, normals)) continue;
     const auto& table = shapeTable(face.type);
     for (const double weight : elasticity::areaWeights(table, points)) surface.area += weight;
     elasticity::append(triples, mesh, face.nodes,
@@ -141,7 +145,7 @@ Surface visibleSurface(const mesh::Mesh& mesh, const contact::Contact& contact) 
         check(VecSetValue(sums, mesh.dimension * mesh.globalNode[face.nodes[i]] + d, normals[i][d],
                           ADD_VALUES));
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, &surface.area, 1, MPI_DOUBLE, MPI_SUM, mesh.comm));
+  surface.area = mpi::sum(mesh.comm, surface.area);
   surface.normalMass = elasticity::toMatrix(mesh, triples, elasticity::Symmetry::rounded);
   surface.normals = unitNormals(mesh, sums);
   return surface;

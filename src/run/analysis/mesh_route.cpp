@@ -12,8 +12,6 @@
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
-#include "eigen/modes/benchmark.hpp"
-#include "eigen/modes/modes.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/ground.hpp"
@@ -124,7 +122,7 @@ void findOnsets(Analysis& analysis, const pencil::ComplexModes& point) try {
 
 /// Returns true if the motion after flutter is wanted at a point of the sweep.
 bool isFollowed(const sweep::Sweep& sweep, const sweep::Parameters& at) {
-  return std::ranges::binary_search(regime::frictionsWanted(), at.friction) &&
+  return std::ranges::binary_search(regime::Settings::given().frictions, at.friction) &&
          at.speed == sweep.speeds.front() && at.pressure == sweep.pressures.front() &&
          at.damping == sweep.dampings.front();
 }
@@ -149,6 +147,7 @@ void followAfterFlutter(Analysis& analysis, const MeshSegment& problem, CurrentS
   held.released.assign(analysis.contact.nodes.size(), 0);
   analysis.regimes.push_back(regime::study({analysis.bodies, analysis.contact, current.of(held),
                                             steadyAt(analysis, point.at), point.at.damping},
+                                           regime::Settings::given(),
                                            nodalModes(analysis, problem, segment), point));
   const auto& failures = analysis.regimes.back().failures;
   analysis.failures.insert(analysis.failures.end(), failures.begin(), failures.end());
@@ -182,11 +181,11 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
   MeshSegment problem(analysis, first, last, current, influences);
   // Terms of their own are absent at friction 0 alone: the last point, of the largest friction, has
   // them if any point has.
-  if (matrices::exportWanted())
-    matrices::exportPencil(problem.pencil().with(problem.termsOf(last - first - 1)), analysis.sweep,
-                           last - first);
+  if (const auto settings = matrices::ExportSettings::given(); settings.wanted())
+    matrices::exportPencil(problem.pencil().with(problem.termsOf(last - first - 1)), settings,
+                           analysis.sweep, last - first);
   const int before = std::ssize(analysis.segments);
-  auto solved = sweep_solver::solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint,
+  auto solved = sweep_solver::solveSegments(problem, requestOf(analysis), analysis.checkpoint,
                                             "sets_" + std::to_string(before + 1));
   for (auto& segment : solved.segments) {
     for (auto& followed : segment.followed)
@@ -205,8 +204,6 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
     for (const auto& point : segment.points)
       if (isFollowed(analysis.sweep, point.at))
         followAfterFlutter(analysis, problem, current, segment, point);
-  if (modes::benchmarkWanted())
-    analysis.modesFloorSeconds = modes::floorSeconds(problem.system().k0());
 }
 
 }  // namespace
@@ -233,8 +230,8 @@ void prepareMesh(Analysis& analysis) {
   analysis.contact = buildContact(*analysis.mesh, analysis.bodies, std::move(ties));
   contact::requireMotion(analysis.contact);
   settleFriction(analysis.contact, analysis.sweep);
-  if (!regime::frictionsWanted().empty())
-    regime::requireSupported(analysis.bodies, analysis.contact);
+  if (const auto settings = regime::Settings::given(); settings.followed())
+    regime::requireSupported(settings, analysis.bodies, analysis.contact);
   requireFiniteSweep(analysis.bodies, analysis.contact, analysis.sweep);
   rejectIdleFactors(analysis.bodies, analysis.contact, analysis.sweep);
 }
@@ -246,7 +243,8 @@ void solveMesh(Analysis& analysis) {
     analysis.uniqueness = examineUniqueness(analysis);
   std::vector<std::string> failures;
   std::string firstReason;
-  terms::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);
+  terms::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact,
+                               terms::Settings::given());
   for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
     last = first + 1;
     if (!analysis.steady[first].converged) continue;

@@ -6,9 +6,8 @@
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/text.hpp"
-#include "eigen/direct/direct.hpp"
-#include "eigen/pencil/modal_damping.hpp"
-#include "eigen/sensitivity/sensitivity.hpp"
+#include "eigen/pencil/settings.hpp"
+#include "eigen/sensitivity/settings.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "problem/matrices/write.hpp"
 #include "problem/terms/friction_work.hpp"
@@ -60,13 +59,13 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
   OwnedMat prestress;
   if (elasticity::prestressWanted())
     prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
-  const auto friction = terms::frictionState(analysis.contact, solution);
+  const auto friction = terms::frictionState(analysis.contact, solution, terms::Settings::given());
   for (auto& shape : point.shapes)
     shape.frictionWork =
         terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction, point.at,
                             point.eigenvalues[shape.index].s,
                             linalg::ComplexVector::copied(shape.real, shape.imaginary), prestress);
-  if (!sensitivity::sensitivitiesWanted()) return;
+  if (!sensitivity::Settings::given().wanted) return;
   Stage stage(analysis.mesh->comm, "flutter");
   influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
   double error = 0;
@@ -87,9 +86,11 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
 
 std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   // Modal damping is that of the free modes of a point, which prestress changes.
-  if (pencil::modalDampingWanted() && elasticity::prestressWanted()) return first + 1;
-  const bool alone = direct::directWanted() || sensitivity::sensitivitiesWanted() ||
-                     matrices::exportWanted() || pencil::modalDampingWanted();
+  const auto pencil = pencil::Settings::given();
+  if (pencil.isModallyDamped() && elasticity::prestressWanted()) return first + 1;
+  const bool alone = pencil.method == pencil::Method::direct ||
+                     sensitivity::Settings::given().wanted ||
+                     matrices::ExportSettings::given().wanted() || pencil.isModallyDamped();
   const PetscInt most = alone ? 0 : releasedOption.get();
   contact::ActiveSet anywhere = steady::activeSet(analysis.steady[first]), everywhere = anywhere;
   std::size_t last = first;
@@ -251,7 +252,7 @@ std::vector<pencil::Term> MeshSegment::termsOf(const steady::Solution& solution)
     change = elasticity::geometricStiffness(*analysis_.mesh, solution.displacement);
     check(MatAXPY(change, -1, prestress_, SAME_NONZERO_PATTERN));
   }
-  return terms::pointTerms(analysis_.contact, *all_, solution, change);
+  return terms::pointTerms(analysis_.contact, *all_, solution, change, terms::Settings::given());
 }
 
 std::optional<std::vector<pencil::Term>> MeshSegment::termsAt(const sweep::Parameters& at,

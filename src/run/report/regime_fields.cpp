@@ -70,7 +70,7 @@ OwnedVec borrowed(const mesh::Mesh& mesh, std::span<const double> column) {
 /// Collective. Writes the latest cycles of a run as a time series.
 void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Run& run,
              const std::filesystem::path& stem) {
-  const auto& frames = run.outside.frames;
+  const auto& frames = run.surface.frames;
   std::vector<std::pair<double, std::filesystem::path>> files;
   for (std::size_t k = 0; k < frames.time.size(); ++k) {
     const auto file = stem / formatted("frame_%03zu", k);

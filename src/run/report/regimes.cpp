@@ -30,7 +30,7 @@ std::string onsetTable(const analysis::Analysis& analysis) {
     table += sweep::parameterValues(mode.at) + formatted(",%zu,%.15e,%.15e,%s", mode.mode + 1,
                                                          mode.s.real(), mode.s.imag() / (2 * M_PI),
                                                          text(mode.onset.event));
-    if (mode.onset.event == march::Event::none)
+    if (mode.onset.event == march::OnsetEvent::none)
       table += ",,,,,,\n";
     else
       table += formatted(",%.12e,%.12e,%.12e,%s,%.9e,%.6e\n", mode.position[0], mode.position[1],
@@ -71,7 +71,7 @@ std::string regimeTable(const analysis::Analysis& analysis) {
              measured(regime.means.frictionPower) + cell(study.steadyPower) +
              measured(regime.means.open) + measured(regime.means.sticking) + size +
              cell(run.onsetKinetic) + measured(regime.largestDefect) + measured(regime.imbalance) +
-             cell(study.modelError) + soundCells(run.outside.sound) + "\n";
+             cell(study.modelError) + soundCells(run.surface.sound) + "\n";
   });
   return table;
 }
@@ -107,7 +107,7 @@ std::string cycleTable(const analysis::Analysis& analysis) {
 std::string pointColumns(const analysis::Analysis& analysis) {
   std::size_t count = 0;
   forEachRun(analysis, [&](const auto&, const auto& run, const std::string&) {
-    count = std::max(count, run.outside.points.size());
+    count = std::max(count, run.surface.points.size());
   });
   std::string columns;
   for (std::size_t k = 1; k <= count; ++k)
@@ -122,7 +122,7 @@ std::string spectrumTable(const analysis::Analysis& analysis) {
     const auto& lines = run.regime.spectrum;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       table += first + formatted(",%.9e,%.9e", lines[i].frequency, lines[i].whole);
-      for (const auto& point : run.outside.points)
+      for (const auto& point : run.surface.points)
         for (const double value : point.amplitude.at(i)) table += formatted(",%.9e", value);
       table += "\n";
     }
@@ -135,7 +135,7 @@ std::string pointTable(const analysis::Analysis& analysis) {
       head(",point,name,x_m,y_m,z_m,normal_x,normal_y,normal_z,mean_square_velocity_m2_per_s2");
   forEachRun(analysis, [&](const auto&, const auto& run, const std::string& first) {
     std::size_t number = 0;
-    for (const auto& point : run.outside.points) {
+    for (const auto& point : run.surface.points) {
       table += first + formatted(",%zu,%s", ++number, point.name.c_str());
       for (const double x : point.position) table += formatted(",%.12e", x);
       for (const double n : point.normal) table += formatted(",%.9f", n);
@@ -172,13 +172,13 @@ std::string periodicTable(const analysis::Analysis& analysis) {
 std::string branchTable(const analysis::Analysis& analysis) {
   std::string table = head(",towards,fold_friction,end_friction,reason");
   forEachRun(analysis, [&](const auto&, const auto& run, const std::string& first) {
-    const auto& ways = run.cycles.ways;
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      auto folds = ways[i].folds;
+    const auto& routes = run.cycles.routes;
+    for (std::size_t i = 0; i < routes.size(); ++i) {
+      auto folds = routes[i].folds;
       if (folds.empty()) folds.push_back(NAN);
       for (const double fold : folds)
-        table += first + (i == 0 ? ",smaller" : ",larger") + cell(fold) + cell(ways[i].end) + "," +
-                 ways[i].reason + "\n";
+        table += first + (i == 0 ? ",smaller" : ",larger") + cell(fold) + cell(routes[i].end) +
+                 "," + routes[i].reason + "\n";
     }
   });
   return table;
@@ -214,11 +214,11 @@ void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::pat
   writeText(comm, folder / "regime_cycles.csv", cycleTable(analysis));
   writeText(comm, folder / "regime_spectrum.csv", spectrumTable(analysis));
   writeText(comm, folder / "regime_points.csv", pointTable(analysis));
-  if (!regime::cyclesWanted()) return;
+  const auto cycles = regime::Settings::given().cycles;
+  if (!cycles.wanted) return;
   writeText(comm, folder / "periodic.csv", periodicTable(analysis));
   writeText(comm, folder / "floquet.csv", floquetTable(analysis));
-  if (regime::branchWanted())
-    writeText(comm, folder / "periodic_branch.csv", branchTable(analysis));
+  if (cycles.range) writeText(comm, folder / "periodic_branch.csv", branchTable(analysis));
 }
 
 }  // namespace squeal::report

@@ -38,7 +38,7 @@ bool isOfCase(const std::filesystem::path& folder) {
 }
 
 output::Naming naming() {
-  const auto names = std::make_shared<ResultNames>(sweep::readSweep().points());
+  const auto names = std::make_shared<ResultNames>(sweep::grid(sweep::Settings::given()).points());
   const std::filesystem::path part = "interrupted";
   return {.option = folderOption,
           .last = "summary.json",

@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "base/system/text.hpp"
-#include "eigen/pencil/band.hpp"
 #include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/report/branches.hpp"
 
@@ -147,11 +147,12 @@ std::string errorText(const analysis::Analysis& analysis) {
       backward = std::max(backward, point.worstBackwardError());
       estimate = std::max(estimate, point.worstErrorEstimate());
     }
-  if (top < pencil::bandAsked())
+  const double asked = pencil::Settings::given().band.top;
+  if (top < asked)
     text += formatted(
         "\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: "
         "raise -modes_count.",
-        pencil::bandAsked() / (2 * M_PI));
+        asked / (2 * M_PI));
   text +=
       (std::isfinite(top) ? formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI))
                           : "\nAll eigenvalues") +

@@ -7,8 +7,8 @@
 #include "base/session/session.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/mpi.hpp"
-#include "eigen/direct/direct.hpp"
 #include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/report/report.hpp"
@@ -169,8 +169,8 @@ Json regimeEntry(const regime::Study& study, const regime::Run& run) {
   entry["open_nodes"] = measured(regime.means.open);
   entry["sticking_nodes"] = measured(regime.means.sticking);
   entry["largest_kinetic_energy_j"] = measured(regime.largestKinetic);
-  entry["sound_power_estimate_w"] = finite(run.outside.sound.power);
-  entry["sound_power_level_db"] = finite(run.outside.sound.level);
+  entry["sound_power_estimate_w"] = finite(run.surface.sound.power);
+  entry["sound_power_level_db"] = finite(run.surface.sound.level);
   entry["largest_defect"] = measured(regime.largestDefect);
   entry["model_error"] = finite(study.modelError);
   entry["modes"] = study.modes > 0 ? Json(study.modes) : Json();
@@ -292,7 +292,7 @@ Json runEntry(const analysis::Analysis& analysis) {
   entry["resumed"] = analysis.checkpoint.resumed();
   entry["verdict"] = verdictEntry(runVerdict(analysis));
   if (analysis.mesh) entry.update(meshEntry(*analysis.mesh, analysis.contact));
-  entry["method"] = direct::directWanted() ? "direct" : "reduced";
+  entry["method"] = pencil::Settings::given().method == pencil::Method::direct ? "direct" : "reduced";
   entry["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
   return entry;
 }
@@ -313,7 +313,6 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     for (const auto& run : study.runs) summary["regimes"].push_back(regimeEntry(study, run));
   if (!analysis.failures.empty()) summary["failures"] = analysis.failures;
   addStages(summary);
-  if (analysis.modesFloorSeconds > 0) summary["modes_floor_s"] = analysis.modesFloorSeconds;
   summary["options"] = resolvedOptions();
   summary["tables"] = tableShapes(analysis.comm, folder);
   writeText(analysis.comm, folder / "summary.json", summary.dump(2) + "\n");

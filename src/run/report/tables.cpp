@@ -9,9 +9,9 @@
 #include "base/session/session.hpp"
 #include "base/system/text.hpp"
 #include "eigen/modes/modes.hpp"
-#include "eigen/pencil/band.hpp"
 #include "eigen/pencil/complex_modes.hpp"
-#include "eigen/sensitivity/sensitivity.hpp"
+#include "eigen/pencil/settings.hpp"
+#include "eigen/sensitivity/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/report/branches.hpp"
@@ -128,7 +128,7 @@ std::string contactPathTable(const analysis::Analysis& analysis) {
 void writeTables(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
   writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
-  if (sensitivity::sensitivitiesWanted())
+  if (sensitivity::Settings::given().wanted)
     writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
   if (analysis.mesh) writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));

@@ -168,7 +168,7 @@ TEST_F(Layer, SturmCountSeesAMissingMode) {
   // The inertia of K − σ M counts 51 modes below a shift just above mode 51: the confirmation is a
   // number, not a formality.
   insert(settingsOfText("-modes_count 60"));
-  const auto modes = modes::compute(*system_);
+  const auto modes = modes::compute(*system_, modes::Settings::given());
   ASSERT_TRUE(modes.countConfirmed);
   const auto below = std::count_if(modes.lambda.begin(), modes.lambda.end(),
                                    [&](double lambda) { return lambda < modes.inertiaShift; });
@@ -188,7 +188,7 @@ Model heldRing(const std::string& shape) {
 modes::Modes modesOf(const Model& model, const std::string& options, int count) {
   insert(settingsOfText(options));
   const contact::CoupledSystem system(model.bodies, model.contact, {});
-  return modes::compute(system, count);
+  return modes::compute(system, modes::Settings::given().withCount(count));
 }
 
 // Krylov vectors of one start vector meet one vector of each eigenspace: blocks of one miss half of
@@ -232,7 +232,7 @@ TEST(Modes, EigenvaluesOfHighMultiplicity) {
     *matrix = std::move(sparse);
   }
   const factor::AssociatedSystem system(k.share(), m.share(), "stiffness");
-  const auto modes = modes::compute(system, 40);
+  const auto modes = modes::compute(system, modes::Settings::given().withCount(40));
   for (double lambda : modes.lambda) EXPECT_NEAR(lambda, 1, 1e-12);
   EXPECT_LT(departureFromOrthonormal(modes.vectors, m), 1e-12);
 }

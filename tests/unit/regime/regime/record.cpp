@@ -60,7 +60,7 @@ regime::Regime recorded(const std::function<double(double)>& amplitude, double t
   regime::Recorder recorder(model, mode, timeStep, onset);
   while (motion.state().time < time) {
     motion.step();
-    recorder.look(motion);
+    recorder.inspect(motion);
   }
   return recorder.result(motion);
 }
@@ -132,13 +132,13 @@ TEST(Onset, IsTheFirstEventOfAllNodes) {
   motion[0].rate = {Complex(0.3, 0.4), Complex(0, 0.1)};
   motion[1].normalForce = Complex(30, -40);
   auto first = march::firstEvent(nodes, motion);
-  EXPECT_EQ(first.event, march::Event::opens);
+  EXPECT_EQ(first.event, march::OnsetEvent::opens);
   EXPECT_EQ(first.node, 1u);
   EXPECT_NEAR(first.factor, 0.2, 1e-15);
   EXPECT_NEAR(first.turning, 0.02, 1e-15);
   motion[1].normalForce = 1;
   first = march::firstEvent(nodes, motion);
-  EXPECT_EQ(first.event, march::Event::rests);
+  EXPECT_EQ(first.event, march::OnsetEvent::rests);
   EXPECT_NEAR(first.factor, 2, 1e-15);
 }
 
@@ -150,7 +150,7 @@ TEST(Onset, OfANodeThatSticks) {
   std::vector<march::NodeMotion> motion(1);
   motion[0].shear = {Complex(1), Complex(0)};
   auto first = march::firstEvent(nodes, motion);
-  EXPECT_EQ(first.event, march::Event::slides);
+  EXPECT_EQ(first.event, march::OnsetEvent::slides);
   EXPECT_NEAR(first.factor, 2, 1e-12);
   motion[0].normalForce = -2;
   EXPECT_NEAR(march::firstEvent(nodes, motion).factor, 1, 1e-12);

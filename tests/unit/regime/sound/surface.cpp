@@ -51,7 +51,7 @@ TEST(Surface, OfABox) {
   for (const std::string cells : {",order=2", ",order=2,recombine=0", ",order=2,serendipity=1"}) {
     test::setOptions(beam(cells));
     const auto model = test::buildModel();
-    const auto surface = sound::visibleSurface(*model.mesh, model.contact);
+    const auto surface = sound::radiatingSurface(*model.mesh, model.contact);
     EXPECT_NEAR(surface.area, 0.3 * 0.5 + 2 * 2 * (0.3 + 0.5), 1e-12);
     const auto integral = [&](const auto& field) {
       const OwnedVec v = nodalField(*model.mesh, field);
@@ -84,7 +84,7 @@ TEST(Surface, OfABox) {
 TEST(Surface, WhatSupportsHoldAlongTheNormalIsHidden) {
   test::setOptions(beam() + "-constraint_right_clamped y -constraint_top_clamped x");
   const auto model = test::buildModel();
-  EXPECT_NEAR(sound::visibleSurface(*model.mesh, model.contact).area,
+  EXPECT_NEAR(sound::radiatingSurface(*model.mesh, model.contact).area,
               0.3 * 0.5 + 2 * 2 * (0.3 + 0.5) - 2 * 0.5, 1e-12);
 }
 
@@ -102,7 +102,7 @@ TEST(Surface, OfPeriodicLayers) {
        {std::tuple{"-constraint_pad_top_clamped xy", 0, 0}, {"-ground_pad_stiffness 3,0", 3, 7}}) {
     test::setOptions(layers + above);
     const auto model = test::buildModel();
-    const auto surface = sound::visibleSurface(*model.mesh, model.contact);
+    const auto surface = sound::radiatingSurface(*model.mesh, model.contact);
     EXPECT_NEAR(surface.area, area, 1e-11) << above;
     PetscInt seen = 0;
     for (PetscInt node = 0; node < model.mesh->ownedNodes; ++node) seen += surface.has(node);
@@ -119,7 +119,7 @@ TEST(Surface, OfADiscBetweenTwoPads) {
   const double sides = 0.015 * (M_PI / 3 * (0.145 + 0.085) + 2 * (0.145 - 0.085));
   const double disc = 2 * M_PI * (outer * outer - inner * inner) + 2 * M_PI * outer * h - 2 * pad;
   const double area = disc + 2 * (pad + sides);
-  EXPECT_NEAR(sound::visibleSurface(*model.mesh, model.contact).area, area, 2e-3 * area);
+  EXPECT_NEAR(sound::radiatingSurface(*model.mesh, model.contact).area, area, 2e-3 * area);
 }
 
 // A box of 1 × 1 × 0.5 in the middle of one of 2 × 2 × 0.5, with other meshes: all nodes of the
@@ -151,7 +151,7 @@ Physical Surface("top") = {12};
     test::setOptions(boxes + contact);
     const auto model = test::buildModel();
     const double area = 4 * 2 * 0.5 + (4 - 1) + 4 * 0.5 + 1;
-    EXPECT_NEAR(sound::visibleSurface(*model.mesh, model.contact).area, area, 1e-12) << contact;
+    EXPECT_NEAR(sound::radiatingSurface(*model.mesh, model.contact).area, area, 1e-12) << contact;
   }
 }
 

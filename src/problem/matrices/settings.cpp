@@ -1,0 +1,107 @@
+#include "problem/matrices/settings.hpp"
+
+#include <set>
+
+#include "base/options/options.hpp"
+#include "base/options/settings.hpp"
+#include "base/petsc/check.hpp"
+
+namespace squeal::matrices {
+namespace {
+
+const FileOption fileOption(
+    "matrices", "matrices_<name>_file",
+    "matrix of the problem, instead of a mesh: a Matrix Market, PETSc binary, HDF5 or MATLAB file");
+const ChoiceOption roleOption("matrices", "matrices_<name>_role", {"mass", "damping", "stiffness"},
+                              "", "role of the matrix, which multiplies s^2, s or 1");
+const TextOption datasetOption(
+    "matrices", "matrices_<name>_dataset", "",
+    "variable of a MATLAB file or object of an HDF5 file; none: the only matrix there");
+const RealOption factorOption("matrices", "matrices_<name>_factor", 1, "", anyReal,
+                              "factor on the matrix");
+const IntegerOption frictionOption(
+    "matrices", "matrices_<name>_friction_exponent", 0, 0, 10,
+    "power of the coefficient of friction that multiplies the matrix");
+const IntegerOption speedOption("matrices", "matrices_<name>_speed_exponent", 0, -4, 10,
+                                "power of the speed factor that multiplies the matrix");
+const IntegerOption dampingOption("matrices", "matrices_<name>_damping_exponent", 0, 0, 10,
+                                  "power of the damping factor that multiplies the matrix");
+const FlagOption ofFrictionOption(
+    "matrices", "matrices_<name>_of_friction", false,
+    "the matrix contains a fixed friction term: it is excluded from K0 and M0, whose free modes "
+    "start the basis");
+
+const TextOption folderOption(
+    "report", "report_matrices", "",
+    "folder for the matrices of the problem and an options file that solves it from them; none: "
+    "no export");
+const ChoiceOption formatOption("report", "report_matrices_format", {"petsc", "matrix_market"},
+                                "petsc", "format of the exported matrices");
+
+int powerOf(const std::string& role) { return role == "mass" ? 2 : role == "damping" ? 1 : 0; }
+
+MatrixSettings matrixOf(const std::string& name) {
+  return {.file = fileOption.get(name),
+          .dataset = datasetOption.get(name),
+          .power = powerOf(roleOption.get(name)),
+          .factor = factorOption.get(name),
+          .frictionExponent = frictionOption.get(name),
+          .speedExponent = speedOption.get(name),
+          .dampingExponent = dampingOption.get(name),
+          .ofFriction = ofFrictionOption.get(name)};
+}
+
+/// Throws Error for an option of a name without a file: a misspelt name would leave an option
+/// without its matrix.
+void rejectOrphans() {
+  const auto files = fileOption.subjects();
+  const std::set<std::string> known(files.begin(), files.end());
+  for (const Option* option : std::initializer_list<const Option*>{
+           &roleOption, &datasetOption, &factorOption, &frictionOption, &speedOption,
+           &dampingOption, &ofFrictionOption})
+    for (const auto& name : option->subjects())
+      if (!known.count(name))
+        throw Error("option -" + option->fullName(name) + ": there is no -" + fileOptionOf(name));
+}
+
+void rejectMeshOptions() {
+  const std::set<std::string> ofMesh{"mesh",   "elasticity", "constraint", "load",
+                                     "motion", "contact",    "tie",        "steady"};
+  const auto reject = [&](const std::string& name) {
+    throw Error("option -" + name + ": a run is of a mesh or of matrices (-" +
+                fileOptionOf(fileOption.subjects()[0]) + "), not of both");
+  };
+  for (const auto* option : Option::all()) {
+    if (!ofMesh.count(option->stage)) continue;
+    for (const auto& subject : option->name.find('<') == std::string::npos
+                                   ? std::vector<std::string>{""}
+                                   : option->subjects())
+      if (option->given(subject)) reject(option->fullName(subject));
+  }
+  for (const auto* solver : SolverPrefix::all())
+    if (ofMesh.count(solver->stage) && solver->given()) reject(solver->names()[0].substr(1));
+}
+
+}  // namespace
+
+std::string fileOptionOf(const std::string& name) { return fileOption.fullName(name); }
+
+ExportSettings ExportSettings::given() {
+  ExportSettings settings{.folder = folderOption.get()};
+  if (!settings.wanted()) return settings;
+  settings.folderOfCase = !origin("report_matrices", settings.folder).file.empty();
+  if (formatOption.get() == "matrix_market") settings.format = ExportFormat::matrixMarket;
+  return settings;
+}
+
+Settings Settings::given() {
+  rejectOrphans();
+  Settings settings;
+  const auto names = fileOption.subjects();
+  if (names.empty()) return settings;
+  rejectMeshOptions();
+  for (const auto& name : names) settings.files.emplace(name, matrixOf(name));
+  return settings;
+}
+
+}  // namespace squeal::matrices

@@ -1,0 +1,15 @@
+#pragma once
+/// The settings of the terms of the pencil.
+
+namespace squeal::terms {
+
+struct Settings {
+  /// The friction force turns with the relative velocity and follows the friction law. If false, it
+  /// changes by R_T* = −f φ R_N* τ only.
+  bool frictionDamping = true;
+
+  /// Returns the settings that the options give.
+  static Settings given();
+};
+
+}  // namespace squeal::terms

@@ -1,0 +1,106 @@
+#include "regime/regime/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/session/stages.hpp"
+#include "base/system/text.hpp"
+#include "eigen/pencil/settings.hpp"
+#include "problem/terms/settings.hpp"
+#include "regime/march/law.hpp"
+
+namespace squeal::regime {
+
+void checkOptions(const Settings& settings, bool ofMesh) {
+  if (!settings.followed()) return;
+  checkSteps(settings.march);
+  if (!ofMesh)
+    throw Error(
+        "option -regime_friction: matrices from files do not define where bodies separate and "
+        "stick; the motion after flutter is followed only for meshes");
+  const auto pencil = pencil::Settings::given();
+  if (pencil.method == pencil::Method::direct)
+    throw Error(
+        "option -regime_friction: the motion after flutter needs the free modes and the estimates "
+        "of -flutter_method reduced");
+  if (pencil.isModallyDamped())
+    throw Error(
+        "option -regime_friction: -flutter_modal_damping is not followed in time; give the damping "
+        "to the materials");
+  if (!terms::Settings::given().frictionDamping)
+    throw Error(
+        "option -regime_friction: in time the friction force turns with the relative velocity, so "
+        "that -flutter_friction_damping must be on");
+}
+
+void requireSupported(const Settings& settings, const elasticity::Bodies& bodies,
+                      const contact::Contact& contact) {
+  const auto refuse = [](const std::string& why) {
+    throw Error("option -regime_friction: " + why);
+  };
+  if (contact.totalNodes == 0) refuse("there is no contact");
+  if (bodies.gyroscopic || bodies.rotationStiffness || contact.convected)
+    refuse("convective terms (-motion_convective) are not followed in time; leave them out");
+  if (elasticity::prestressWanted())
+    refuse("the geometric stiffness of the steady stress is not followed in time; leave it out");
+  if (settings.cycles.wanted && !contact.law.constant())
+    refuse(
+        "the derivative of a step leaves out -friction_law, so that no periodic motions are found "
+        "under it; leave out -regime_cycle");
+}
+
+void warnAboutSteps(MPI_Comm comm, const Settings& settings, std::span<const Task> tasks,
+                    double stableStep) {
+  const int wanted = settings.sound.cyclesKept > 0 ? settings.sound.frames : 0;
+  double step = 0;  // the longest
+  for (const Task& task : tasks) {
+    if (!task.failure.empty()) continue;
+    step = std::max(step, task.step);
+    if (const int frames = settings.sound.framesOfPeriod(task.shortestPeriod, task.step);
+        frames < wanted)
+      complain(comm, formatted("warning: -regime_frames %d: a period of %.5g Hz has %d steps, and "
+                               "as many frames are written",
+                               wanted, 1 / task.shortestPeriod, frames));
+  }
+  if (settings.march.massless && step > stableStep)
+    complain(comm, formatted("warning: -regime_step %g s exceeds %.3g s, the stable step while all "
+                             "contact sticks; the motion may grow without bound",
+                             step, stableStep));
+}
+
+void warnAboutDamping(const FullModel& full) {
+  const MPI_Comm comm = full.contact.mesh->comm;
+  PetscReal size = 0;
+  if (full.bodies.damping) check(MatNorm(full.bodies.damping, NORM_FROBENIUS, &size));
+  if (size * full.damping == 0)
+    complain(comm,
+             "warning: the bodies are undamped, so that a motion that never separates or sticks "
+             "grows without bound; give -material_<group>_loss_factor");
+}
+
+void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks) {
+  if (!model.law) return;
+  double step = INFINITY;  // the shortest: its slips follow least
+  for (const Task& task : tasks)
+    if (task.failure.empty()) step = std::min(step, task.step);
+  if (!std::isfinite(step)) return;
+  const auto slopes = march::steadySlopes(model);
+  if (const double gain = march::lawGain(model, step, slopes); !(gain < 1))
+    throw Error(
+        formatted("option -regime_friction: the coefficient of friction changes with the speed "
+                  "%.3g times faster than slips of the massless boundary follow at the time step "
+                  "%g s (-friction_law); give -regime_boundary mass",
+                  gain, step));
+  if (!(march::lawGain(model, 0, slopes) < 1))
+    complain(comm,
+             "warning: the coefficient of friction falls with the speed faster than the damping of "
+             "the massless boundary holds its slips, so that the motion does not converge with "
+             "-regime_step; give the materials at the contact damping, or -regime_boundary mass");
+  for (const bool lowest : {true, false})
+    if (!(march::lawGain(model, step, march::steepestSlopes(model, lowest)) < 1))
+      complain(comm,
+               "warning: near the steepest part of -friction_law slips of the massless boundary "
+               "may alternate from step to step; compare with -regime_boundary mass");
+}
+
+}  // namespace squeal::regime

@@ -1,0 +1,19 @@
+#pragma once
+/// The finite element model at a steady state.
+#include "model/contact/coupled.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::regime {
+
+/// The finite element model that is reduced; all of it is borrowed.
+struct FullModel {
+  const elasticity::Bodies& bodies;
+  const contact::Contact& contact;
+  /// K0 with all nodes closed and held; it solves for the static responses.
+  const contact::CoupledSystem& closed;
+  const steady::Solution& solution;
+  double damping = 1;  ///< factor on the damping of the bodies
+};
+
+}  // namespace squeal::regime

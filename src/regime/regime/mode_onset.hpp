@@ -1,0 +1,33 @@
+#pragma once
+/// The onset of nonlinearity of the unstable modes of a mesh [M.75].
+#include <vector>
+
+#include "eigen/pencil/complex_modes.hpp"
+#include "model/contact/contact.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "regime/march/onset.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::regime {
+
+using march::Onset;
+using mesh::Point;
+
+/// The first event of an unstable mode of the mesh as it grows.
+struct ModeOnset {
+  sweep::Parameters at;
+  std::size_t mode = 0;  ///< index into ComplexModes::eigenvalues
+  Complex s;             ///< 1/s
+  Onset onset = {};      ///< its factor is that of pencil::Shape, its node 0
+  Point position{};      ///< of the node, m
+  int interface = -1;    ///< of the node
+  double kinetic = 0;    ///< largest kinetic energy over a cycle at the event, J
+};
+
+/// Collective. Returns the first events of the unstable modes whose shapes the point has [M.75].
+/// `prestress` is K_σ of the steady state; it may be null.
+std::vector<ModeOnset> onsets(const elasticity::Bodies& bodies, const contact::Contact& contact,
+                              const steady::Solution& solution, const pencil::ComplexModes& point,
+                              Mat prestress);
+
+}  // namespace squeal::regime

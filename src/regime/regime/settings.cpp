@@ -1,0 +1,128 @@
+#include "regime/regime/settings.hpp"
+
+#include <algorithm>
+
+#include "base/petsc/check.hpp"
+
+namespace squeal::regime {
+namespace {
+
+const RealListOption frictionOption(
+    "regime", "regime_friction", "", "", nonNegative,
+    "frictions at which the motion after flutter is followed with stick, slip and separation; "
+    "they are added to those of -flutter_friction",
+    true);
+
+const RealOption timeOption(
+    "regime", "regime_time", 0, "s", nonNegative,
+    "maximum simulated time, at least 32 cycles of the mode; 0: the longer of 400 cycles and 10 "
+    "e-folding times of the mode, but no more than 4000 cycles");
+const RealOption stepOption(
+    "regime", "regime_step", 0, "s", nonNegative,
+    "time step, at least 16 in a period of the mode and at most 1e8 in a march; 0: a 128th of the "
+    "period, but no more than 0.8 of the stable step");
+const RealOption startOption(
+    "regime", "regime_start_factor", 0.5, "", Range{0, 100, true, false},
+    "initial amplitude relative to the one at which the first node separates or sticks");
+const ChoiceOption startsOption("regime", "regime_starts", {"fastest", "each", "all"}, "fastest",
+                                "starts of the motion: on the fastest growing unstable mode, on "
+                                "each of them, or on each and on their sum");
+const ChoiceOption boundaryOption(
+    "regime", "regime_boundary", {"massless", "mass"}, "massless",
+    "boundary of the reduced model: massless with the leapfrog rule, or with its mass by the "
+    "scheme of Moreau and Jean, to check the first");
+
+const FlagOption cycleOption(
+    "regime", "regime_cycle", false,
+    "periodic orbits (stable or unstable) and their Floquet multipliers, by shooting from the mean "
+    "state of the time integration");
+const IntegerOption stepsOption("regime", "regime_cycle_steps", 256, 16, 100'000,
+                                "number of time steps of a periodic orbit");
+const RealOption toleranceOption(
+    "regime", "regime_cycle_tolerance", 1e-6, "", Range{1e-10, 1e-2},
+    "relative change of displacements and velocities over a period, in the energy norm, below "
+    "which a motion is periodic");
+const RealListOption rangeOption(
+    "regime", "regime_cycle_range", "", "", nonNegative,
+    "two frictions between which the branch of periodic orbits is followed, folds included");
+const IntegerOption mostOption("regime", "regime_cycle_motions", 20, 1, 10'000,
+                               "largest number of orbits of the branch in each direction");
+
+[[noreturn]] void rejectIdle(const Option& option) {
+  throw Error("option -" + option.name +
+              ": nothing is followed after flutter without -regime_friction");
+}
+
+/// Throws Error for options of periodic motions that are idle.
+void rejectIdleCycleOptions(bool followed, bool wanted) {
+  for (const Option* option : std::initializer_list<const Option*>{
+           &cycleOption, &stepsOption, &toleranceOption, &rangeOption, &mostOption}) {
+    if (!option->given()) continue;
+    if (!followed) rejectIdle(*option);
+    if (!wanted && option != &cycleOption)
+      throw Error("option -" + option->name +
+                  ": periodic motions are not computed without -regime_cycle");
+  }
+}
+
+CycleSettings cyclesGiven(bool massless) {
+  CycleSettings settings{.wanted = true};
+  if (!massless)
+    throw Error(
+        "option -regime_cycle: periodic motions are found only with -regime_boundary massless");
+  const auto range = rangeOption.get();
+  if (range.empty()) {
+    if (mostOption.given())
+      throw Error(
+          "option -regime_cycle_motions: no branch is followed without "
+          "-regime_cycle_range");
+  } else if (range.size() != 2 || !(range[0] < range[1])) {
+    throw Error("option -regime_cycle_range: two frictions, the smaller one first");
+  } else {
+    settings.range = {range[0], range[1]};
+    settings.motions = mostOption.get();
+  }
+  settings.steps = stepsOption.get();
+  settings.tolerance = toleranceOption.get();
+  return settings;
+}
+
+MarchSettings marchGiven(bool massless) {
+  const std::string starts = startsOption.get();
+  return {.time = timeOption.get(),
+          .step = stepOption.get(),
+          .startFactor = startOption.get(),
+          .starts = starts == "fastest" ? Starts::fastest
+                    : starts == "each"  ? Starts::each
+                                        : Starts::all,
+          .massless = massless};
+}
+
+/// Throws Error for options of a march, of which there is none.
+void rejectIdleMarchOptions() {
+  auto idle = sound::Settings::options();
+  for (const Option* option : std::initializer_list<const Option*>{
+           &timeOption, &stepOption, &startOption, &startsOption, &boundaryOption})
+    idle.push_back(option);
+  for (const Option* option : idle)
+    if (option->given()) rejectIdle(*option);
+}
+
+}  // namespace
+
+Settings Settings::given() {
+  Settings settings{.frictions = frictionOption.get()};
+  std::ranges::sort(settings.frictions);
+  const bool massless = boundaryOption.get() == "massless", wanted = cycleOption.get();
+  rejectIdleCycleOptions(settings.followed(), wanted);
+  if (wanted) settings.cycles = cyclesGiven(massless);
+  if (!settings.followed()) {
+    rejectIdleMarchOptions();
+    return settings;
+  }
+  settings.sound = sound::Settings::given();
+  settings.march = marchGiven(massless);
+  return settings;
+}
+
+}  // namespace squeal::regime

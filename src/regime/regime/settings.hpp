@@ -1,0 +1,50 @@
+#pragma once
+/// The settings of the motion after flutter: the frictions, the time integration and the periodic
+/// motions.
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "regime/sound/settings.hpp"
+
+namespace squeal::regime {
+
+/// The modes on which marches start: the fastest growing unstable one, each of them, or each and
+/// their sum.
+enum class Starts { fastest, each, all };
+
+/// The settings of the time integration.
+struct MarchSettings {
+  double time = 0;           ///< maximum simulated time, s; 0: until the motion has settled
+  double step = 0;           ///< time step, s; 0: automatic
+  double startFactor = 0.5;  ///< initial amplitude relative to that of the first event
+  Starts starts = Starts::fastest;
+  bool massless = true;  ///< the boundary of the reduced model has no mass
+};
+
+/// The settings of periodic motions.
+struct CycleSettings {
+  bool wanted = false;
+  int steps = 256;          ///< time steps of a period
+  double tolerance = 1e-6;  ///< relative change over a period
+  /// The frictions between which the branch is followed; none: it is not followed.
+  std::optional<std::array<double, 2>> range = {};
+  int motions = 20;  ///< largest number of motions of the branch in each direction
+};
+
+struct Settings {
+  /// The frictions of the points that are followed after flutter, ascending. They belong to the
+  /// sweep. Empty: no point is followed, and the other members have their defaults.
+  std::vector<double> frictions;
+  MarchSettings march = {};
+  CycleSettings cycles = {};
+  sound::Settings sound = {};
+  bool followed() const { return !frictions.empty(); }
+
+  /// Returns the settings that the options give. Throws Error for options that are idle or that
+  /// exclude each other.
+  static Settings given();
+};
+
+}  // namespace squeal::regime

@@ -1,0 +1,44 @@
+#pragma once
+/// Samples of the modal velocities of a march, and their spectrum.
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+
+namespace squeal::regime {
+
+using linalg::DenseMatrix;
+
+/// One line of a spectrum: amplitudes of velocity, 0 to peak.
+struct SpectralLine {
+  double frequency = 0;  ///< Hz
+  double whole = 0;      ///< √(2 kinetic energy / mass of the model), m/s·√kg
+};
+
+/// Stores the latest samples of the modal velocities.
+class ModalSignals {
+ public:
+  /// The period is that of a mode, s, and the step that of the march, s.
+  ModalSignals(PetscInt modes, double period, double step);
+  /// Is called with the modal velocities after each step.
+  void add(const std::vector<double>& velocities);
+  /// Returns the interval of the samples, s.
+  double sampleTime() const { return stride_ * step_; }
+  /// Returns the number of the latest samples in a time, s; 0 if they are too few for a spectrum.
+  std::size_t count(double time) const;
+  /// Returns the latest `count` samples, samples × modes.
+  DenseMatrix latest(std::size_t count) const;
+  /// Returns the spectrum of the latest `count` samples, the sum over the modes.
+  std::vector<SpectralLine> spectrum(std::size_t count) const;
+  /// Returns the frequency of the largest line of the spectrum, Hz.
+  double carrier(std::size_t count) const;
+
+ private:
+  std::vector<double> power(std::size_t count) const;
+
+  std::vector<std::vector<double>> signals_;  // [mode] velocities, every `stride_` steps
+  double step_;
+  int stride_;
+  long seen_ = 0;
+};
+
+}  // namespace squeal::regime

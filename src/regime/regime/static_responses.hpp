@@ -1,0 +1,33 @@
+#pragma once
+/// The static responses of the bodies to gaps and to tangential forces at the contact nodes.
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "algebra/linalg/block.hpp"
+#include "model/contact/coupled.hpp"
+#include "regime/regime/contact_nodes.hpp"
+#include "regime/regime/full_model.hpp"
+#include "steady/impedance/impedance.hpp"
+
+namespace squeal::regime {
+
+class StaticResponses {
+ public:
+  /// Collective. The model is borrowed; `own` are the contact nodes of this rank.
+  StaticResponses(const FullModel& full, const std::vector<Node>& own);
+  /// Collective. Returns the responses of the nodes in the given order, nodal displacements: to a
+  /// unit gap, and along each tangent to a unit force or, where the node is held, a unit slip.
+  linalg::Block all(const std::vector<PetscInt>& order) const;
+
+ private:
+  void appendResponses(const impedance::Impedance& impedance, std::span<const PetscInt> nodes,
+                       int c, linalg::Block& result) const;
+  PetscInt causeOf(const impedance::Impedance& impedance, PetscInt node, int c) const;
+
+  const FullModel& full_;
+  contact::Transformation open_;
+  std::vector<std::unique_ptr<impedance::Impedance>> impedances_;  // [tangent]
+};
+
+}  // namespace squeal::regime

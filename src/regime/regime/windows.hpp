@@ -1,0 +1,65 @@
+#pragma once
+/// Averages of a march over windows of cycles [M.74].
+#include <vector>
+
+#include "regime/march/model.hpp"
+#include "regime/march/scheme.hpp"
+
+namespace squeal::regime {
+
+using march::ReducedModel;
+using march::Scheme;
+
+/// Averages over a span of time.
+struct Means {
+  double from = 0, to = 0;         ///< s
+  double kinetic = 0;              ///< mean kinetic energy, J
+  double peakKinetic = 0;          ///< mean of the largest kinetic energies of the cycles, J
+  double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N of all sliding interfaces
+  double frictionPower = 0;        ///< −Σ R_T·w, W
+  double open = 0, sticking = 0;   ///< mean numbers of open and of sticking nodes
+  bool linear = true;              ///< each node has stayed in its state of steady sliding
+};
+
+/// Averages of one node over the same span.
+struct NodeMeans {
+  double open = 0, stick = 0, slip = 0;  ///< fractions of the time
+  double pressure = 0;                   ///< mean, Pa
+  double largestGap = 0;                 ///< m
+  double power = 0;                      ///< heat of friction, W
+};
+
+/// The averages of one window.
+struct Window {
+  Means means;
+  std::vector<NodeMeans> nodes;
+  double largestVelocity = 0;  ///< of a slip, about steady sliding, m/s
+  double largestJump = 0;      ///< change of a gap, m
+};
+
+/// Accumulates the averages of a march, window by window.
+class WindowRecorder {
+ public:
+  /// The model is borrowed.
+  explicit WindowRecorder(const ReducedModel& model);
+  /// Is called after each step.
+  void inspect(const Scheme& scheme);
+  /// Ends a window at this time, s; `peakKinetic` is the mean of the peaks of its cycles, J.
+  void end(double time, double peakKinetic);
+  /// Returns the complete windows.
+  const std::vector<Window>& windows() const { return windows_; }
+  /// Returns the mean normal force of the pressed nodes in steady sliding, N.
+  double meanForce() const { return meanForce_; }
+
+ private:
+  void inspectNode(std::size_t i, const Scheme& scheme);
+
+  const ReducedModel& model_;
+  double meanForce_ = 0;
+  std::vector<Window> windows_;
+  Window window_;   // the current one
+  long steps_ = 0;  // in it
+  double normalSum_ = 0, alongSum_ = 0;
+};
+
+}  // namespace squeal::regime

@@ -1,0 +1,54 @@
+#pragma once
+/// The recent history of a march, from which displacements are computed at its end.
+#include <mpi.h>
+
+#include <deque>
+#include <vector>
+
+#include "regime/march/model.hpp"
+#include "regime/march/scheme.hpp"
+#include "regime/sound/settings.hpp"
+
+namespace squeal::sound {
+
+using linalg::DenseMatrix;
+using march::ReducedModel;
+using march::Scheme;
+
+/// The motion at one instant, in the coordinates of the reduced model.
+struct Sample {
+  double time = 0;            ///< s
+  std::vector<double> q, z;   ///< of modes and of static responses
+  std::vector<double> gap;    ///< [node], with the steady one, m
+  std::vector<double> force;  ///< R_N, [node], N
+};
+
+/// The history of a march, on the rank that has marched.
+struct Trace {
+  DenseMatrix velocities;       ///< of the modes, samples × modes
+  double sampleTime = 0;        ///< interval of these samples, s
+  std::vector<Sample> samples;  ///< of the latest cycles
+};
+
+/// Collective. Sends samples from the rank `root` to all ranks.
+void broadcast(MPI_Comm comm, int root, std::vector<Sample>& samples);
+
+/// Stores the samples of the latest `-regime_cycles_kept` periods.
+class RecentHistory {
+ public:
+  /// The period is that of a mode, s, and the step that of the march. The model is borrowed.
+  RecentHistory(const ReducedModel& model, const Settings& settings, double period, double step);
+  void inspect(const Scheme& scheme);
+  /// Returns the samples in the order of time. From the first to the last it is a whole number of
+  /// periods, to a time step; fewer periods if the march was shorter.
+  std::vector<Sample> samples() const;
+
+ private:
+  const ReducedModel& model_;
+  int frames_;  // of a period
+  long most_;
+  double interval_, next_;  // from frame to frame, and the time of the next one, s
+  std::deque<march::State> states_;
+};
+
+}  // namespace squeal::sound

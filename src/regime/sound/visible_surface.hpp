@@ -1,0 +1,97 @@
+#pragma once
+/// The visible surface of the bodies in a regime [M.76]: the sound that it radiates, velocity
+/// spectra at its points, and displacements of the latest cycles.
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algebra/linalg/block.hpp"
+#include "model/contact/contact.hpp"
+#include "regime/sound/recent_history.hpp"
+#include "regime/sound/settings.hpp"
+#include "regime/sound/surface.hpp"
+
+namespace squeal::sound {
+
+/// An estimate of the sound power; NaN without samples or without a visible surface.
+struct Sound {
+  double meanSquareVelocity = NAN;  ///< ⟨v_n²⟩ over the surface and the time, m²/s²
+  double area = NAN;                ///< of the visible surface, m² (m in the plane)
+  double power = NAN;               ///< ρc S ⟨v_n²⟩, W (W/m in the plane)
+  double level = NAN;               ///< dB re 1e-12 W
+};
+
+/// The amplitudes of one line: components x, y, z and the one along the normal, 0 to peak, m/s.
+using Amplitudes = std::array<double, 4>;
+
+/// A node of the visible surface, as a laser vibrometer measures it.
+struct SpectrumPoint {
+  std::string name = {};  ///< "largest", or "1", "2", … of -regime_spectrum_points
+  Point position{}, normal{};
+  double meanSquareVelocity = 0;           ///< of all components, m²/s²
+  std::vector<Amplitudes> amplitude = {};  ///< [line] by frequency, as amplitudes() has them
+};
+
+/// The motion of the latest cycles about steady sliding.
+struct Frames {
+  std::vector<double> time;                   ///< [frame] s
+  linalg::Block displacement;                 ///< V q + Ψ z, [frame], this rank's rows, m
+  std::vector<std::vector<double>> gap;       ///< [frame][contact node of this rank] m
+  std::vector<std::vector<double>> pressure;  ///< likewise, Pa
+};
+
+struct VisibleSurface {
+  Sound sound = {};
+  std::vector<SpectrumPoint> points = {};
+  Frames frames = {};
+};
+
+/// The displacements of the mesh in a reduced model; all of them are borrowed.
+struct Shapes {
+  const linalg::Block& modes;      ///< V, nodal displacements, this rank's rows
+  const linalg::Block& responses;  ///< Ψ, as V
+  /// [node of the model] its place among the contact nodes of this rank; −1 on other ranks
+  const std::vector<PetscInt>& contactNode;
+};
+
+/// Computes the motion of the visible surface in marches of one reduced model. All methods are
+/// collective.
+class Observer {
+ public:
+  /// The contact is borrowed.
+  Observer(const contact::Contact& contact, const Shapes& shapes, const Settings& settings);
+  /// Returns the results of a march whose trace is on the rank `root`.
+  VisibleSurface of(int root, const Trace& trace) const;
+
+ private:
+  /// A node of the surface, of which that with the smallest measure on all ranks is chosen.
+  struct Candidate {
+    double measure;
+    Point position{};
+    PetscInt node = -1;  // local node of its owner
+  };
+  /// A chosen node and its rows of V.
+  struct Observed {
+    SpectrumPoint point;
+    DenseMatrix shape;
+  };
+  Sound soundOf(const DenseMatrix& meanSquares) const;
+  Observed observed(const std::vector<Candidate>& own, double tolerance) const;
+  std::vector<Candidate> byVelocity(const DenseMatrix& meanSquares) const;
+  std::vector<Candidate> byDistance(const Point& place) const;
+  DenseMatrix rowsOf(std::span<const PetscInt> nodes) const;
+  std::vector<Amplitudes> spectrum(const Observed& node, const DenseMatrix& velocities) const;
+  std::vector<SpectrumPoint> spectrumPoints(int root, const Trace& trace,
+                                            const DenseMatrix& meanSquares) const;
+  Frames framesOf(const std::vector<Sample>& samples) const;
+
+  const contact::Contact& contact_;
+  Shapes shapes_;
+  Settings settings_;
+  RadiatingSurface surface_;
+  DenseMatrix radiation_;  // ∫ (n·φ_i)(n·φ_j) dA of the modes
+};
+
+}  // namespace squeal::sound
