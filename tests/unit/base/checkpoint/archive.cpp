@@ -24,7 +24,7 @@ fs::path folder(const std::string& name) {
          ("checkpoint_" + name + "_" + std::to_string(mpi::size(PETSC_COMM_WORLD))) / "entries";
 }
 
-/// Makes every call an entry, and leaves the option as it was.
+/// Writes an entry at every call, and restores the option afterwards.
 struct EveryEntry {
   EveryEntry() { insert({{"checkpoint_interval", "0"}}); }
   ~EveryEntry() { removeOption("checkpoint_interval"); }
@@ -152,7 +152,8 @@ TEST(Checkpoint, DamageIsFound) {
   write(first, 1);
   const auto size = fs::file_size(file);
   MPI_Barrier(PETSC_COMM_WORLD);
-  // The mark, the table of the parts, the common part, that of the last rank, the last byte.
+  // In the mark, the table of the parts, the common part, the part of the last rank, and the last
+  // byte.
   for (const double part : {0.0, 0.02, 0.1, 0.9, 1.0}) {
     const auto change = [&] {
       if (rankHere() == 0) {

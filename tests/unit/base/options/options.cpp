@@ -17,7 +17,7 @@ namespace {
 using test::contains;
 using test::errorOf;
 
-// Options of the tests' own, beside those of the method.
+// Options of these tests, in addition to those of the method.
 const RealOption length("general", "probe_<part>_length", std::nullopt, "m", positive,
                         "length of a part");
 const RealOption ratio("general", "probe_ratio", 0.25, "", {-1, 0.5, true, true}, "a ratio");
@@ -43,7 +43,7 @@ TEST(Lists, RangesEndExactly) {
   ASSERT_EQ(values.size(), 13u);
   const double expected[] = {0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6};
   for (std::size_t i = 0; i < values.size(); ++i)
-    EXPECT_EQ(values[i], expected[i]);  // the doubles one would type: 12 × 0.05 is not 0.6
+    EXPECT_EQ(values[i], expected[i]);  // the doubles that a user would type: 12 × 0.05 is not 0.6
   EXPECT_EQ(swept("0.1:0.7:0.1"), (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}));
   EXPECT_EQ(swept("0.3:0.3:1"), (std::vector<double>{0.3}));
   EXPECT_EQ(swept("0:1:0.4"), (std::vector<double>{0, 0.4, 0.8}));  // never beyond the last
@@ -61,7 +61,7 @@ TEST(Lists, ValuesAreReadToTheLastDigit) {
   EXPECT_EQ(vector.get(), (std::vector<double>{0, 0, 1}));
 }
 
-// Before memory is taken for them.
+// Long lists are rejected before their memory is allocated.
 TEST(Lists, OfTooManyValuesAreRefused) {
   EXPECT_TRUE(
       contains(errorOf([] { swept("0:1:1e-7"); }),
@@ -70,7 +70,7 @@ TEST(Lists, OfTooManyValuesAreRefused) {
   EXPECT_EQ(swept("1:100000:1").size(), 100000U);
 }
 
-// Squares of 1e50, and products of several such numbers, are still numbers.
+// Squares of 1e50, and products of several such numbers, do not overflow.
 TEST(Numbers, MagnitudesAreLimited) {
   for (const std::string value : {"1e51", "-1e51", "1e300", "1e-51", "-1e-300"}) {
     test::setOptions("-probe_a_offset " + value);
@@ -134,7 +134,7 @@ TEST(Files, AreLookedForBesideTheOptionsFile) {
       << file.get("disc");
   EXPECT_EQ(errorOf([] { rejectUnknownOptions(); }), "");
   EXPECT_EQ(givenOptions().at("probe_disc_file"),
-            file.get("disc"));  // which the record of the run repeats
+            file.get("disc"));  // as in the record of the run
   named("../beside here/probe.msh");
   EXPECT_TRUE(std::filesystem::equivalent(file.get("disc"), folder + "/probe.msh"));
   named("meshes/layer.geo");  // the tests run in the root of the repository
@@ -161,7 +161,7 @@ TEST(Lists, BadOnesAreRejectedByName) {
     EXPECT_TRUE(contains(message, "-probe_sweep")) << value;
     EXPECT_TRUE(contains(message, "first:last:step")) << value << ": " << message;
   }
-  // A range where none is declared.
+  // A range, which the option does not declare.
   test::setOptions("-probe_vector 0:1:0.5");
   EXPECT_TRUE(contains(errorOf([] { vector.get(); }), "-probe_vector"));
 }
@@ -236,7 +236,7 @@ TEST(Required, MissingOnesAreNamedWithTheirMeaning) {
   EXPECT_TRUE(offset.given("pad"));
 }
 
-// Group names hold underscores, even words that options hold too.
+// Group names may contain underscores, and even words of option names.
 TEST(Subjects, AreTheWordsInPlaceOfThePlaceholder) {
   test::setOptions(
       "-probe_back_plate_length 1 -probe_disc_length 2 -probe_the_length_of_it_length 3 "
@@ -252,7 +252,7 @@ TEST(Subjects, AreTheWordsInPlaceOfThePlaceholder) {
   EXPECT_EQ(length.fullName("back_plate"), "probe_back_plate_length");
 }
 
-// A case file nests names; the command line replaces single values of it.
+// A case file nests names; the command line overrides single values.
 TEST(CaseFile, NestsAndIsOverridden) {
   const auto file = test::writeFile("options.yaml", R"(
 # a comment
@@ -277,10 +277,10 @@ probe:
   EXPECT_EQ(sweep.get(), (std::vector<double>{0, 0.1, 0.2}));
   EXPECT_TRUE(flag.get());
   EXPECT_EQ(errorOf([] { rejectUnknownOptions(); }), "");
-  EXPECT_EQ(resolvedOptions().at("probe_disc_length"), "8");  // what the recipe of the run will say
+  EXPECT_EQ(resolvedOptions().at("probe_disc_length"), "8");  // as in the record of the run
 }
 
-// Asked for a name with a number, PETSc takes one without it.
+// PETSc itself accepts a name without its number in place of one with it.
 TEST(Subjects, WithNumbersAreNotTakenForOthers) {
   test::setOptions("-probe_length 2 -probe_offset 3");
   EXPECT_FALSE(length.given("1"));
@@ -290,7 +290,7 @@ TEST(Subjects, WithNumbersAreNotTakenForOthers) {
   EXPECT_EQ(offset.get("1"), 4);
 }
 
-// A buffer of fixed length would cut the list, and the sweep with it.
+// A buffer of fixed length would truncate the list, and thus the sweep.
 TEST(Lists, MayBeLong) {
   std::string value = "0";
   for (int i = 1; i < 3000; ++i) value += "," + std::to_string(i);

@@ -1,5 +1,5 @@
 // Options as they are given: words of the command line, options files in YAML and in lines, and
-// what is said of mistakes there.
+// the messages on mistakes in them.
 #include "base/options/settings.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ std::string yamlError(const std::string& text) {
   return errorOf([&] { settingsOfYaml(text, "case.yaml"); });
 }
 
-/// Collective. A file of its own for each text: another rank may still read the last one.
+/// Collective. Each text gets its own file, since another rank may still be reading the last one.
 std::string fileWith(const std::string& text, const std::string& suffix = ".txt") {
   static int count = 0;
   return test::writeFile("settings_" + std::to_string(count++) + suffix, text);
@@ -57,7 +57,7 @@ TEST(Yaml, ListsAreJoinedByCommas) {
   EXPECT_EQ(yaml("a: [0:0.6:0.1]\n"), (Pairs{{"a", "0:0.6:0.1"}}));
 }
 
-// PETSc's reader has them too.
+// PETSc's reader supports them as well.
 TEST(Yaml, AliasesAndMergeKeys) {
   const std::string iron = "hat: &iron\n  young: 1\n  density: 7\n";
   EXPECT_EQ(
@@ -67,7 +67,7 @@ TEST(Yaml, AliasesAndMergeKeys) {
   const Pairs expected{
       {"hat_young", "1"}, {"hat_density", "7"}, {"disc_young", "2"}, {"disc_density", "7"}};
   EXPECT_EQ(yaml(iron + "disc:\n  <<: *iron\n  young: 2\n"), expected);
-  // What stands beside the merge key counts more, before it as well.
+  // Entries next to the merge key have priority, also those before it.
   EXPECT_EQ(yaml(iron + "disc:\n  young: 2\n  <<: [*iron]\n"), expected);
   EXPECT_TRUE(contains(yamlError(iron + "disc:\n  <<: *iron\n  young: 2\n  young: 3\n"),
                        "case.yaml, line 7: a second value of -disc_young"));
@@ -213,7 +213,7 @@ TEST(Files, LinesOfNamesAndValues) {
   EXPECT_EQ(settingsOfFile(file)[1].place(), file + ", line 4");
 }
 
-// What optionLine() writes is what is read, whatever the value.
+// Any value that optionLine() writes is read back unchanged.
 TEST(Files, LinesRepeatTheirValues) {
   const Pairs values{{"a", ""},   {"b", "0, 0.2"},      {"c", "-x y"},
                      {"d", "-x"}, {"e", "it's # here"}, {"f", "a \"b\""},
@@ -266,8 +266,8 @@ TEST(Files, KindIsToldByNameAndByContent) {
   EXPECT_EQ(pairs(settingsOfCall({"-options_file_yaml", fileWith(text)})), expected);
 }
 
-// Later wins, files and words in the order in which they stand; a file reads another one where it
-// names it, beside itself.
+// The later setting wins, in the order of files and words. A file that includes another one finds
+// it in its own folder.
 TEST(Files, CountInTheOrderInWhichTheyStand) {
   const auto base = test::writeFile("base.yaml", "a: 1\nb: 1\nc: 1\n");
   const auto file = fileWith("-a 2\n-options_file base.yaml\n-b 3\n");
@@ -299,8 +299,7 @@ TEST(Environment, ComesBeforeTheCommandLine) {
   unsetenv("PETSC_OPTIONS_YAML");
 }
 
-// Values come out of the database as they went in: with blanks, with a dash in front, longer than
-// any buffer.
+// The database returns values unchanged: with blanks, with a leading dash, longer than any buffer.
 TEST(Database, KeepsValuesAsTheyAre) {
   const std::string lengthy(20000, 'x');
   clearOptions();
@@ -321,7 +320,7 @@ TEST(Database, KnowsThePlaceOfAValue) {
   insertFile(PETSC_COMM_WORLD, file);
   EXPECT_EQ(givenOptions(), (std::map<std::string, std::string>{{"a_b", "1"}}));
   EXPECT_EQ(origin("a_b", "1").place(), file + ", line 2");
-  EXPECT_EQ(origin("a_b", "2").place(), "");  // set since
+  EXPECT_EQ(origin("a_b", "2").place(), "");  // set to another value
   clearOptions();
 }
 
