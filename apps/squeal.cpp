@@ -29,27 +29,26 @@ constexpr const char* usage =
     "0,0.2,0.4\n"
     "\n"
     "Finds which modes of a brake squeal: flutter of the steady sliding of pads on a disc. A case "
-    "names a mesh, materials, "
-    "supports,\n"
-    "loads and contact surfaces, or matrices; options that follow it replace what it says. A list "
-    "is separated by commas.\n"
-    "  -dry_run   checks a case, and says what its run would take\n"
+    "defines a mesh, materials, supports,\n"
+    "loads and contact surfaces, or matrices; later options override it. Lists are separated by "
+    "commas.\n"
+    "  -dry_run   checks a case, and estimates the memory of its run\n"
     "  -help      the manual: all options with units, defaults and ranges; -help STAGE: those of "
     "one stage\n"
     "  -help_json the same for programs; -help_json STAGE\n"
     "  -version   versions of this program and of its libraries\n"
-    "Exit code: 0 done, 2 some point or stage has no result, 3 asked to stop (SIGTERM, SIGUSR1; "
-    "-resume goes on), 1 error.\n";
+    "Exit code: 0 done, 1 error, 2 a point or stage has no result, 3 stopped on request (SIGTERM, "
+    "SIGUSR1; -resume continues).\n";
 
 /// Prints an error and reports it to other programs.
-void tellError(const squeal::Session& session, const std::string& message, bool onAllRanks) {
-  squeal::tellEvent("error", {{"text", message}});
-  const squeal::LineAway away;
+void reportError(const squeal::Session& session, const std::string& message, bool onAllRanks) {
+  squeal::logEvent("error", {{"text", message}});
+  const squeal::ClearedLine away;
   if (onAllRanks && session.rank() > 0) return;
   std::fprintf(stderr, "squeal: error: %s\n", squeal::escaped(message).c_str());
 }
 
-/// The exit code.
+/// Runs the program and returns its exit code.
 int run(const squeal::Session& session) try {
   if (session.helpWanted() || session.helpJsonWanted()) {
     const std::string page = session.helpJsonWanted() ? squeal::manualAsJson(session.helpStage())
@@ -63,9 +62,9 @@ int run(const squeal::Session& session) try {
   }
   if (!session.optionsGiven()) {
     if (session.rank() == 0) std::fputs(usage, stderr);
-    return 1;  // a script whose arguments went missing must not believe that it has run
+    return 1;  // a script that has lost its arguments must not take this for a run
   }
-  squeal::analysis::checkOptions();  // first of all: a mistake in them touches no folder
+  squeal::analysis::checkOptions();  // first, so that an error in them leaves all folders untouched
   for (const auto& line : squeal::replacedSettings()) squeal::say(session.comm(), line);
   if (squeal::analysis::dryRunWanted()) {
     squeal::analysis::dryRun(session.comm());
@@ -83,25 +82,24 @@ int run(const squeal::Session& session) try {
   } catch (const squeal::Error&) {
     if (analysis.checkpoint.exists())
       squeal::complain(session.comm(),
-                       "the checkpoint is kept: -resume writes the results again; "
-                       "they need room beside it");
+                       "the checkpoint stays: -resume writes the results again; they need "
+                       "additional disk space");
     throw;
   }
   if (analysis.interrupted) return 3;
   analysis.checkpoint.remove();
   squeal::report::removeInterrupted(session.comm(), directory);
   for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
-  return analysis.converged()
-             ? 0
-             : 2;  // instability is a result; a point without steady state or a failed one is not
+  // Instability is a result; a failed point or one without a steady state is not.
+  return analysis.converged() ? 0 : 2;
 } catch (const squeal::Error& error) {
-  tellError(session, error.what(), true);
+  reportError(session, error.what(), true);
   return 1;
-} catch (const std::bad_alloc&) {  // perhaps on this rank alone
+} catch (const std::bad_alloc&) {  // perhaps only on this rank
   squeal::outOfMemory();
-} catch (const std::exception& error) {  // of this rank alone: the others wait for it
-  tellError(session, "rank " + std::to_string(session.rank()) + ": " + error.what(), false);
-  squeal::performLastActs();
+} catch (const std::exception& error) {  // only on this rank; the others wait for it
+  reportError(session, "rank " + std::to_string(session.rank()) + ": " + error.what(), false);
+  squeal::runTerminationHandlers();
   MPI_Abort(session.comm(), 1);
   return 1;
 }
@@ -114,7 +112,6 @@ int main(int argc, char** argv) {
   squeal::endEvents(code);
   if (squeal::outputError() == 0 || session.rank() != 0) return code;
   std::fprintf(stderr, "squeal: error: cannot write to the standard output: %s%s\n",
-               std::strerror(squeal::outputError()),
-               code == 1 ? "" : "; what was written to files is complete");
+               std::strerror(squeal::outputError()), code == 1 ? "" : "; the files are complete");
   return 1;
 }

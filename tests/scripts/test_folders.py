@@ -82,7 +82,7 @@ class Folders(unittest.TestCase):
         os.mkfifo(self.place / "pipe")
         root, foreign = (
             "is the root of the file system",
-            "is not empty and holds no earlier results",
+            "is not empty and contains no earlier results",
         )
         home = tempfile.TemporaryDirectory()  # FLTK writes there as well
         self.addCleanup(home.cleanup)
@@ -118,8 +118,8 @@ class Folders(unittest.TestCase):
         self.assertFalse(any(Path("/").glob("*.csv")))
 
     def test_folders_that_are_taken(self):
-        """New, empty, one with results, one that holds the log of events of this run, one that a
-        case names."""
+        """New, empty, one with results, one with the event log of this run, one that a case
+        names."""
         (self.place / "logged").mkdir()
         for folder in ("results/case", "results/other", "named"):
             (self.place / folder).mkdir(parents=True)
@@ -146,7 +146,7 @@ class Folders(unittest.TestCase):
             self.assertEqual((self.place / folder / "notes.txt").read_text(), "mine")
             self.assertTrue((self.place / folder / "summary.json").exists())
         self.refused(
-            "is not empty and holds no earlier results",
+            "is not empty and contains no earlier results",
             "-options_file",
             "case.yaml",
             "-report_dir",

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""Runs that are cut off and continued, and the log of events: test_resume.py PROGRAM MPIEXEC.
+"""Runs that are cut off and resumed, and the event log: test_resume.py PROGRAM MPIEXEC.
 
 With SQUEAL_LONG in the environment, five random moments of several kinds of runs instead of one
 moment of one.
@@ -278,8 +278,8 @@ class Resumed(unittest.TestCase):
             self.assertEqual(run.finish(), 1)
             self.assertIn(
                 (
-                    f"squeal: error: option -resume: the checkpoint in {entry.parent} is of another"
-                    f" run: {message}"
+                    f"squeal: error: option -resume: the checkpoint in {entry.parent} belongs to"
+                    f" another run: {message}"
                 ),
                 run.text(),
             )
@@ -357,7 +357,7 @@ class Resumed(unittest.TestCase):
             text=True,
         )
         self.assertEqual((run.returncode, mine.read_text()), (1, "mine"))
-        self.assertIn("is there already and is no log of events", run.stderr)
+        self.assertIn("already exists and is not an event log", run.stderr)
 
     @unittest.skipUnless(LONG, "five random moments of each kind of run: SQUEAL_LONG")
     def test_random_moments(self):

@@ -1,8 +1,7 @@
 #pragma once
-/// An archive is a part of the state of a run, on its way to or from a checkpoint.
+/// A part of the state of a run, to be written to or read from a checkpoint.
 #include <mpi.h>
 
-#include <utility>
 #include <vector>
 
 #include "base/petsc/check.hpp"
@@ -11,27 +10,27 @@
 
 namespace squeal::checkpoint {
 
-/// What is said of a checkpoint whose files do not hold what they should.
-inline constexpr const char* damaged =
-    "an entry of the checkpoint does not hold what it should; without -resume the run begins anew";
-
 using squeal::Stream;
 
-/// An Archive holds what all ranks share once, and besides what each rank has alone. The same calls
-/// in the same order write it and read it.
+/// Message if a checkpoint entry does not contain the expected values.
+inline constexpr const char* damaged =
+    "an entry of the checkpoint is damaged; without -resume the run starts from scratch";
+
+/// The values that all ranks share, stored once, and those of each rank. The same calls in the same
+/// order write an archive and read it.
 class Archive {
  public:
   /// Makes an empty archive to write to.
   explicit Archive(MPI_Comm comm) : comm_(comm) {}
-  /// Takes what another archive has written. The common part is the same on all ranks.
-  Archive(MPI_Comm comm, std::vector<char> common, std::vector<char> own)
-      : common(std::move(common), damaged), own(std::move(own), damaged), comm_(comm) {}
+  /// Takes the bytes that another archive has written. The common part is the same on all ranks.
+  Archive(MPI_Comm comm, std::vector<char> commonBytes, std::vector<char> ownBytes)
+      : common(std::move(commonBytes), damaged), own(std::move(ownBytes), damaged), comm_(comm) {}
   bool reads() const { return own.reads(); }
   MPI_Comm comm() const { return comm_; }
-  /// Collective. Writes a vector, or makes one with the layout that it had; null stays null.
+  /// Collective. Writes a vector, or creates one with its original layout; null stays null.
   void vector(OwnedVec& values);
 
-  Stream common;  ///< the same on all ranks; that of rank 0 is kept
+  Stream common;  ///< the same on all ranks; rank 0 stores it
   Stream own;     ///< of this rank
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* rankCount = "the number of ranks";
 
-/// Returns true for an option that changes nothing of what is computed.
+/// Returns true for an option that does not affect the computed results.
 bool isIndifferent(const std::string& name) {
   static const std::vector<std::string> exact{"resume",      "checkpoint", "checkpoint_interval",
                                               "quiet",       "progress",   "log_json",
@@ -29,17 +29,16 @@ bool isIndifferent(const std::string& name) {
 /// Collective. Returns the checksum of a file as a text; empty if it cannot be read.
 std::string checksumOfFile(MPI_Comm comm, const std::string& path) {
   unsigned long sum = 0;
-  int rank = 0, whole = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) {
+  bool whole = false;
+  if (mpi::rank(comm) == 0) {
     std::ifstream file(path, std::ios::binary);
     std::vector<char> piece(1 << 20);
     while (file.read(piece.data(), std::ssize(piece)) || file.gcount() > 0)
       sum = checksum(piece.data(), file.gcount(), sum);
     whole = file.eof();
   }
-  check(MPI_Bcast(&sum, 1, MPI_UNSIGNED_LONG, 0, comm));
-  check(MPI_Bcast(&whole, 1, MPI_INT, 0, comm));
+  mpi::broadcast(comm, sum);
+  mpi::broadcast(comm, whole);
   return whole ? formatted("checksum %08lx", sum) : "";
 }
 
@@ -52,29 +51,29 @@ std::string difference(const Identity& then, const Identity& now) {
   };
   Identity both = then;
   both.insert(now.begin(), now.end());
-  std::vector<std::string> names{rankCount};  // first: the parts of the mesh differ with it
+  std::vector<std::string> names{
+      rankCount};  // first, since the distribution of the mesh depends on it
   for (const auto& [name, value] : both) names.push_back(name);
-  std::set<std::string> told;
+  std::set<std::string> differing;
   std::string sentence;
   constexpr std::size_t most = 3;
   for (const auto& name : names)
-    if (text(then, name) != text(now, name) && told.insert(name).second && told.size() <= most)
+    if (text(then, name) != text(now, name) && differing.insert(name).second &&
+        differing.size() <= most)
       sentence += (sentence.empty() ? "" : "; ") + name + " was " + text(then, name) + " and is " +
                   text(now, name);
-  if (told.size() > most) sentence += formatted("; and %zu more", told.size() - most);
+  if (differing.size() > most) sentence += formatted("; and %zu more", differing.size() - most);
   return sentence;
 }
 
 unsigned long checksum(const void* data, std::size_t size, unsigned long before) {
-  // For a null pointer, as that of no bytes may be, zlib begins anew.
+  // The pointer may be null if there are no bytes, and zlib restarts the sum for a null pointer.
   return size == 0 ? before : crc32_z(before, static_cast<const Bytef*>(data), size);
 }
 
 Identity identityOfRun(MPI_Comm comm) {
-  int ranks = 1;
-  check(MPI_Comm_size(comm, &ranks));
-  Identity identity{{rankCount, std::to_string(ranks)}};
-  // Entries hold the layout of the program's data.
+  Identity identity{{rankCount, std::to_string(mpi::size(comm))}};
+  // The layout of entries depends on the program's data structures.
   identity["the program"] = std::string(version()) + ", " + checksumOfFile(comm, "/proc/self/exe");
   for (const auto& [name, value] : givenOptions())
     if (FileOption::isOne(name))

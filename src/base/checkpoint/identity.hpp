@@ -1,5 +1,5 @@
 #pragma once
-/// The identity of a run tells whether it can continue from a checkpoint.
+/// The identity of a run, which decides whether it can resume from a checkpoint.
 #include <mpi.h>
 
 #include <map>
@@ -7,18 +7,17 @@
 
 namespace squeal::checkpoint {
 
-/// What a checkpoint must agree in with the run that continues it, by names for messages.
+/// Properties that a checkpoint and the run that resumes it must share, by names for messages.
 using Identity = std::map<std::string, std::string>;
 
-/// Collective. Returns what this run must agree in with one that it continues: the number of ranks,
-/// the program, and the options but for those of the report. Of files the content counts, not the
-/// name.
+/// Collective. Returns the identity of this run: the number of ranks, the program, and the options
+/// except those of the report. Files count by content, not by name.
 Identity identityOfRun(MPI_Comm comm);
 
-/// Returns a sentence on the first three things in which the two differ; empty if they agree.
+/// Returns a sentence on the first three differences; empty if there are none.
 std::string difference(const Identity& then, const Identity& now);
 
-/// Not collective. Returns the CRC-32 of bytes, continued from that of the bytes before them.
+/// Not collective. Returns the CRC-32 of bytes, continued from the CRC-32 of preceding bytes.
 unsigned long checksum(const void* data, std::size_t size, unsigned long before = 0);
 
 }  // namespace squeal::checkpoint

@@ -1,71 +1,14 @@
 #pragma once
-/// This file holds the user interface: every option is declared once, beside the physics that uses
-/// it, with stage, default, unit, meaning and check. Names hold at most one placeholder in angle
-/// brackets, e.g. `part_<group>_length`, replaced by a name from the mesh. All values come from the
-/// PETSc options database, the same on every rank, so every Error thrown here is thrown on all
-/// ranks.
+/// The types of declared options: numbers, lists, flags, choices, texts and files.
 #include <array>
 #include <limits>
-#include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/options/option.hpp"
+
 namespace squeal {
-
-/// Returns the stages in the order of the method, in which the manual lists them.
-const std::vector<std::string>& stages();
-/// Returns the place of a stage in this order.
-std::size_t stageRank(const std::string& stage);
-
-/// A declared option, as `-help` prints it.
-class Option {
- public:
-  const std::string stage, name, defaultText, unit, meaning, rule;
-  const bool required;  ///< without default: reading it throws Error unless it is given
-
-  /// Returns the full name without the dash, the placeholder replaced by `subject`.
-  std::string fullName(const std::string& subject = {}) const;
-  /// Returns true if the option is given for this subject.
-  bool given(const std::string& subject = {}) const;
-  /// Returns the words in place of the placeholder in the options given, sorted: the <group> of
-  /// each `-part_<group>_length`.
-  std::vector<std::string> subjects() const;
-  /// Returns true if this is the full name (no dash) of this option for some subject.
-  bool matches(const std::string& fullName) const;
-  /// Throws Error if the value given for this subject breaks the rule.
-  virtual void validate(const std::string& subject) const = 0;
-  /// Returns the JSON Schema (draft 2020-12) of the values that an options file may hold; what it
-  /// admits may still break the rule.
-  virtual nlohmann::json valueSchema() const = 0;
-  /// Returns all declared options in order of stage, then of declaration; borrowed.
-  static std::vector<const Option*> all();
-
- protected:
-  Option(std::string stage, std::string name, std::string defaultText, std::string unit,
-         std::string meaning, std::string rule, bool required = false);
-  ~Option() = default;
-  Option(const Option&) = delete;
-  /// Returns the text given by the user, without blanks around it, or the default. Throws Error if
-  /// an option without default is not given.
-  std::string value(const std::string& subject) const;
-  /// Returns the same, and records that the run uses this option.
-  std::string text(const std::string& subject) const;
-  /// Returns a text such as "option -part_disc_length -1 (disc.yaml, line 3)".
-  std::string named(const std::string& subject, const std::string& value) const;
-  /// Throws Error with the value, the meaning of the option and its rule.
-  [[noreturn]] void reject(const std::string& subject, const std::string& value) const;
-  /// Returns the value as a number. Throws Error unless it is a finite number, and is zero or of an
-  /// admissible magnitude.
-  double number(const std::string& subject, const std::string& value) const;
-};
-
-/// The magnitudes of numbers other than zero lie between these bounds: products of several of them
-/// must neither overflow nor vanish.
-inline constexpr double smallestMagnitude = 1e-50, largestMagnitude = 1e50;
-/// The largest number of values in one list.
-inline constexpr int longestList = 100'000;
 
 /// An interval of the reals, with or without its ends.
 struct Range {
@@ -81,7 +24,7 @@ inline constexpr Range nonNegative{0};
 
 class RealOption : public Option {
  public:
-  /// Declares an option. Without `byDefault` it is required wherever it is asked for.
+  /// Declares an option. Without `byDefault` it is required wherever it is read.
   RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit,
              Range range, std::string meaning);
   double get(const std::string& subject = {}) const { return parsed(subject, text(subject)); }
@@ -89,17 +32,17 @@ class RealOption : public Option {
   nlohmann::json valueSchema() const override;
 
  private:
-  /// Throws Error unless the text is a value of this option.
+  /// Returns the value of this text. Throws Error if it violates the rule.
   double parsed(const std::string& subject, const std::string& text) const;
   Range range_;
 };
 
-/// A WordOrRealOption is a real, or one word in place of it.
+/// A real number, or one word in place of it.
 class WordOrRealOption : public Option {
  public:
   WordOrRealOption(std::string stage, std::string name, double byDefault, std::string unit,
                    std::string word, std::string meaning);
-  /// Returns the number, or nothing for the word.
+  /// Returns the number, or none for the word.
   std::optional<double> get(const std::string& subject = {}) const {
     return parsed(subject, text(subject));
   }
@@ -107,7 +50,7 @@ class WordOrRealOption : public Option {
   nlohmann::json valueSchema() const override;
 
  private:
-  /// Throws Error unless the text is a value of this option.
+  /// Returns the value of this text. Throws Error if it violates the rule.
   std::optional<double> parsed(const std::string& subject, const std::string& text) const;
   std::string word_;
 };
@@ -121,7 +64,7 @@ class IntegerOption : public Option {
   nlohmann::json valueSchema() const override;
 
  private:
-  /// Throws Error unless the text is a value of this option.
+  /// Returns the value of this text. Throws Error if it violates the rule.
   int parsed(const std::string& subject, const std::string& text) const;
   int lowest_, highest_;
 };
@@ -143,9 +86,8 @@ class VectorValue {
   std::string text_;  // option and meaning, for the message
 };
 
-/// A RealListOption holds reals separated by commas, with blanks allowed beside them. With
-/// `ranges`, `first:last:step` stands for the arithmetic sequence up to `last`, which is included
-/// if a whole number of steps leads to it.
+/// Reals separated by commas, with optional blanks around them. With `ranges`, `first:last:step` is
+/// the arithmetic sequence up to `last`, which is included if it is a whole number of steps away.
 class RealListOption : public Option {
  public:
   RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit,
@@ -159,7 +101,7 @@ class RealListOption : public Option {
   VectorValue vector(const std::string& subject = {}) const;
 
  private:
-  /// Throws Error unless the text is a value of this option.
+  /// Returns the value of this text. Throws Error if it violates the rule.
   std::vector<double> parsed(const std::string& subject, const std::string& text) const;
   void requireLength(const std::string& subject, const std::string& value, double length) const;
   Range range_;
@@ -174,7 +116,7 @@ class FlagOption : public Option {
   nlohmann::json valueSchema() const override;
 
  private:
-  /// Throws Error unless the text is a value of this option.
+  /// Returns the value of this text. Throws Error if it violates the rule.
   bool parsed(const std::string& subject, const std::string& text) const;
 };
 
@@ -187,47 +129,45 @@ class ChoiceOption : public Option {
   nlohmann::json valueSchema() const override;
 
  private:
-  /// Throws Error unless the text is a value of this option.
+  /// Returns the value of this text. Throws Error if it violates the rule.
   std::string parsed(const std::string& subject, const std::string& text) const;
   std::vector<std::string> choices_;
 };
 
 class TextOption : public Option {
  public:
-  /// Declares an option. Without `byDefault` it is required wherever it is asked for.
+  /// Declares an option. Without `byDefault` it is required wherever it is read.
   TextOption(std::string stage, std::string name, std::optional<std::string> byDefault,
              std::string meaning);
   std::string get(const std::string& subject = {}) const { return parsed(subject, text(subject)); }
   void validate(const std::string& subject) const override { parsed(subject, value(subject)); }
   nlohmann::json valueSchema() const override;
-  /// Returns the text split at commas, without the blanks beside them; empty if the option is not
-  /// given and its default is empty. Throws Error for an empty item.
+  /// Returns the text split at commas, without surrounding blanks; empty if the option is not given
+  /// and its default is empty. Throws Error for an empty item.
   std::vector<std::string> list(const std::string& subject = {}) const;
 
  private:
-  /// Throws Error unless the text is a value of this option.
+  /// Returns the value of this text. Throws Error if it violates the rule.
   std::string parsed(const std::string& subject, const std::string& text) const;
 };
 
-/// A FileOption names a file to be read. If an options file names it, it is sought beside that
-/// file, then in the working folder; if the command line names it, in the working folder.
+/// The path of a file to read. If an options file gives it, it is relative to that file or, if
+/// there is no such file, to the working folder; if the command line gives it, to the working
+/// folder.
 class FileOption : public Option {
  public:
-  /// Declares an option without default: it is required wherever it is asked for.
+  /// Declares an option without default: it is required wherever it is read.
   FileOption(std::string stage, std::string name, std::string meaning);
   /// Returns the path to read.
   std::string get(const std::string& subject = {}) const { return text(subject); }
-  /// Collective. Throws Error if rank 0 finds no such file, or may not read it.
+  /// Collective. Throws Error if rank 0 does not find the file, or cannot read it.
   void validate(const std::string& subject) const override;
   nlohmann::json valueSchema() const override;
-  /// Returns true if this is the full name (no dash) of an option for a file.
+  /// Returns true if this is the full name (no dash) of a FileOption.
   static bool isOne(const std::string& fullName);
 };
 
-/// Collective. Throws Error if a given option of this program has a value that breaks its rule.
+/// Collective. Throws Error if a given option of this program has a value that violates its rule.
 void validateGivenOptions();
-
-/// Returns name and value of every declared option that has been read so far, defaults included.
-const std::map<std::string, std::string>& resolvedOptions();
 
 }  // namespace squeal

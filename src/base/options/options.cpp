@@ -33,7 +33,7 @@ std::vector<std::string> namesLeft() {
   return left;
 }
 
-/// Returns true if the full name (no dash) is that of an option of this program.
+/// Returns true if this program declares an option of this full name (no dash).
 bool isOurs(const std::string& name) {
   const auto options = Option::all();
   return std::any_of(options.begin(), options.end(),
@@ -62,12 +62,12 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// Returns the option nearest to a mistyped name, its placeholder filled with the part of the name
-/// that fits best; empty if none is near.
+/// Returns the option nearest to a mistyped name, with its placeholder replaced by the best-fitting
+/// part of the name; empty if none is near.
 std::string nearestName(const std::string& name) {
   std::string nearest;
-  if (name.size() > 100) return nearest;  // not a slip of the finger, and long to compare
-  std::size_t least = 4;                  // more than three wrong letters are another word
+  if (name.size() > 100) return nearest;  // not a typing error, and slow to compare
+  std::size_t least = 4;                  // more than three wrong letters make another word
   const auto consider = [&](const std::string& candidate) {
     if (candidate.size() >= name.size() + least || name.size() >= candidate.size() + least) return;
     if (const auto distance = editDistance(name, candidate); distance < least)
@@ -122,28 +122,28 @@ void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
   for (const auto& option : givenOptions())
     if (isOfSolver(option.first)) given.push_back(option);
   if (given.empty()) return check(configure());
-  const std::set<PetscErrorCode> refusals{PETSC_ERR_ARG_UNKNOWN_TYPE,
-                                          PETSC_ERR_ARG_OUTOFRANGE,
-                                          PETSC_ERR_ARG_WRONG,
-                                          PETSC_ERR_ARG_SIZ,
-                                          PETSC_ERR_ARG_INCOMP,
-                                          PETSC_ERR_ARG_WRONGSTATE,
-                                          PETSC_ERR_MISSING_FACTOR,
-                                          PETSC_ERR_SUP,
-                                          PETSC_ERR_USER,
-                                          PETSC_ERR_USER_INPUT,
-                                          PETSC_ERR_ORDER};
+  const std::set<PetscErrorCode> rejections{PETSC_ERR_ARG_UNKNOWN_TYPE,
+                                            PETSC_ERR_ARG_OUTOFRANGE,
+                                            PETSC_ERR_ARG_WRONG,
+                                            PETSC_ERR_ARG_SIZ,
+                                            PETSC_ERR_ARG_INCOMP,
+                                            PETSC_ERR_ARG_WRONGSTATE,
+                                            PETSC_ERR_MISSING_FACTOR,
+                                            PETSC_ERR_SUP,
+                                            PETSC_ERR_USER,
+                                            PETSC_ERR_USER_INPUT,
+                                            PETSC_ERR_ORDER};
   const KeptError error;
   const PetscErrorCode code = configure();
   if (code == 0) return;
-  if (!refusals.count(error.code())) return check(code);
+  if (!rejections.count(error.code())) return check(code);
   const std::string message = error.message().substr(0, error.message().find('\n'));
   std::vector<std::string> all, named;
   for (const auto& [name, value] : given) {
     all.push_back("-" + name + (value.empty() ? "" : " " + value));
     if (!value.empty() && message.find(value) != std::string::npos) named.push_back(all.back());
   }
-  throw Error("PETSc refuses an option of its solvers, " + joined(named.empty() ? all : named) +
+  throw Error("PETSc rejects an option of its solvers, " + joined(named.empty() ? all : named) +
               ": " + message);
 }
 
@@ -174,7 +174,7 @@ std::vector<std::string> unusedOptions() {
   return unused;
 }
 
-/// Throws Error for a word that is no stage; an empty one stands for all of them.
+/// Throws Error for an unknown stage; an empty name means all stages.
 static void requireStage(const std::string& wanted) {
   const auto& all = stages();
   if (!wanted.empty() && std::ranges::find(all, wanted) == all.end())
@@ -187,11 +187,10 @@ std::string manual(const std::string& wanted) {
   std::string page =
       "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake "
       "squeal)\n"
-      "Lengths in m, masses in kg, times in s unless the case keeps another consistent system. <…> "
+      "Lengths in m, masses in kg, times in s, unless the case uses another consistent system. <…> "
       "stands for a name.\n"
-      "Numbers are zero or of a magnitude between 1e-50 and 1e50. A list is separated by commas; "
-      "with blanks it is put in "
-      "quotes.\n";
+      "Numbers are zero or have a magnitude between 1e-50 and 1e50. Lists are separated by commas; "
+      "put a list with blanks in quotes.\n";
   const auto options = Option::all();
   const auto solvers = SolverPrefix::all();
   for (const auto& stage : all) {

@@ -13,9 +13,9 @@
 namespace squeal {
 namespace {
 
-constexpr int deepest = 64;  // an alias may hold itself
+constexpr int deepest = 64;  // an alias may contain itself
 constexpr std::size_t mostSettings =
-    10000;  // aliases of aliases multiply; PETSc's database holds far fewer
+    10000;  // aliases of aliases multiply; PETSc's database stores far fewer
 
 struct Parser {
   explicit Parser(const std::string& text) {
@@ -54,8 +54,7 @@ int tabbedLine(const std::string& text, int last) {
   throw Error(formatted("%s, line %d: %s", name.c_str(), line, message.c_str()));
 }
 
-/// Throws Error with the parser's own words and with the mistake that a person is likely to have
-/// made.
+/// Throws Error with the parser's message and the likely cause.
 [[noreturn]] void failParsing(const yaml_parser_t& parser, const std::string& text,
                               const std::string& name) {
   if (parser.error == YAML_MEMORY_ERROR) throw std::bad_alloc();
@@ -67,7 +66,7 @@ int tabbedLine(const std::string& text, int last) {
   }
   const int line = lineOf(parser.problem_mark);
   if (const int tab = tabbedLine(text, line))
-    fail(name, tab, "indented by a tab; YAML indents by blanks alone");
+    fail(name, tab, "indented by a tab; YAML is indented only by blanks");
   std::string context;
   if (parser.context)
     context = formatted("%s that begins in line %d, ", parser.context, lineOf(parser.context_mark));
@@ -92,7 +91,7 @@ class Flattening {
     if (root->type == YAML_SCALAR_NODE && textOf(root).empty()) return {};
     if (root->type != YAML_MAPPING_NODE)
       fail(root, std::string(root->type == YAML_SEQUENCE_NODE ? "a list" : "a text") +
-                     " at the top; an options file is made of lines `name: value`");
+                     " at the top; an options file consists of lines `name: value`");
     addMapping(root, "", false, 0);
     return std::move(settings_);
   }
@@ -118,8 +117,8 @@ class Flattening {
     bool isSection;
   };
 
-  /// Throws Error for a section that comes twice, which YAML forbids and libyaml lets pass. Values
-  /// are left to add(), which knows of those with the same name in other sections.
+  /// Throws Error for a section that is given twice, which YAML forbids and libyaml accepts. add()
+  /// checks values, which may have the same name in other sections.
   void requireFirst(std::map<std::string, Key>& keys, const std::string& name,
                     const yaml_node_t* key, bool isSection) const {
     const auto [earlier, isNew] = keys.insert({name, {lineOf(key->start_mark), isSection}});
@@ -130,7 +129,8 @@ class Flattening {
 
   void addMapping(const yaml_node_t* mapping, const std::string& prefix, bool merged, int depth) {
     if (depth > deepest)
-      fail(mapping, formatted("nested deeper than %d levels; does an alias hold itself?", deepest));
+      fail(mapping,
+           formatted("nested deeper than %d levels; does an alias contain itself?", deepest));
     if (mapping->data.mapping.pairs.start == mapping->data.mapping.pairs.top)
       fail(mapping, "a map without entries");
     std::map<std::string, Key> keys;
@@ -152,13 +152,13 @@ class Flattening {
     }
   }
 
-  /// Adds the entries of the merge key of YAML 1.1; an entry that is given beside it counts more.
+  /// Adds the entries of the merge key of YAML 1.1; an entry next to it has priority.
   void merge(const yaml_node_t* value, const std::string& prefix, int depth) {
     if (value->type == YAML_MAPPING_NODE) return addMapping(value, prefix, true, depth + 1);
-    if (value->type != YAML_SEQUENCE_NODE) fail(value, "'<<' merges maps, and this is a text");
+    if (value->type != YAML_SEQUENCE_NODE) fail(value, "'<<' merges only maps, and this is a text");
     for (const auto* item = value->data.sequence.items.start; item < value->data.sequence.items.top;
          ++item) {
-      if (node(*item)->type != YAML_MAPPING_NODE) fail(node(*item), "'<<' merges maps alone");
+      if (node(*item)->type != YAML_MAPPING_NODE) fail(node(*item), "'<<' merges only maps");
       addMapping(node(*item), prefix, true, depth + 1);
     }
   }
@@ -168,9 +168,10 @@ class Flattening {
     for (const auto* item = sequence->data.sequence.items.start;
          item < sequence->data.sequence.items.top; ++item) {
       if (node(*item)->type != YAML_SCALAR_NODE)
-        fail(node(*item), "the list of -" + name + " holds a list or a map");
+        fail(node(*item), "the list of -" + name + " contains a list or a map");
       items.push_back(textOf(node(*item)));
-      if (items.back().empty()) fail(node(*item), "the list of -" + name + " holds an empty item");
+      if (items.back().empty())
+        fail(node(*item), "the list of -" + name + " contains an empty item");
     }
     if (items.empty()) fail(sequence, "the list of -" + name + " is empty");
     return joined(items, ",");
@@ -185,7 +186,7 @@ class Flattening {
       settings_.push_back(std::move(setting));
     } else if (!merged && !wasMerged) {
       squeal::fail(name_, setting.line,
-                   formatted("a second value of -%s, which line %d gives", setting.name.c_str(),
+                   formatted("a second value of -%s, already set in line %d", setting.name.c_str(),
                              settings_[index].line));
     } else if (!merged) {
       settings_[index] = std::move(setting);
@@ -208,7 +209,7 @@ std::vector<Setting> settingsOfYaml(const std::string& text, const std::string& 
   auto settings = Flattening(document.document, name).all();
   if (load(parser, next, text, name))
     fail(name, lineOf(yaml_document_get_root_node(&next.document)->start_mark),
-         "a second document begins; options files hold one");
+         "a second document begins; an options file contains only one");
   return settings;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// This function reads the YAML of options files.
+/// Reads options files in YAML.
 #include <string>
 #include <vector>
 

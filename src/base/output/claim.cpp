@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns true if both are there and are one file or folder.
+/// Returns true if both exist and are the same file or folder.
 bool isSame(const fs::path& one, const fs::path& other) {
   std::error_code none;
   return fs::equivalent(one, other, none) && !none;
@@ -21,8 +21,8 @@ bool isSame(const fs::path& one, const fs::path& other) {
 
 bool isRegular(const fs::path& path) { return fs::is_regular_file(fs::symlink_status(path)); }
 
-/// Returns true if nothing is in the folder but what this run has opened and what a killed run
-/// leaves.
+/// Returns true if the folder contains nothing except files that this run has opened and the
+/// remains of a killed run.
 bool isEmpty(const fs::path& folder, const Naming& naming) {
   const auto isOurs = [&](const fs::path& path) {
     const fs::path name = path.filename();
@@ -41,8 +41,9 @@ bool isMarked(const fs::path& folder, const Naming& naming) {
   return std::ranges::any_of(marks, [&](const fs::path& mark) { return isRegular(folder / mark); });
 }
 
-/// A case may not strew results over the folder in which somebody works or lives.
-bool isOfSomebody(const fs::path& folder) {
+/// Returns true for the working folder and the home folder, which a case must not fill with
+/// results.
+bool isPersonal(const fs::path& folder) {
   const char* home = std::getenv("HOME");
   return isSame(folder, fs::current_path()) || (home && *home && isSame(folder, home));
 }
@@ -59,9 +60,8 @@ void requireReachable(const fs::path& folder, bool inside) {
                        ", which does not exist");
     if (fs::is_directory(target)) return;
     if (fs::exists(target))
-      throw WriteError(fs::is_symlink(named)
-                           ? part.string() + " is a link to something else than a folder"
-                           : whyNoFolder(part));
+      throw WriteError(fs::is_symlink(named) ? part.string() + " is a link, but not to a folder"
+                                             : whyNoFolder(part));
     if (part == part.parent_path()) return;
   }
 }
@@ -70,14 +70,12 @@ void requireTakable(const fs::path& folder, const Naming& naming, bool hasFiles)
   if (isSame(folder, "/"))
     throw WriteError(folder.string() + " is the root of the file system: name another folder");
   if (isEmpty(folder, naming) || hasFiles || isMarked(folder, naming)) return;
-  if (naming.ofCase && !isOfSomebody(folder)) return;
+  if (naming.ofCase && !isPersonal(folder)) return;
   throw WriteError(folder.string() +
-                   " is not empty and holds no earlier results: a run writes into a new or empty "
-                   "folder, into one "
-                   "with results of this program (" +
+                   " is not empty and contains no earlier results: a run writes only to a new or "
+                   "empty folder, to one with results of this program (listed in " +
                    Manifest::name +
-                   " lists them) or what such a run has left, or into one that the case names; "
-                   "name another folder");
+                   ") or their remains, or to one that the case names; name another folder");
 }
 
 }  // namespace squeal::output

@@ -50,8 +50,8 @@ void reserve(const std::filesystem::path& path, unsigned long long bytes) {
   int error = getrlimit(RLIMIT_FSIZE, &most) == 0 && bytes > most.rlim_cur ? EFBIG : 0;
   if (error == 0 && bytes > 0 && fallocate(file, FALLOC_FL_KEEP_SIZE, 0, bytes) != 0) error = errno;
   close(file);
-  if (error != 0 && error != EOPNOTSUPP)
-    throw WriteError(cannotWrite(path, error));  // such as NFS: it is found out in writing
+  // NFS, for example, cannot reserve space; a write then finds out.
+  if (error != 0 && error != EOPNOTSUPP) throw WriteError(cannotWrite(path, error));
 }
 
 void sync(const std::filesystem::path& path) {
@@ -59,7 +59,7 @@ void sync(const std::filesystem::path& path) {
   if (file < 0) throw WriteError(cannotWrite(path, errno));
   const int error = fsync(file) == 0 ? 0 : errno;
   close(file);
-  // Some file systems know no fsync of a folder.
+  // Some file systems do not support fsync of a folder.
   if (error != 0 && error != EINVAL) throw WriteError(cannotWrite(path, error));
 }
 

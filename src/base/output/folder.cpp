@@ -27,16 +27,16 @@ std::vector<fs::path> entriesOf(const fs::path& folder) {
   return names;
 }
 
-/// The first ranks that end stay this long, until the last one has cleared up, as mpirun ends all
-/// ranks as soon as one has ended. mpirun waits no longer than this itself.
+/// The time that the first ranks wait on termination for the last one to remove files, since mpirun
+/// kills all ranks as soon as one has ended. mpirun itself waits no longer.
 constexpr std::chrono::milliseconds patience(1000);
 
 std::string inTheWay(const fs::path& path) {
-  return path.string() + " is in the way: it is not of an earlier run (" + Manifest::name +
-         " lists what is); move it, or name another folder";
+  return path.string() + " is in the way: it does not belong to an earlier run (listed in " +
+         Manifest::name + "); move it, or name another folder";
 }
 
-/// Renames a file or a folder, never onto one that exists. Throws WriteError.
+/// Renames a file or a folder, but never replaces an existing one. Throws WriteError.
 void moveTo(const fs::path& from, const fs::path& to) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
   if (errno == EINVAL || errno == ENOSYS) {  // a file system without that flag, such as NFS
@@ -47,7 +47,7 @@ void moveTo(const fs::path& from, const fs::path& to) {
   }
   const std::string reason = errno == EEXIST ? inTheWay(to) : cannotWrite(to, errno);
   throw WriteError(reason + "; the new results are complete in " + from.parent_path().string() +
-                   ", and the next run puts them into their place");
+                   ", and the next run moves them into place");
 }
 
 void moveAll(const fs::path& from, const fs::path& to,
@@ -62,15 +62,14 @@ void moveAll(const fs::path& from, const fs::path& to,
   }
 }
 
-/// Removes the files listed, `first` before all and the manifest after all, and the folders that
-/// are empty then. A folder of ours that has become a link leads elsewhere: nothing is removed
-/// behind it.
+/// Removes the listed files, `first` before and the manifest after all others, and then the empty
+/// folders. Removes nothing through a folder that has become a link, since it leads elsewhere.
 void removeListed(const fs::path& folder, const Manifest& manifest, const fs::path& first) {
   std::set<fs::path> real{""};
-  for (const auto& inside : manifest.folders())  // parents come before what is in them
+  for (const auto& inside : manifest.folders())  // parents precede their contents
     if (real.contains(inside.parent_path()) && isFolder(folder / inside)) real.insert(inside);
   const auto removeFile = [&](const fs::path& file) {
-    // A file that has become a folder is the user's.
+    // A folder in the place of a file belongs to the user.
     if (unlink((folder / file).c_str()) != 0 && errno != ENOENT && errno != EISDIR &&
         errno != EPERM)
       throw WriteError(cannotWrite(folder / file, errno));
@@ -80,19 +79,19 @@ void removeListed(const fs::path& folder, const Manifest& manifest, const fs::pa
     if (real.contains(file.parent_path()) && file != Manifest::name) removeFile(file);
   for (auto inside = real.rbegin(); inside != real.rend(); ++inside)
     if (!inside->empty())
-      rmdir((folder / *inside).c_str());  // unless something of the user's is in it
+      rmdir((folder / *inside).c_str());  // fails if it contains files of the user
   sync(folder);
   removeFile(Manifest::name);
 }
 
-/// Throws WriteError if anything but folders and regular files is below the folder.
+/// Throws WriteError if the folder contains anything except folders and regular files.
 void requireRegularFiles(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (!isFolder(entry.path()))
       if (const std::string why = whyNotRegular(entry.path()); !why.empty()) throw WriteError(why);
 }
 
-/// Returns true if a folder of an earlier run holds files that are not of that run.
+/// Returns true if a folder of an earlier run contains files that do not belong to that run.
 bool holdsMore(const fs::path& folder, const fs::path& inside, const Manifest& ours) {
   for (const auto& name : entriesOf(folder / inside)) {
     const fs::path path = inside / name;
@@ -125,10 +124,10 @@ Folder::Folder(MPI_Comm comm, Naming naming, fs::path path)
       staging_(path_ / ".partial"),
       complete_(path_ / ".complete") {
   if (path_.empty()) throw Error(head_ + "the name of the folder is empty");
-  lastAct_ = std::make_unique<AtTermination>([this] { tidy(patience); });
+  removal_ = std::make_unique<AtTermination>([this] { tidy(patience); });
   try {
     onFirst([&] { make(); });
-    check(MPI_Bcast(&made_, 1, MPI_INT, 0, comm_));
+    mpi::broadcast(comm_, made_);
     lock_.take(comm_, path_, head_);
     onFirst([&] {
       const SignalsBlocked whole;
@@ -143,7 +142,7 @@ Folder::Folder(MPI_Comm comm, Naming naming, fs::path path)
 
 Folder::~Folder() {
   const SignalsBlocked whole;
-  lastAct_.reset();
+  removal_.reset();
   tidy();
 }
 
@@ -153,7 +152,7 @@ void Folder::requireOurs() const {
   try {
     requireTakable(path_, naming_, !old.files().empty());
   } catch (const WriteError&) {
-    requireFree(naming_.mayWrite, old);  // a file that is in the way says more than the rule
+    requireFree(naming_.mayWrite, old);  // a conflicting file is a more precise message
     throw;
   }
 }
@@ -170,23 +169,23 @@ void Folder::make() {
     made_ += fs::create_directory(*folder);
 }
 
-/// Removes the staging folder that a killed run has left, and finishes its commit.
+/// Removes the staging folder of a killed run, and completes its commit.
 void Folder::clear() {
   if (!whyNoFolder(staging_).empty()) throw WriteError(inTheWay(staging_));
   fs::remove_all(staging_);
   if (fs::exists(fs::symlink_status(complete_))) replace();
 }
 
-/// Clears up on the last rank alone, so that nothing is taken from under the hands of another one.
+/// Removes files only on the last rank, so that no other rank is still using them.
 void Folder::tidy(std::chrono::milliseconds patience) {
   const SignalsBlocked whole;
   const auto asLast = [&] {
     std::error_code ignored;
     if (isFolder(staging_))
-      fs::remove_all(staging_, ignored);  // what else has its name is not ours
+      fs::remove_all(staging_, ignored);  // anything else of its name is not ours
   };
   lock_.release(asLast, patience);
-  // A folder that has not stayed empty is kept.
+  // rmdir() fails for a folder that is not empty.
   for (fs::path folder = path_; made_ > 0 && rmdir(folder.c_str()) == 0; --made_)
     folder = folder.parent_path();
 }
@@ -228,12 +227,6 @@ void Folder::commit() {
     sync(staging_);
     const SignalsBlocked whole;
     requireFree([&](const fs::path& path) { return fresh.lists(path); }, old);
-    if (!old.files().empty() && !fs::exists(path_ / Manifest::name)) {
-      // Files of a version without manifests are listed, so that their removal can be resumed.
-      const fs::path list = staging_ / "former";
-      writeFile(list, old.text());
-      fs::rename(list, path_ / Manifest::name);
-    }
     fs::rename(staging_, complete_);
     sync(path_);
     replace();
@@ -245,10 +238,11 @@ void Folder::discard() {
     const SignalsBlocked whole;
     if (const auto old = Manifest::read(path_)) removeListed(path_, *old, naming_.last);
   });
-  ++made_;  // it goes like a folder that this run has made
+  ++made_;  // tidy() removes it like a folder that this run has created
 }
 
-/// Puts the files in .complete into their place. A step that is done is not found to be done again.
+/// Moves the files in .complete into place. Can resume an interrupted move: finished steps do not
+/// repeat.
 void Folder::replace() const {
   const fs::path manifest = complete_ / Manifest::name, last = complete_ / naming_.last;
   if (!isFolder(complete_) ||

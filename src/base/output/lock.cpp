@@ -25,7 +25,7 @@ int lockFile(int file, int kind) {
   return 0;
 }
 
-/// Returns false if another run has removed the file of this name, or put a new one in its place.
+/// Returns false if another run has removed the file of this name, or replaced it.
 bool isStill(const std::filesystem::path& path, int file) {
   struct stat named {
   }, open{};
@@ -37,24 +37,22 @@ bool isStill(const std::filesystem::path& path, int file) {
 
 void Lock::take(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head) {
   path_ = folder / name;
-  check(MPI_Barrier(
-      comm));  // every rank has let go of the lock that this run may have had there before
+  check(MPI_Barrier(comm));  // all ranks have released an earlier lock of this run
   std::string warning;
   onFirstRank(comm, head, [&] { takeAlone(folder, warning); });
   if (!warning.empty()) complain(comm, warning);
-  int rank = 0, held = state_ == State::held;
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Bcast(&held, 1, MPI_INT, 0, comm));
-  if (rank != 0 && held) join();
+  bool held = state_ == State::held;
+  mpi::broadcast(comm, held);
+  if (mpi::rank(comm) != 0 && held) join();
 }
 
-/// Takes the lock exclusively at first, which tells that no other run has it, and then shared, for
-/// the other ranks to join. Sets `warning` where the file system cannot lock. Throws Error or
-/// WriteError as take() throws Error.
+/// Takes the lock exclusively at first, which shows that no other run has it, and then shared, so
+/// that the other ranks can join. Sets `warning` if the file system cannot lock. Throws Error or
+/// WriteError in the cases of take().
 void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) {
   const SignalsBlocked whole;
-  for (int attempt = 0; attempt < 10;
-       ++attempt) {  // a run that ends at this moment takes its file with it
+  // A run that ends at this moment removes its file, hence several attempts.
+  for (int attempt = 0; attempt < 10; ++attempt) {
     const int file = openRegular(path_, O_RDWR | O_CREAT, cannotWrite(path_, 0));
     int error = lockFile(file, LOCK_EX);
     const bool gone = error == 0 && !isStill(path_, file);
@@ -70,15 +68,15 @@ void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) 
     unlink(path_.c_str());
     state_ = State::unlockable;
     warning = "the folder " + folder.string() + " cannot be locked (" + std::strerror(error) +
-              "): nothing keeps another run from writing there at the same time";
+              "): another run could write there at the same time";
     return;
   }
   throw WriteError("another run is writing to " + folder.string() +
-                   ": wait for its end, or name another folder");
+                   ": wait until it ends, or name another folder");
 }
 
-/// Joins rank 0, which holds the lock already. If that fails, as on a node that does not see the
-/// folder, the run has the lock all the same.
+/// Shares the lock of rank 0. If that fails, for example on a node that does not see the folder,
+/// the run still has the lock.
 void Lock::join() {
   const SignalsBlocked whole;
   const int file = open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
@@ -93,7 +91,7 @@ void Lock::join() {
 void Lock::release(const std::function<void()>& asLast, std::chrono::milliseconds patience) {
   if (state_ == State::unlockable) asLast();
   if (state_ == State::held) {
-    // The rank that can have it alone is the last one. The attempt gives up the shared lock.
+    // The last rank is the one that can lock exclusively. The attempt releases the shared lock.
     constexpr std::chrono::milliseconds pause(10);
     int error = lockFile(file_, LOCK_EX);
     for (; error == EWOULDBLOCK && patience.count() > 0; patience -= pause) {

@@ -1,5 +1,5 @@
 #pragma once
-/// This lock admits one run at a time to a folder.
+/// A lock that admits one run at a time to a folder.
 #include <mpi.h>
 
 #include <chrono>
@@ -9,9 +9,8 @@
 
 namespace squeal::output {
 
-/// A Lock is an advisory lock (flock) on a file in a folder. Every rank of a run holds it, so that
-/// it lasts until the last of them is gone, however it ends. A file that SIGKILL leaves behind
-/// locks nothing.
+/// An advisory lock (flock) on a file in a folder. Every rank of a run shares it, so it lasts until
+/// the last of them has ended in any way. A lock file left behind by a killed process is ignored.
 class Lock {
  public:
   /// The name of the file.
@@ -23,11 +22,11 @@ class Lock {
   Lock& operator=(const Lock&) = delete;
 
   /// Collective. Takes the lock. Throws Error on all ranks, with a message that begins with `head`,
-  /// if another run holds the lock or the file cannot be made. Where the file system cannot lock, a
-  /// warning says so.
+  /// if another run has the lock or the file cannot be created. Issues a warning if the file system
+  /// cannot lock.
   void take(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head);
-  /// Not collective. Releases the lock. The last rank to let go does `asLast` first and removes the
-  /// file. The others wait for it as long as `patience`, and take its part if it dies meanwhile.
+  /// Not collective. Releases the lock. The last rank first calls `asLast` and removes the file.
+  /// The others wait for it up to `patience`, and replace it if it dies meanwhile.
   void release(
       const std::function<void()>& asLast = [] {}, std::chrono::milliseconds patience = {});
 
@@ -35,8 +34,8 @@ class Lock {
   enum class State {
     none,
     held,
-    unlockable
-  };  ///< unlockable: only on rank 0, which is then the last one
+    unlockable  ///< the file system cannot lock; only on rank 0, which is then the last one
+  };
   void takeAlone(const std::filesystem::path& folder, std::string& warning);
   void join();
 

@@ -53,7 +53,7 @@ std::optional<Manifest> Manifest::read(const fs::path& folder) {
     const fs::path listed = line;
     if (!staysInside(listed))
       throw std::runtime_error(path.string() + ", line " + std::to_string(number) +
-                               ": no path in this folder");
+                               ": not a path in this folder");
     if (listed.has_filename()) {
       manifest.add(listed);
       ++count;
@@ -63,7 +63,7 @@ std::optional<Manifest> Manifest::read(const fs::path& folder) {
   if (head.find(": the " + std::to_string(count) + " files") == std::string::npos)
     throw std::runtime_error(
         path.string() +
-        " is damaged: its first line promises another number of files than it lists");
+        " is damaged: the number of files in its first line is not that of its list");
   return manifest;
 }
 

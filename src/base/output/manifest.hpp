@@ -1,6 +1,5 @@
 #pragma once
-/// A manifest lists the files of a run and is kept beside them. A later run may remove these files,
-/// and nothing else.
+/// A list of the files of a run, stored with them. A later run may remove only these files.
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -14,14 +13,13 @@ class Manifest {
   static constexpr const char* name = "manifest.txt";
 
   Manifest() = default;
-  /// Lists these files, which are given by relative paths, and the manifest.
+  /// Lists these files, given by relative paths, and the manifest itself.
   explicit Manifest(const std::set<std::filesystem::path>& files);
   /// Returns the list of all files below `folder`, and of the manifest. Throws
   /// std::filesystem::filesystem_error if the folder cannot be read.
   static Manifest of(const std::filesystem::path& folder);
-  /// Returns the manifest in `folder`; none if there is none, or if the file of this name is not of
-  /// this program. Throws std::runtime_error if it is damaged, or if a path leads out of the
-  /// folder.
+  /// Returns the manifest in `folder`; none if the file does not exist or is not a manifest of this
+  /// program. Throws std::runtime_error if it is damaged, or if a path leads out of the folder.
   static std::optional<Manifest> read(const std::filesystem::path& folder);
 
   const std::set<std::filesystem::path>& files() const { return files_; }
@@ -30,7 +28,7 @@ class Manifest {
   bool lists(const std::filesystem::path& path) const {
     return files_.contains(path) || folders_.contains(path);
   }
-  /// Notes a folder of ours that stays for the files that the user has in it. In the text its path
+  /// Adds a folder of ours that stays because it contains files of the user. In the text its path
   /// ends with a slash.
   void keep(const std::filesystem::path& folder);
   /// Returns the content of the file.
@@ -38,8 +36,9 @@ class Manifest {
 
  private:
   void add(const std::filesystem::path& file);
-  std::set<std::filesystem::path> files_, folders_,
-      kept_;  ///< folders_ are those that hold files, and kept_
+  std::set<std::filesystem::path> files_;
+  std::set<std::filesystem::path> folders_;  // those of files, and kept_
+  std::set<std::filesystem::path> kept_;
 };
 
 }  // namespace squeal::output

@@ -1,15 +1,15 @@
 #pragma once
-/// This file gives access to the entries that a vector has on this rank.
+/// Access to the entries of a vector on this rank.
 #include <petscvec.h>
 
 #include "base/petsc/check.hpp"
 
 namespace squeal {
 
-/// A BorrowedArray gives access to the entries of a vector on this rank. The vector is borrowed
-/// during the life of the object, which must end before the vector is used otherwise or destroyed.
-/// A rank may read on its own. All ranks have to make a WriteArray together: PETSc keeps norms of a
-/// vector, and drops them only on the ranks that wrote.
+/// The entries of a vector on this rank. The object borrows the vector, and must be destroyed
+/// before the vector is used otherwise or destroyed. A rank may read independently of the others.
+/// All ranks must construct a WriteArray together: PETSc caches norms of a vector, and discards
+/// them only on the ranks that wrote.
 template <class Value, PetscErrorCode (*take)(Vec, Value**),
           PetscErrorCode (*giveBack)(Vec, Value**)>
 class BorrowedArray {
@@ -33,9 +33,9 @@ class BorrowedArray {
   Value* data_ = nullptr;
 };
 
-/// A ReadArray gives entries to read. Several of them may read one vector at the same time.
+/// Read access. Several objects may read one vector at the same time.
 using ReadArray = BorrowedArray<const PetscScalar, VecGetArrayRead, VecRestoreArrayRead>;
-/// A WriteArray gives entries to read and to change.
+/// Read and write access.
 using WriteArray = BorrowedArray<PetscScalar, VecGetArray, VecRestoreArray>;
 
 }  // namespace squeal

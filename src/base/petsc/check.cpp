@@ -16,9 +16,9 @@ KeptError* keeper = nullptr;
 
 bool lacks = false;
 
-/// Handles an error of PETSc, whose own handler prints a trace where an allocation fails. The code
-/// alone goes up to check(), which says it in one line. The code that PetscMallocAlign of PETSc
-/// 3.18 raises is the number of a line instead of PETSC_ERR_MEM: the name of the function tells.
+/// Replaces PETSc's handler, which prints a trace if an allocation fails. This one only passes the
+/// code on to check(), which reports it in one line. PetscMallocAlign of PETSc 3.18 raises a line
+/// number instead of PETSC_ERR_MEM, and is recognised by its name.
 PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const char* file,
                            PetscErrorCode code, PetscErrorType type, const char* message,
                            void* context) {
@@ -36,7 +36,7 @@ KeptError::~KeptError() { keeper = nullptr; }
 
 bool KeptError::keep(PetscErrorCode code, const char* message) {
   if (!keeper) return false;
-  if (keeper->code_ == 0) {  // functions on the way up repeat it
+  if (keeper->code_ == 0) {  // the calling functions repeat it
     keeper->code_ = code;
     keeper->message_ = message ? message : "";
   }
@@ -46,12 +46,12 @@ bool KeptError::keep(PetscErrorCode code, const char* message) {
 void check(PetscErrorCode code, std::source_location where) {
   if (code == 0) return;
   if (lacksMemory(code)) outOfMemory();
-  const std::string kept = keeper ? keeper->message() : "";  // what has not been printed yet
+  const std::string kept = keeper ? keeper->message() : "";  // not printed yet
   keeper = nullptr;
   PetscError(PETSC_COMM_SELF, where.line(), where.function_name(), where.file_name(), code,
              kept.empty() ? PETSC_ERROR_REPEAT : PETSC_ERROR_INITIAL, "%s",
              kept.empty() ? " " : kept.c_str());
-  performLastActs();
+  runTerminationHandlers();
   MPI_Abort(PETSC_COMM_WORLD, 70);
 }
 
@@ -65,7 +65,7 @@ void claimBlasWorkspace() {
     std::free(room);
   else
     outOfMemory();
-  PetscBLASInt n = 128;  // smaller products may do without
+  PetscBLASInt n = 128;  // smaller products may not need the workspace
   const PetscScalar one = 1;
   const std::vector<PetscScalar> a(n * n, 1.0);
   std::vector<PetscScalar> product(a.size(), 0.0);

@@ -10,8 +10,7 @@ namespace {
 void requireFiniteNorm(PetscReal norm, const std::string& what) {
   if (!std::isfinite(norm * norm))
     throw Error(what +
-                ": an entry is not a finite number, or its square exceeds what a number can hold; "
-                "check units and magnitudes");
+                ": an entry is not finite, or its square overflows; check units and magnitudes");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// This file holds handles of the HDF5 library.
+/// Handles of the HDF5 library.
 #include <hdf5.h>
 
 namespace squeal::hdf5 {
@@ -29,8 +29,8 @@ using AttributeId = Id<H5Aclose>;
 using TypeId = Id<H5Tclose>;
 using PropertiesId = Id<H5Pclose>;
 
-/// A Silence keeps HDF5 from printing its errors during the life of the object. They reach the user
-/// through the messages of this program.
+/// Suppresses HDF5's error output during the object's lifetime. The messages of this program report
+/// the errors.
 class Silence {
  public:
   Silence() {

@@ -1,25 +1,25 @@
 #pragma once
-/// PETSc's -log_view lists the work of this program in stages and as events of its own.
+/// Stages and events of this program in PETSc's -log_view.
 #include <petscsys.h>
 
 #include <string>
 
 namespace squeal {
 
-/// Kinds of work that are events of -log_view besides PETSc's own.
+/// Kinds of work that -log_view lists in addition to PETSc's own events.
 enum class Work {
   blockSolve,        ///< solves with a factorised matrix, in blocks
   blockProduct,      ///< products of a sparse matrix and a block
   innerProduct,      ///< products Xᵀ Y of distributed blocks
   denseEigenvalues,  ///< eigenproblems of dense matrices, each on one rank
-  sketch             ///< products with random signs that norms are estimated from
+  sketch             ///< products with random signs, for norm estimates
 };
 
-/// Collective. Registers all kinds of work with PETSc, in the same order on all ranks, as -log_view
-/// asks for: a rank may have none of a kind.
+/// Collective. Registers all kinds of work with PETSc. -log_view requires the same order on all
+/// ranks, even if a rank does no work of some kind.
 void registerWork();
 
-/// A LoggedWork counts as an event of PETSc from construction to destruction. Not collective.
+/// A PETSc event from construction to destruction. Not collective.
 class LoggedWork {
  public:
   explicit LoggedWork(Work work);
@@ -33,9 +33,9 @@ class LoggedWork {
   PetscLogEvent event_;
 };
 
-/// A LoggedStage is a stage of PETSc's log from construction to destruction. Stages of one name are
-/// one stage, and a stage within another takes its time off that. All ranks have to make the same
-/// stages in the same order.
+/// A stage of PETSc's log from construction to destruction. Objects of the same name share one
+/// stage. The time of a nested stage does not count for the outer one. All ranks must construct the
+/// same stages in the same order.
 class LoggedStage {
  public:
   explicit LoggedStage(const std::string& name);
@@ -44,8 +44,7 @@ class LoggedStage {
   LoggedStage& operator=(const LoggedStage&) = delete;
 };
 
-/// A Traffic counts what PETSc and this program have sent so far from this rank. The messages of
-/// MUMPS are not among them.
+/// Messages that PETSc and this program have sent so far from this rank, without those of MUMPS.
 struct Traffic {
   double messages = 0;
   double bytes = 0;

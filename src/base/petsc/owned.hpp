@@ -1,11 +1,12 @@
 #pragma once
-/// An Owned owns a PETSc or SLEPc object and can be moved, but not copied. A raw `Mat`, `Vec`, … in
-/// a parameter list means borrowed.
+/// Handles that own PETSc and SLEPc objects. They can be moved, but not copied. A raw `Mat`, `Vec`,
+/// … in a parameter list is borrowed.
 #include <slepceps.h>
 
 #include <utility>
 
 #include "base/petsc/check.hpp"
+#include "base/petsc/object.hpp"
 
 namespace squeal {
 
@@ -25,24 +26,36 @@ class Owned {
   ~Owned() {
     if (handle_) destroy(&handle_);
   }
-  /// Collective. Destroys what is held and returns the address for a PETSc create call to fill.
+  /// Collective. Destroys the owned object and returns the address for a PETSc create call to fill.
   Handle* out() {
     if (handle_) check(destroy(&handle_));
     handle_ = nullptr;
     return &handle_;
   }
   Handle get() const { return handle_; }
-  operator Handle() const { return handle_; }  // NOLINT: borrowing is the common use
+  operator Handle() const { return handle_; }  // NOLINT: most uses borrow
   explicit operator bool() const { return handle_ != nullptr; }
   /// Returns a second owner of the same object, with one more PETSc reference.
   Owned share() const {
-    if (handle_) check(PetscObjectReference(reinterpret_cast<PetscObject>(handle_)));
+    if (handle_) check(PetscObjectReference(object(handle_)));
     return Owned(handle_);
   }
 
  private:
   Handle handle_ = nullptr;
 };
+
+/// Returns an owned Mat, Vec, KSP, … as an object, for the functions of PETSc that take any object.
+template <class Handle, PetscErrorCode (*destroy)(Handle*)>
+PetscObject object(const Owned<Handle, destroy>& owned) {
+  return object(owned.get());
+}
+
+/// Returns the communicator of an owned Mat, Vec, KSP, …
+template <class Handle, PetscErrorCode (*destroy)(Handle*)>
+MPI_Comm comm(const Owned<Handle, destroy>& owned) {
+  return comm(owned.get());
+}
 
 using OwnedVec = Owned<Vec, VecDestroy>;
 using OwnedMat = Owned<Mat, MatDestroy>;
@@ -53,7 +66,7 @@ using OwnedEPS = Owned<EPS, EPSDestroy>;
 using OwnedBV = Owned<BV, BVDestroy>;
 using OwnedViewer = Owned<PetscViewer, PetscViewerDestroy>;
 
-/// Collective. Returns a vector of zeros that `matrix` can be multiplied with.
+/// Collective. Returns a vector of zeros with the column layout of `matrix`.
 inline OwnedVec rightVector(Mat matrix) {
   OwnedVec vector;
   check(MatCreateVecs(matrix, vector.out(), nullptr));

@@ -31,25 +31,25 @@ namespace squeal {
 namespace {
 
 const TextOption fileOption("general", "log_json", "",
-                            "file to which each event of the run is appended, a JSON object on a "
-                            "line: stages, points, warnings, checkpoints, the end");
+                            "event log to append to, one JSON object per line: stages, points, "
+                            "warnings, checkpoints, end of the run");
 const ChoiceOption progressOption(
     "general", "progress", {"auto", "line", "plain"}, "auto",
-    "line: one line that moves shows the stage, the points done and the time; plain: none; auto: a "
-    "line on a terminal, unless mpirun, which hides whether there is one, has started the run");
+    "status line with stage, completed points and time (line) or without it (plain); auto = line "
+    "on a terminal, but not under mpirun, which hides the terminal");
 
-/// The state of a run that is told; on rank 0.
+/// The reported state of a run; on rank 0.
 struct Run {
   std::recursive_mutex gate;
   std::FILE* file = nullptr;
   double begin = 0;  // s
   std::string stage;
   std::size_t done = 0, total = 0;  // points
-  double firstPoint = 0;            // when the first of them was begun, s
+  double firstPoint = 0;            // start of the first point, s
   bool hasLine = false, shown = false;
   int away = 0;
   std::condition_variable_any ends;
-  std::jthread clock;  // draws the line anew twice a second
+  std::jthread clock;  // redraws the line twice a second
 };
 
 Run& run() {
@@ -74,8 +74,7 @@ std::string lineText() {
   text += " · " + clockText(now() - r.begin);
   if (r.done > 0 && r.done < r.total && r.firstPoint > 0)
     text += " · about " +
-            clockText((now() - r.firstPoint) / double(r.done) * double(r.total - r.done)) +
-            " for the others";
+            clockText((now() - r.firstPoint) / double(r.done) * double(r.total - r.done)) + " left";
   return text;
 }
 
@@ -90,7 +89,7 @@ void draw() {
   winsize window{};
   const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
   std::string text = lineText();
-  // A line that wraps could not be erased. The points between words take two bytes and one place.
+  // A line that wraps could not be erased. The dots between words take two bytes and one column.
   if (const std::size_t most = known ? window.ws_col - 1 : 79; text.size() > most)
     text = text.substr(0, most), text.erase(text.find_last_not_of("\xc2") + 1);
   std::fputs(("\r\033[K" + text).c_str(), stdout);
@@ -98,8 +97,8 @@ void draw() {
   run().shown = true;
 }
 
-/// True if mpirun or srun has started the run. It is asked before MPI starts, which sets such
-/// variables itself.
+/// True if mpirun or srun started the run. Evaluated before MPI starts, which sets such variables
+/// itself.
 const bool isLaunched =
     std::ranges::any_of(std::array{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "SLURM_PROCID"},
                         [](const char* name) { return std::getenv(name) != nullptr; });
@@ -107,14 +106,14 @@ const bool isLaunched =
 bool wantsLine() {
   if (isQuiet()) return false;
   if (progressOption.get() != "auto") return progressOption.get() == "line";
-  // A terminal that cannot erase a line, as in editors, says so.
+  // A terminal that cannot erase a line, as in editors, is of type "dumb".
   const char* kind = std::getenv("TERM");
   return !isLaunched && isatty(STDOUT_FILENO) == 1 && kind && std::string_view(kind) != "dumb";
 }
 
-/// Opens the file to append to it. Throws Error if something else than a log of events has its
-/// name. A device, such as /dev/stderr, may be named by a link; a file may not, since the link may
-/// lead to one that is not ours.
+/// Opens the file to append to it. Throws Error if the path exists and is not an event log. A link
+/// to a device, such as /dev/stderr, is followed; a link to a file is not, since it may lead to
+/// another user's file.
 std::FILE* openLog(const std::string& path) {
   constexpr std::string_view head = R"({"event":)";
   const std::string failure = "cannot write " + path;
@@ -128,7 +127,7 @@ std::FILE* openLog(const std::string& path) {
     const auto count = pread(file, begin.data(), begin.size(), 0);
     if (count != 0 && begin != head) {
       close(file);
-      throw Error(path + " is there already and is no log of events");
+      throw Error(path + " already exists and is not an event log");
     }
   }
   std::FILE* stream = file < 0 ? nullptr : fdopen(file, "a");
@@ -148,9 +147,6 @@ std::string timeText() {
 }  // namespace
 
 void beginEvents(MPI_Comm comm) {
-  int rank = 0, ranks = 1;
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Comm_size(comm, &ranks));
   const std::string path = fileOption.get();
   const bool line = wantsLine();
   onFirstRank(comm, "option -log_json: ", [&] {
@@ -166,13 +162,13 @@ void beginEvents(MPI_Comm comm) {
           shared.ends.wait_for(lock, stop, std::chrono::milliseconds(500), [] { return false; });
       });
   });
-  tellEvent("start", {{"version", version()}, {"ranks", ranks}});
+  logEvent("start", {{"version", version()}, {"ranks", mpi::size(comm)}});
 }
 
 std::string eventsFile() { return fileOption.get(); }
 
 void endEvents(int exitCode) {
-  tellEvent("end", {{"exit_code", exitCode}});
+  logEvent("end", {{"exit_code", exitCode}});
   Run& r = run();
   if (r.clock.joinable()) {
     r.clock.request_stop();
@@ -186,7 +182,7 @@ void endEvents(int exitCode) {
   r.file = nullptr;
 }
 
-void tellEvent(const std::string& event, nlohmann::ordered_json members) {
+void logEvent(const std::string& event, nlohmann::ordered_json members) {
   Run& r = run();
   const std::lock_guard lock(r.gate);
   if (!r.file) return;
@@ -194,11 +190,12 @@ void tellEvent(const std::string& event, nlohmann::ordered_json members) {
                              {"time", timeText()},
                              {"elapsed_s", std::round(1e3 * (now() - r.begin)) / 1e3}};
   all.update(members);
-  // Text of other libraries may be no UTF-8. The escapes of hidden characters are those of JSON.
+  // Texts of other libraries may not be UTF-8. The escapes of hidden characters are those of JSON.
   const std::string text =
       escaped(all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n";
   if (std::fputs(text.c_str(), r.file) >= 0 && std::fflush(r.file) == 0) return;
-  std::fprintf(stderr, "squeal: warning: -log_json ends here: %s\n", std::strerror(errno));
+  std::fprintf(stderr, "squeal: warning: no more events are written to -log_json: %s\n",
+               std::strerror(errno));
   std::fclose(r.file);
   r.file = nullptr;
 }
@@ -212,7 +209,7 @@ void pointsDone(std::size_t count) {
   Run& r = run();
   const std::lock_guard lock(r.gate);
   r.done += count;
-  tellEvent("points", {{"done", r.done}, {"total", r.total}});
+  logEvent("points", {{"done", r.done}, {"total", r.total}});
 }
 
 void showStage(const std::string& stage) {
@@ -222,13 +219,13 @@ void showStage(const std::string& stage) {
   if (stage == "flutter" && r.firstPoint == 0) r.firstPoint = now();
 }
 
-LineAway::LineAway() {
+ClearedLine::ClearedLine() {
   run().gate.lock();
   ++run().away;
   erase();
 }
 
-LineAway::~LineAway() {
+ClearedLine::~ClearedLine() {
   --run().away;
   draw();
   run().gate.unlock();

@@ -1,5 +1,5 @@
 #pragma once
-/// What happens in a run is told to programs, and on a terminal by one line that moves.
+/// Reports progress events to other programs, and as a status line on a terminal.
 #include <mpi.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,33 +7,33 @@
 
 namespace squeal {
 
-/// Collective. Opens the file of -log_json, if it is given, to append to it, and begins the moving
-/// line if the run has a terminal (-progress). The first event is `start`. Throws Error if the file
-/// cannot be opened, or is neither a log of events, nor empty, nor a device.
+/// Collective. Opens the file of -log_json, if given, to append to it, and starts the status line
+/// if the run has a terminal (-progress). The first event is `start`. Throws Error if the file
+/// cannot be opened, or is neither an event log, nor empty, nor a device.
 void beginEvents(MPI_Comm comm);
 /// Returns the path of -log_json; empty if it is not given.
 std::string eventsFile();
-/// Not collective. Ends the line, and writes the event `end` with the exit code.
+/// Not collective. Erases the status line, and writes the event `end` with the exit code.
 void endEvents(int exitCode);
 
-/// Not collective. Appends an event with the time, the seconds since the start and these members,
-/// as an object on a line of its own; on rank 0, if there is a file. A failure to write ends the
-/// log with a warning, not the run.
-void tellEvent(const std::string& event, nlohmann::ordered_json members);
+/// Not collective. On rank 0, if there is a file, appends an event with the time, the seconds since
+/// the start and these members, as an object on its own line. If a write fails, the log ends with a
+/// warning, and the run continues.
+void logEvent(const std::string& event, nlohmann::ordered_json members);
 
-/// Not collective. Tells the number of points of the sweep in all, and that some more are done.
+/// Not collective. Sets the total number of points of the sweep, and adds completed ones.
 void expectPoints(std::size_t count);
 void pointsDone(std::size_t count);
 
-/// Not collective. The line shows this stage from here on; none for an empty name.
+/// Not collective. Shows this stage in the status line from here on; none for an empty name.
 void showStage(const std::string& stage);
-/// While a LineAway lives, the moving line is away, so that other lines can be printed.
-class LineAway {
+/// Clears the status line during the object's lifetime, so that other lines can be printed.
+class ClearedLine {
  public:
-  LineAway();
-  ~LineAway();
-  LineAway(const LineAway&) = delete;
-  LineAway& operator=(const LineAway&) = delete;
+  ClearedLine();
+  ~ClearedLine();
+  ClearedLine(const ClearedLine&) = delete;
+  ClearedLine& operator=(const ClearedLine&) = delete;
 };
 
 }  // namespace squeal

@@ -23,28 +23,27 @@ namespace squeal {
 
 namespace {
 
-/// Collective. Returns the options of the call on all ranks. An error ends the program here, in one
-/// line.
+/// Collective. Returns the options of the call on all ranks. On an error, prints one line and ends
+/// the program.
 std::vector<Setting> readSettings(const std::vector<std::string>& words) {
   std::vector<Setting> settings;
   try {
     onFirstRank(MPI_COMM_WORLD, "", [&] { settings = settingsOfCall(words); });
     return onAllRanks(MPI_COMM_WORLD, settings);
   } catch (const Error& error) {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    if (rank == 0) std::fprintf(stderr, "squeal: error: %s\n", escaped(error.what()).c_str());
+    if (mpi::rank(MPI_COMM_WORLD) == 0)
+      std::fprintf(stderr, "squeal: error: %s\n", escaped(error.what()).c_str());
     MPI_Finalize();
     std::exit(1);
   }
 }
 
-/// Collective. Starts SLEPc and PETSc with all options, as PETSc looks at some of its own when it
-/// starts. A value that looks like a name is not passed; insert() follows and sets it.
+/// Collective. Starts SLEPc and PETSc with all options, since PETSc reads some of them when it
+/// starts. Does not pass values that look like names; insert() sets them afterwards.
 void startSlepc(char* program, const std::vector<Setting>& settings) {
-  static std::vector<std::string> words;  // PETSc keeps pointers to them
+  static std::vector<std::string> words;  // PETSc stores pointers to them
   static std::vector<char*> pointers;
-  words = {program, "-skip_petscrc"};  // read already, as are the variables
+  words = {program, "-skip_petscrc"};  // already read, like the variables
   unsetenv("PETSC_OPTIONS");
   unsetenv("PETSC_OPTIONS_YAML");
   for (const auto& setting : settings) {
@@ -65,8 +64,8 @@ void startSlepc(char* program, const std::vector<Setting>& settings) {
 
 Session::Session(int argc, char** argv) {
   SignalWatch signals;
-  // PETSc's own -help lists several hundred options of its parts; ours is the manual of this
-  // program and replaces it.
+  // The manual of this program replaces PETSc's own -help, which lists several hundred options of
+  // its components.
   const std::vector<std::string> words(argv + 1, argv + argc);
   const auto among = [&](const std::vector<std::string>& names) {
     return std::find_first_of(words.begin(), words.end(), names.begin(), names.end()) !=
@@ -78,8 +77,8 @@ Session::Session(int argc, char** argv) {
     for (const char* help : {"-help", "--help", "-h", "-help_json", "--help_json"})
       if (words[i] == help && !words[i + 1].starts_with('-')) helpStage_ = words[i + 1];
   versionWanted_ = among({"-version", "--version"});
-  check(MPI_Init(&argc, &argv));  // before PETSc's, so that a mistake in the options is told in one
-                                  // line instead of a traceback
+  // MPI starts before PETSc, so that an error in the options is one line instead of a traceback.
+  check(MPI_Init(&argc, &argv));
   const auto settings = helpWanted_ || helpJsonWanted_ || versionWanted_ ? std::vector<Setting>{}
                                                                          : readSettings(words);
   optionsGiven_ = !settings.empty();
@@ -89,12 +88,12 @@ Session::Session(int argc, char** argv) {
   keepFreedMemory();
   claimBlasWorkspace();
   gmsh::initialize(0, nullptr, false);
-  gmsh::option::setNumber("General.Terminal", 0);  // messages reach the user through our errors
+  gmsh::option::setNumber("General.Terminal", 0);  // our own errors contain its messages
 }
 
 Session::~Session() {
-  PetscOptionsSetValue(nullptr, "-options_left",
-                       "no");  // rejectUnknownOptions says it before the run, not after
+  // rejectUnknownOptions() reports them before the run instead of after it.
+  PetscOptionsSetValue(nullptr, "-options_left", "no");
   gmsh::finalize();
   SlepcFinalize();
   MPI_Finalize();
@@ -102,17 +101,9 @@ Session::~Session() {
 
 MPI_Comm Session::comm() const { return PETSC_COMM_WORLD; }
 
-int Session::rank() const {
-  int rank = 0;
-  check(MPI_Comm_rank(comm(), &rank));
-  return rank;
-}
+int Session::rank() const { return mpi::rank(comm()); }
 
-int Session::size() const {
-  int size = 1;
-  check(MPI_Comm_size(comm(), &size));
-  return size;
-}
+int Session::size() const { return mpi::size(comm()); }
 
 const char* version() { return SQUEAL_VERSION; }
 

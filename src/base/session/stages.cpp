@@ -16,7 +16,7 @@
 namespace squeal {
 namespace {
 
-const FlagOption quiet("general", "quiet", false, "print nothing but errors");
+const FlagOption quiet("general", "quiet", false, "no output except warnings and errors");
 
 std::vector<StageRecord>& records() {
   static std::vector<StageRecord> list;
@@ -28,11 +28,8 @@ int& outputErrorSlot() {
   return error;
 }
 
-bool speaks(MPI_Comm comm) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  return rank == 0 && !isQuiet();
-}
+/// Returns true if this rank prints the log.
+bool prints(MPI_Comm comm) { return mpi::rank(comm) == 0 && !isQuiet(); }
 
 }  // namespace
 
@@ -43,13 +40,13 @@ Stage::Stage(MPI_Comm comm, std::string name)
       lastProgress_(begin_),
       before_(trafficSoFar()),
       logged_(name_) {
-  tellEvent("stage_begin", {{"stage", name_}});
+  logEvent("stage_begin", {{"stage", name_}});
   showStage(name_);
 }
 
 Stage::~Stage() {
-  if (logged_)  // it has come to nothing that is told
-    tellEvent("stage_end", {{"stage", name_}, {"seconds", MPI_Wtime() - begin_}});
+  if (logged_)  // it has ended without a result
+    logEvent("stage_end", {{"stage", name_}, {"seconds", MPI_Wtime() - begin_}});
   showStage("");
 }
 
@@ -59,8 +56,8 @@ void Stage::progress(const std::string& text) {
 
 void Stage::say(const std::string& text) {
   lastProgress_ = MPI_Wtime();
-  tellEvent("progress", {{"stage", name_}, {"text", text}});
-  if (!speaks(comm_)) return;
+  logEvent("progress", {{"stage", name_}, {"text", text}});
+  if (!prints(comm_)) return;
   print(formatted("%-10s %8.2f s … %s\n", name_.c_str(), lastProgress_ - begin_, text.c_str()));
 }
 
@@ -70,12 +67,10 @@ void Stage::finish(const std::string& result) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const double memory = 1024.0 * usage.ru_maxrss;
-  double seconds = MPI_Wtime() - begin_;
-  check(MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, comm_));
+  const double seconds = mpi::max(comm_, MPI_Wtime() - begin_);
   std::array sums{memory, now.messages - before_.messages, now.bytes - before_.bytes};
-  double reductions = now.reductions - before_.reductions;
-  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, comm_));
-  check(MPI_Allreduce(MPI_IN_PLACE, &reductions, 1, MPI_DOUBLE, MPI_MAX, comm_));
+  mpi::reduce<double>(comm_, sums, MPI_SUM);
+  const double reductions = mpi::max(comm_, now.reductions - before_.reductions);
   auto known = std::find_if(records().begin(), records().end(),
                             [&](const auto& record) { return record.name == name_; });
   if (known == records().end()) known = records().insert(known, {name_, 0, 0, {}});
@@ -84,23 +79,23 @@ void Stage::finish(const std::string& result) {
   known->traffic.messages += sums[1];
   known->traffic.bytes += sums[2];
   known->traffic.reductions += reductions;
-  tellEvent(
+  logEvent(
       "stage_end",
       {{"stage", name_}, {"seconds", seconds}, {"peak_memory_bytes", sums[0]}, {"result", result}});
-  if (!speaks(comm_)) return;
+  if (!prints(comm_)) return;
   print(formatted("%-10s %8.2f s  %s\n", name_.c_str(), seconds, result.c_str()));
 }
 
 bool isQuiet() { return quiet.get(); }
 
 void say(MPI_Comm comm, const std::string& text) {
-  tellEvent("message", {{"text", text}});
-  if (!speaks(comm)) return;
+  logEvent("message", {{"text", text}});
+  if (!prints(comm)) return;
   print(text + "\n");
 }
 
 void print(const std::string& text) {
-  const LineAway away;
+  const ClearedLine away;
   if ((std::fputs(escaped(text).c_str(), stdout) < 0 || std::fflush(stdout) != 0) &&
       outputErrorSlot() == 0)
     outputErrorSlot() = errno;
@@ -109,11 +104,9 @@ void print(const std::string& text) {
 int outputError() { return outputErrorSlot() == EPIPE ? 0 : outputErrorSlot(); }
 
 void complain(MPI_Comm comm, const std::string& text) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  if (rank > 0) return;
-  tellEvent("warning", {{"text", text}});
-  const LineAway away;
+  if (mpi::rank(comm) > 0) return;
+  logEvent("warning", {{"text", text}});
+  const ClearedLine away;
   std::fprintf(stderr, "squeal: %s\n", escaped(text).c_str());
 }
 

@@ -21,7 +21,7 @@
 namespace squeal {
 namespace {
 
-constexpr unsigned patience = 30;  // s, until the user is told that nothing hangs
+constexpr unsigned patience = 30;  // s, until a line reports that the child is still running
 
 enum class Outcome : char { result, failure, noMemory };
 
@@ -37,7 +37,7 @@ void writeAll(int file, const char* bytes, std::size_t count) {
   while (count > 0) {
     const ssize_t written = write(file, bytes, count);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;  // the parent is gone, or will see that bytes are missing
+    if (written <= 0) return;  // the parent has died, or will notice the missing bytes
     bytes += written, count -= written;
   }
 }
@@ -48,41 +48,41 @@ void answer(int pipe, Outcome outcome, const char* bytes, std::size_t count) {
   writeAll(pipe, bytes, count);
 }
 
-char stillAtWork[512];  // a signal's handler can only write what is ready
-int voice = 2;
+char runningText[512];  // a signal handler can only write a text that exists already
+int errorOutput = 2;
 
-void sayStillAtWork(int) {
-  [[maybe_unused]] const auto written = write(voice, stillAtWork, std::strlen(stillAtWork));
+void reportStillRunning(int) {
+  [[maybe_unused]] const auto written = write(errorOutput, runningText, std::strlen(runningText));
 }
 
-/// Does the work in the child process and ends the process. Nothing of the parent's is flushed,
-/// finalised or handled here.
+/// Does the work in the child process and exits. It does not flush, finalise or handle anything
+/// that belongs to the parent.
 [[noreturn]] void serve(int pipe, pid_t parent, const ChildLimits& limits, const ChildWork& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
   for (int number = 1; number < NSIG; ++number)
     signal(number, SIG_DFL);  // PETSc's handlers would print a traceback
-  // The parent decides what becomes of a run that is asked to stop; mpirun asks its whole group.
+  // mpirun signals the whole process group; the parent decides how the run stops.
   for (const int number : {SIGTERM, SIGUSR1}) signal(number, SIG_IGN);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_AS, addressSpace() + limits.memoryBytes);
   if (limits.processorSeconds) limit(RLIMIT_CPU, std::ceil(*limits.processorSeconds));
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
-  voice = fcntl(2, F_DUPFD_CLOEXEC, 3);
+  errorOutput = fcntl(2, F_DUPFD_CLOEXEC, 3);
   for (int file : {0, 1, 2})
-    dup2(nowhere, file);  // what the C library says of a crash is no message of ours
-  std::snprintf(stillAtWork, sizeof stillAtWork, "squeal: %s: %s is at work for %u s now\n",
+    dup2(nowhere, file);  // the program reports a crash itself, without the C library's lines
+  std::snprintf(runningText, sizeof runningText, "squeal: %s: %s has been running for %u s\n",
                 limits.subject.c_str(), limits.program.c_str(), patience);
-  signal(SIGALRM, sayStillAtWork);
+  signal(SIGALRM, reportStillRunning);
   alarm(patience);
   try {
     const std::vector<char> result = work([&](const std::string& text) {
-      dprintf(voice, "squeal: warning: %s\n", escaped(text).c_str());
+      dprintf(errorOutput, "squeal: warning: %s\n", escaped(text).c_str());
     });
     answer(pipe, Outcome::result, result.data(), result.size());
   } catch (const std::bad_alloc&) {
     answer(pipe, Outcome::noMemory, "", 0);
-  } catch (const std::length_error&) {  // a vector of more elements than there are addresses
+  } catch (const std::length_error&) {  // a vector longer than the address space
     answer(pipe, Outcome::noMemory, "", 0);
   } catch (const std::exception& error) {
     const std::string text = error.what();
@@ -91,7 +91,7 @@ void sayStillAtWork(int) {
   _exit(0);
 }
 
-/// A Child is the reading end of the pipe from a child process, which its destructor ends.
+/// The reading end of the pipe from a child process. The destructor kills the child.
 struct Child {
   pid_t id;
   int pipe;
@@ -120,13 +120,14 @@ struct Child {
 Child start(const ChildLimits& limits, const ChildWork& work) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
-    throw Error(limits.subject + ": no pipe to a child process: " + std::strerror(errno));
+    throw Error(limits.subject +
+                ": cannot create a pipe to a child process: " + std::strerror(errno));
   const pid_t parent = getpid(), id = fork();
   if (id == 0) serve(ends[1], parent, limits, work);
   close(ends[1]);
   if (id < 0) {
     close(ends[0]);
-    throw Error(limits.subject + ": no child process can be started: " + std::strerror(errno));
+    throw Error(limits.subject + ": cannot start a child process: " + std::strerror(errno));
   }
   return {id, ends[0]};
 }
@@ -136,11 +137,11 @@ std::string endOf(int status, const ChildLimits& limits) {
     return formatted("%s has not finished after %.0f s of processor time", limits.program.c_str(),
                      std::ceil(limits.processorSeconds.value_or(0)));
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
-    return limits.program + " was killed; is memory short?";
-  if (WIFSIGNALED(status))  // a library does not always survive that it is given no memory
-    return limits.program + " crashes on it (" + std::string(strsignal(WTERMSIG(status))) +
-           "), or " + limits.noMemory;
-  return limits.program + " ends the process with exit code " + std::to_string(WEXITSTATUS(status));
+    return limits.program + " was killed, perhaps for lack of memory";
+  if (WIFSIGNALED(status))  // some libraries crash if an allocation fails
+    return limits.program + " crashed (" + std::string(strsignal(WTERMSIG(status))) + "), or " +
+           limits.noMemory;
+  return limits.program + " exited with code " + std::to_string(WEXITSTATUS(status));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// This file starts a child process for work that may crash or need more memory than there is.
+/// Runs work that may crash or exhaust the memory in a child process.
 #include <functional>
 #include <optional>
 #include <string>
@@ -7,25 +7,25 @@
 
 namespace squeal {
 
-/// A Warn prints a warning at once, on the standard error output.
+/// Prints a warning at once, on the standard error output.
 using Warn = std::function<void(const std::string&)>;
 
-/// The limits of a child process, and the words of the messages about it.
+/// The limits of a child process, and words for the messages about it.
 struct ChildLimits {
-  std::string subject;  ///< begins the messages, but not those that `work` throws
-  std::optional<double> processorSeconds;  ///< limit of processor time, s, if there is one
+  std::string subject;  ///< start of the messages, except those that `work` throws
+  std::optional<double> processorSeconds;  ///< limit of processor time, s; none = no limit
   double memoryBytes = 0;                  ///< address space that the work may allocate, bytes
-  std::string noMemory;                    ///< message if that is too little
-  std::string program;                     ///< the library that works, for messages: "gmsh"
+  std::string noMemory;                    ///< message if `memoryBytes` is too little
+  std::string program;                     ///< library that does the work, for messages: "gmsh"
 };
 
 /// Work whose result is bytes, such as those of a Stream.
 using ChildWork = std::function<std::vector<char>(const Warn&)>;
 
-/// Not collective. Runs `work` in a child process and returns its result. The child inherits a copy
-/// of this process, and its memory is freed when it ends; `work` must not call MPI. Throws Error if
-/// the child cannot be started, crashes or reaches a limit, and with the message of what `work`
-/// throws.
+/// Not collective. Runs `work` in a child process and returns its result. The child starts as a
+/// copy of this process, and its memory is freed when it exits; `work` must not call MPI. Throws
+/// Error if the child cannot be started, crashes or reaches a limit. If `work` throws an exception,
+/// throws Error with its message.
 std::vector<char> inChild(const ChildLimits& limits, const ChildWork& work);
 
 }  // namespace squeal

@@ -12,7 +12,7 @@ Concatenation::Concatenation(MPI_Comm comm, std::size_t own)
 }
 
 void Concatenation::gatherBytes(const void* own, void* all, int bytesPerEntry) const {
-  MPI_Datatype entry = MPI_DATATYPE_NULL;  // in bytes, the counts might exceed an int
+  MPI_Datatype entry = MPI_DATATYPE_NULL;  // counts in bytes might exceed an int
   MPI_Type_contiguous(bytesPerEntry, MPI_BYTE, &entry);
   MPI_Type_commit(&entry);
   MPI_Allgatherv(own, counts_[rank_], entry, all, counts_.data(), begin_.data(), entry, comm_);

@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of a list that the ranks hold are put together on every rank.
+/// Concatenates the parts of a distributed list on every rank.
 #include <mpi.h>
 
 #include <span>
@@ -10,15 +10,14 @@
 
 namespace squeal {
 
-/// A Concatenation tells where the part of each rank lies in the list of all ranks, which has the
-/// order of the ranks.
+/// The position of each rank's part in the list of all ranks, which is in the order of the ranks.
 class Concatenation {
  public:
   /// Collective. `own` is the number of entries of this rank.
   Concatenation(MPI_Comm comm, std::size_t own);
   /// Returns the number of entries of all ranks.
   int size() const { return begin_.back() + counts_.back(); }
-  /// Returns the place of the first entry of this rank.
+  /// Returns the index of the first entry of this rank.
   int ownBegin() const { return begin_[rank_]; }
   /// Collective. Sets the size() entries of `all` from the entries of each rank.
   template <class Entry>

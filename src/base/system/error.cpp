@@ -10,7 +10,7 @@ namespace squeal {
 void reportDefect(const char* rule, std::source_location where) {
   std::fprintf(stderr, "squeal: error: a defect of the program: %s (%s, %s:%u); please report it\n",
                rule, where.function_name(), where.file_name(), unsigned(where.line()));
-  performLastActs();
+  runTerminationHandlers();
   MPI_Abort(MPI_COMM_WORLD, 70);
   std::abort();
 }

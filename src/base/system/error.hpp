@@ -1,5 +1,5 @@
 #pragma once
-/// Errors, and how all ranks come to share them.
+/// Errors, and functions that share them between all ranks.
 #include <mpi.h>
 
 #include <new>
@@ -11,21 +11,21 @@
 
 namespace squeal {
 
-/// An Error reports a mistake in the input or a problem without an answer. The message names the
-/// option or group and the rule it breaks. A collective function throws it on all ranks of the
-/// communicator together, so that the program ends without a hang. Another function throws it on
-/// its rank alone, and the caller shares it by onFirstRank() or failTogether().
+/// A mistake in the input, or a problem that has no solution. The message names the option or group
+/// and the violated rule. A collective function throws Error on all ranks of the communicator, so
+/// that the program ends without a deadlock. A function that is not collective throws it only on
+/// its rank, and the caller shares it by onFirstRank() or failTogether().
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Not collective. Ends all ranks by MPI_Abort with one line on stderr if `holds` is false. Checks
-/// what the code itself guarantees, such as the sizes of matrices: a failure is a defect of the
-/// program. It is in force in every build, so use it only where it costs little.
+/// Not collective. Ends all ranks by MPI_Abort with one line on stderr if `holds` is false. Use it
+/// for invariants of the code, such as matching sizes of matrices: a failure is a defect of the
+/// program. Every build checks them, so use it only where it costs little.
 inline void ensure(bool holds, const char* rule,
                    std::source_location where = std::source_location::current());
-/// Not collective. Reports a broken rule of the program and ends all ranks.
+/// Not collective. Reports a violated invariant and ends all ranks.
 [[noreturn]] void reportDefect(const char* rule, std::source_location where);
 
 inline void ensure(bool holds, const char* rule, std::source_location where) {
@@ -38,7 +38,7 @@ inline void ensure(bool holds, const char* rule, std::source_location where) {
 void failTogether(MPI_Comm comm, const std::string& localMessage);
 
 /// Collective. Runs `action()` on rank 0 only. Throws Error on all ranks if the action throws an
-/// exception; the message is `head` and that of the exception.
+/// exception; the message is `head` followed by that of the exception.
 template <class Action>
 void onFirstRank(MPI_Comm comm, const std::string& head, const Action& action) {
   std::string failure;

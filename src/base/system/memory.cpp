@@ -18,16 +18,15 @@
 namespace squeal {
 namespace {
 
-/// Returns the first number in a file of /proc or /sys; none if there is no such file, or if it
-/// says "max".
+/// Returns the first number in a file of /proc or /sys; none if the file does not exist or contains
+/// "max".
 std::optional<double> numberIn(const std::string& path) {
   double value = 0;
   if (std::ifstream file(path); file >> value) return value;
   return {};
 }
 
-/// Returns the number behind `name` in a table of /proc or /sys; none if the table has no such
-/// line.
+/// Returns the number after `name` in a table of /proc or /sys; none if the table has no such line.
 std::optional<double> entryOf(const std::string& path, const std::string& name) {
   std::ifstream file(path);
   for (std::string line, word; std::getline(file, line);)
@@ -38,14 +37,14 @@ std::optional<double> entryOf(const std::string& path, const std::string& name) 
 }  // namespace
 
 double addressSpace() {
-  // The first number in the file is that of all pages.
+  // The first number in the file is the number of all pages.
   return numberIn("/proc/self/statm").value_or(0) * sysconf(_SC_PAGESIZE);
 }
 
 double availableMemory() {
   double bytes = 1024 * entryOf("/proc/meminfo", "MemAvailable:").value_or(1e15);
-  // A batch job may have a limit of its own, in version 2 of the control groups or in version 1.
-  // The kernel gives back the memory in which it caches files.
+  // A batch job may have its own limit, by control groups of version 2 or 1. The kernel releases
+  // the memory of cached files on demand.
   struct Group {
     const char *most, *used, *details, *cached;
   };

@@ -1,30 +1,29 @@
 #pragma once
-/// These functions find the free memory, and report where there is too little. Only those that say
-/// so are collective.
+/// Free memory, and the report of a lack of memory. Functions are collective only if marked so.
 #include <mpi.h>
 
 namespace squeal {
 
 /// Advice for messages on lack of memory.
 inline constexpr const char* lessMemory =
-    "take more nodes, a coarser mesh, or fewer free modes; a dry run estimates what a run takes";
+    "use more nodes, a coarser mesh, or fewer free modes; a dry run estimates the memory of a run";
 
-/// Returns the memory that is free for this process, in bytes: that of the machine, or that of its
-/// control group where that is less.
+/// Returns the memory available to this process, in bytes: the free memory of the machine or, if it
+/// is less, of the control group.
 double availableMemory();
 
 /// Returns the size of the address space of this process, in bytes.
 double addressSpace();
 
-/// Collective. Returns the free memory of this rank's node, in bytes. `needed`, the memory that
-/// this rank needs, becomes the sum over all ranks of the node.
+/// Collective. Returns the free memory of this rank's node, in bytes. Replaces `needed`, the memory
+/// that this rank needs, by the sum over all ranks of the node.
 double memoryFreeOnNode(MPI_Comm comm, double& needed);
 
-/// Makes the C library keep some of the memory that is freed. Blocks of columns come and go, and
-/// the kernel would clear their pages each time, which took a fortieth of a run.
+/// Makes the C library retain some of the freed memory. The program allocates and frees many blocks
+/// of columns, and the kernel would clear their pages each time (1/40 of the time of a run).
 void keepFreedMemory();
 
-/// Prints in one line that this rank has no memory, and ends all ranks.
+/// Reports in one line that this rank is out of memory, and ends all ranks.
 [[noreturn]] void outOfMemory();
 
 }  // namespace squeal

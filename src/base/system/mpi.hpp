@@ -1,6 +1,6 @@
 #pragma once
-/// Collective operations of MPI on single values, lists and texts. A call of MPI that fails ends
-/// the run: the error handler of a communicator is MPI_ERRORS_ARE_FATAL.
+/// Collective operations of MPI on single values, lists and texts. An MPI call that fails ends the
+/// run: the error handler of a communicator is MPI_ERRORS_ARE_FATAL.
 #include <mpi.h>
 
 #include <complex>
@@ -13,7 +13,7 @@
 
 namespace squeal::mpi {
 
-/// The datatype of MPI for a number.
+/// Returns the MPI datatype of a number.
 template <class Number>
 MPI_Datatype typeOf() {
   if constexpr (std::is_same_v<Number, double>) return MPI_DOUBLE;
@@ -34,7 +34,7 @@ int rank(MPI_Comm comm);
 /// Not collective. Returns the number of ranks.
 int size(MPI_Comm comm);
 
-/// Collective. Replaces each value by what `operation` makes of those of all ranks.
+/// Collective. Replaces each value by its reduction with `operation` over all ranks.
 template <class Number>
 void reduce(MPI_Comm comm, std::span<Number> values, MPI_Op operation) {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), typeOf<Number>(), operation, comm);
@@ -63,15 +63,15 @@ bool any(MPI_Comm comm, bool value);
 /// Collective. Returns true if the value is true on all ranks.
 bool all(MPI_Comm comm, bool value);
 
-/// Collective. Sets these bytes, any number of them, on all ranks to those on rank `root`.
+/// Collective. Copies `count` bytes from rank `root` to all ranks; `count` may exceed an int.
 void broadcastBytes(MPI_Comm comm, void* bytes, std::size_t count, int root);
-/// Collective. Sets the value on all ranks to that on rank `root`.
+/// Collective. Copies the value from rank `root` to all ranks.
 template <class Value>
 void broadcast(MPI_Comm comm, Value& value, int root = 0) {
   static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
   broadcastBytes(comm, &value, sizeof value, root);
 }
-/// Collective. Sets the list, its length included, on all ranks to that on rank `root`.
+/// Collective. Copies the list, its length included, from rank `root` to all ranks.
 template <class Value>
 void broadcast(MPI_Comm comm, std::vector<Value>& values, int root = 0) {
   static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
@@ -80,7 +80,7 @@ void broadcast(MPI_Comm comm, std::vector<Value>& values, int root = 0) {
   values.resize(count);
   broadcastBytes(comm, values.data(), count * sizeof(Value), root);
 }
-/// Collective. Sets the text on all ranks to that on rank `root`.
+/// Collective. Copies the text from rank `root` to all ranks.
 void broadcast(MPI_Comm comm, std::string& text, int root = 0);
 
 }  // namespace squeal::mpi

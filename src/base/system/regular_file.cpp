@@ -52,7 +52,8 @@ std::string whyNoFolder(const std::filesystem::path& path) {
 }
 
 int openRegular(const std::filesystem::path& path, int flags, const std::string& failure) {
-  // It is cut after it has been checked. To open some devices has an effect.
+  // Opening some devices has side effects, so the kind is checked first. The file is truncated only
+  // after all checks.
   if (const std::string why = whyNotRegular(path); !why.empty()) throw Error(why);
   const int file =
       open(path.c_str(), (flags & ~O_TRUNC) | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);

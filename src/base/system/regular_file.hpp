@@ -1,29 +1,29 @@
 #pragma once
-/// These functions open files of the program's own, in folders where anybody may have put something
-/// else under their names: a link would lead to a foreign file, a pipe would block.
+/// Opens the program's own files safely in folders where others may have created something under
+/// the same name: a link could lead to another user's file, and a pipe would block.
 #include <filesystem>
 #include <optional>
 #include <string>
 
 namespace squeal {
 
-/// Not collective. Returns a sentence such as "PATH is a link, not a regular file" if something
-/// else than a regular file has this name; empty if a regular file or nothing has it.
+/// Not collective. Returns a sentence such as "PATH is a link, not a regular file" if the path
+/// exists and is not a regular file; otherwise an empty text.
 std::string whyNotRegular(const std::filesystem::path& path);
 
-/// Not collective. Returns a sentence such as "PATH is a link, not a folder" if something else than
-/// a folder has this name; empty if a folder or nothing has it.
+/// Not collective. Returns a sentence such as "PATH is a link, not a folder" if the path exists and
+/// is not a folder; otherwise an empty text.
 std::string whyNoFolder(const std::filesystem::path& path);
 
-/// Not collective. Opens a file as open(2) does with these flags. It follows no link, opens only a
-/// regular file, and does not wait for the other end of a pipe. With O_TRUNC, a file that has a
-/// second name (a hard link) is refused as well, since it may be a foreign one. Returns the
-/// descriptor. Throws Error, whose message begins with `failure`, as "cannot write PATH: reason",
-/// or says what the path is.
+/// Not collective. Opens a file as open(2) does with these flags and returns its descriptor. It
+/// follows no link, opens only a regular file, and does not wait for the other end of a pipe. With
+/// O_TRUNC it also rejects a file with a second name (a hard link), which may belong to another
+/// user. Throws Error: `failure` and the reason ("cannot write PATH: reason"), or the kind of the
+/// path.
 int openRegular(const std::filesystem::path& path, int flags, const std::string& failure);
 
-/// Not collective. Returns the content of a regular file; none if nothing has this name. Throws
-/// Error as openRegular does, or if it cannot be read.
+/// Not collective. Returns the content of a regular file; none if the path does not exist. Throws
+/// Error as openRegular does, or if the file cannot be read.
 std::optional<std::string> contentOfRegular(const std::filesystem::path& path);
 
 }  // namespace squeal

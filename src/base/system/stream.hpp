@@ -1,5 +1,7 @@
 #pragma once
-/// Serialisation of values for messages between processes and for files.
+/// Serialises values to bytes and back, and broadcasts values of any serialisable type.
+#include <mpi.h>
+
 #include <cstring>
 #include <map>
 #include <memory>
@@ -11,24 +13,26 @@
 #include <vector>
 
 #include "base/system/error.hpp"
+#include "base/system/mpi.hpp"
 
 namespace squeal {
 
-/// A Stream serialises values consecutively, or reads them back in the same order. A type of
-/// several members takes part through a function `void fields(Stream&, T&)` in its own namespace,
-/// which names all of them once, for both directions.
+/// Writes values consecutively as bytes, or reads them back in the same order. To make a type of
+/// several members serialisable, define `void fields(Stream&, T&)` in its namespace; it lists all
+/// members once, for both directions. Numbers and other trivially copyable types, lists, texts,
+/// optional values, pairs and maps of serialisable types are serialisable already.
 class Stream {
  public:
   /// Makes an empty stream to write to.
   Stream() = default;
-  /// Takes bytes that another stream has written, to read from. `damaged` is the message of the
-  /// Error if there are fewer than are read.
-  explicit Stream(std::vector<char> bytes, const char* damaged = "a message is incomplete")
-      : bytes_(std::move(bytes)), damaged_(damaged), reads_(true) {}
+  /// Takes bytes that another stream has written, to read from. `damage` is the message of the
+  /// Error that a read throws if the bytes do not contain the value.
+  explicit Stream(std::vector<char> bytes, std::string damage = "serialised values are damaged")
+      : bytes_(std::move(bytes)), damage_(std::move(damage)), reads_(true) {}
   bool reads() const { return reads_; }
-  /// Returns the bytes written since the last ones that were borrowed; the stream is used up.
-  std::vector<char> bytes() && { return std::move(bytes_); }
-  /// Returns the bytes written, in consecutive pieces; borrowed.
+  /// Returns true if all bytes have been read.
+  bool atEnd() const { return read_ == bytes_.size(); }
+  /// Returns the bytes written, as consecutive pieces; borrowed.
   std::vector<std::span<const char>> pieces() const {
     std::vector<std::span<const char>> all;
     for (const auto& [bytes, borrowed, owner] : written_) {
@@ -38,8 +42,18 @@ class Stream {
     all.emplace_back(bytes_);
     return all;
   }
-  /// Not collective. Writes bytes without a copy: they are borrowed, and `owner` is kept, during
-  /// the life of the stream.
+  /// Returns a copy of the bytes written.
+  std::vector<char> bytes() const& {
+    std::vector<char> all;
+    for (const auto& piece : pieces()) all.insert(all.end(), piece.begin(), piece.end());
+    return all;
+  }
+  /// Returns the bytes written; the stream is then used up.
+  std::vector<char> bytes() && {
+    return written_.empty() ? std::move(bytes_) : std::as_const(*this).bytes();
+  }
+  /// Not collective. Writes bytes without a copy: the stream borrows them and shares `owner` during
+  /// its lifetime.
   void borrow(std::span<const char> bytes, std::shared_ptr<const void> owner = {}) {
     written_.push_back({std::move(bytes_), bytes, std::move(owner)});
     bytes_.clear();
@@ -52,20 +66,19 @@ class Stream {
       bytes_.insert(bytes_.end(), from, from + size);
       return;
     }
-    if (size > bytes_.size() - read_) throw Error(damaged_);
+    if (size > bytes_.size() - read_) throw Error(damage_);
     if (size > 0) std::memcpy(data, bytes_.data() + read_, size);
     read_ += size;
   }
-  /// Not collective. Writes or sets these values. Throws Error if there are fewer bytes than they
-  /// take.
+  /// Not collective. Writes or reads these values. Throws Error if the bytes do not contain them.
   template <class... Values>
   void operator()(Values&... values) {
-    (exchange(values), ...);
+    (serialize(values), ...);
   }
 
  private:
   template <class Value>
-  void exchange(Value& value) {
+  void serialize(Value& value) {
     if constexpr (requires { fields(*this, value); }) {
       fields(*this, value);
     } else {
@@ -73,57 +86,78 @@ class Stream {
       raw(&value, sizeof value);
     }
   }
+  /// Writes or reads a number of elements. Throws Error for more than there are bytes.
+  void serializeCount(std::size_t& count) {
+    serialize(count);
+    if (reads_ && count > bytes_.size()) throw Error(damage_);
+  }
   template <class Value>
-  void exchange(std::vector<Value>& values) {
+  void serialize(std::vector<Value>& values) {
     std::size_t count = values.size();
-    exchange(count);
-    if (reads_) {
-      if (count > bytes_.size()) throw Error(damaged_);
-      values.resize(count);
-    }
+    serializeCount(count);
+    if (reads_) values.resize(count);
     if constexpr (std::is_trivially_copyable_v<Value> &&
                   !requires(Stream & stream, Value & value) { fields(stream, value); })
       raw(values.data(), count * sizeof(Value));
     else
-      for (auto& value : values) exchange(value);
+      for (auto& value : values) serialize(value);
   }
-  void exchange(std::string& text) {
-    std::vector<char> letters(text.begin(), text.end());
-    exchange(letters);
-    text.assign(letters.begin(), letters.end());
+  void serialize(std::string& text) {
+    std::size_t count = text.size();
+    serializeCount(count);
+    if (reads_) text.resize(count);
+    raw(text.data(), count);
   }
   template <class Value>
-  void exchange(std::optional<Value>& value) {
+  void serialize(std::optional<Value>& value) {
     bool has = value.has_value();
-    exchange(has);
+    serialize(has);
     if (reads_ && has) value.emplace();
     if (reads_ && !has) value.reset();
-    if (has) exchange(*value);
-  }
-  template <class Value>
-  void exchange(std::map<std::string, Value>& values) {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : values) keys.push_back(key);
-    exchange(keys);
-    for (const auto& key : keys) exchange(values[key]);
+    if (has) serialize(*value);
   }
   template <class First, class Second>
-  void exchange(std::pair<First, Second>& both) {
-    exchange(both.first);
-    exchange(both.second);
+  void serialize(std::pair<First, Second>& both) {
+    serialize(both.first);
+    serialize(both.second);
+  }
+  template <class Key, class Value>
+  void serialize(std::map<Key, Value>& values) {
+    std::vector<std::pair<Key, Value>> entries;
+    if (!reads_) entries.assign(values.begin(), values.end());
+    serialize(entries);
+    if (reads_) values = std::map<Key, Value>(entries.begin(), entries.end());
   }
 
-  /// Bytes, and those that lie elsewhere and follow them.
+  /// Bytes, followed by borrowed ones.
   struct Written {
     std::vector<char> bytes;
     std::span<const char> borrowed;
     std::shared_ptr<const void> owner;
   };
   std::vector<Written> written_;
-  std::vector<char> bytes_;  // the last ones, or those to be read
-  const char* damaged_ = "";
+  std::vector<char> bytes_;  // the last ones written, or those to read
+  std::string damage_;
   std::size_t read_ = 0;
   bool reads_ = false;
 };
+
+/// Collective. Copies a value of any serialisable type from rank `root` to all ranks.
+template <class Value>
+void broadcast(MPI_Comm comm, Value& value, int root = 0) {
+  if (mpi::size(comm) == 1) return;
+  const bool sends = mpi::rank(comm) == root;
+  std::vector<char> bytes;
+  if (sends) {
+    Stream stream;
+    stream(value);
+    bytes = stream.bytes();
+  }
+  mpi::broadcast(comm, bytes, root);
+  if (sends) return;
+  Stream stream(std::move(bytes));
+  stream(value);
+  ensure(stream.atEnd(), "a broadcast value is read completely");
+}
 
 }  // namespace squeal

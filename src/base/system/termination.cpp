@@ -21,30 +21,30 @@ namespace {
 
 constexpr int endings[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGUSR2};
 
-/// Returns the mutex that is held while last acts are registered or done, and while an ending has
-/// to wait. It is recursive, since such work may fail and abort.
+/// Returns the mutex that is locked while handlers are registered or run, and while termination is
+/// delayed. It is recursive, since such work may fail and abort.
 std::recursive_mutex& gate() {
   static std::recursive_mutex mutex;
   return mutex;
 }
 
-std::vector<const std::function<void()>*>& acts() {
+std::vector<const std::function<void()>*>& handlers() {
   static std::vector<const std::function<void()>*> list;
   return list;
 }
 
 int signalPipe[2] = {-1, -1};
 
-/// Passes the signal on to the thread that waits. A handler may do no more: memory or a lock in use
-/// by the interrupted code must not be touched here.
+/// Forwards the signal to the waiting thread. A signal handler must not do more: the interrupted
+/// code may be using memory or holding a lock.
 extern "C" void passOn(int signal) {
   const unsigned char byte = signal;
   [[maybe_unused]] const auto written = write(signalPipe[1], &byte, 1);
 }
 
 /// Writes one line and ends this process by the signal; mpirun then ends the other ranks. The
-/// handlers of MPI and PETSc allocate memory, and wait forever where the heap is damaged. For the
-/// same reason no last acts are performed.
+/// handlers of MPI and PETSc allocate memory, and would hang if the heap is damaged. For the same
+/// reason no termination handlers run.
 extern "C" void endByDefect(int signal) {
   const auto print = [](const char* text) {
     [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
@@ -55,7 +55,7 @@ extern "C" void endByDefect(int signal) {
         : signal == SIGBUS  ? "SIGBUS"
         : signal == SIGFPE  ? "SIGFPE"
                             : "SIGILL");
-  print("; please report it with the file of options\n");
+  print("; please report it with the options file\n");
   std::signal(signal, SIG_DFL);
   raise(signal);
 }
@@ -78,8 +78,8 @@ void endByDefects() {
 
 std::atomic<bool> stop = false;
 
-/// Returns false if SIGTERM is followed by SIGKILL before a run could stop: Open MPI's mpirun
-/// leaves its ranks a second, unless it is told otherwise.
+/// Returns false if SIGKILL follows SIGTERM before a run could stop: by default, mpirun of Open MPI
+/// leaves its ranks one second.
 bool hasTimeAfterSigterm() {
   if (!std::getenv("OMPI_COMM_WORLD_SIZE")) return true;
   const char* seconds = std::getenv("OMPI_MCA_odls_base_sigkill_timeout");
@@ -96,8 +96,8 @@ std::optional<int> awaitEnding(int rank, bool hasTime) {
       if (errno != EINTR) return {};
     const bool ends = signal == SIGTERM && !hasTime;
     if ((signal != SIGTERM && signal != SIGUSR1) || ends) return signal;
-    // The same request may come twice at once, from the batch system and through mpirun. A later
-    // one is the last before SIGKILL.
+    // The batch system and mpirun may send the same request at nearly the same time. A later one is
+    // the last before SIGKILL.
     if (signal == SIGTERM && asked && Clock::now() - *asked > std::chrono::seconds(5))
       return signal;
     if (!asked) asked = Clock::now();
@@ -112,16 +112,16 @@ void awaitSignal(int rank, bool hasTime) {
   if (!ending) return;
   const int signal = *ending;
   const std::lock_guard lock(gate());
-  performLastActs();
+  runTerminationHandlers();
   if (rank == 0)
     std::fprintf(stderr, "squeal: error: ended by signal %d (%s)\n", signal, strsignal(signal));
   std::signal(signal, SIG_DFL);
   raise(signal);
 }
 
-/// Ranks that work apart learn by a SharedStop that one of them has been asked to stop. They count
-/// in rounds, each a nonblocking sum over all ranks, how many have been asked and how many are
-/// done, until all are done or one has been asked.
+/// Shares a request to stop between ranks that work independently. In rounds, each a nonblocking
+/// sum over all ranks, they count the ranks that have been asked and those that are done, until all
+/// are done or one has been asked.
 class SharedStop {
  public:
   explicit SharedStop(MPI_Comm comm) : comm_(comm), size_(mpi::size(comm)) {
@@ -168,31 +168,31 @@ class SharedStop {
   MPI_Comm comm_;
   int size_;
   MPI_Request request_ = MPI_REQUEST_NULL;
-  int own_[2] = {}, all_[2] = {};  // ranks that have been asked, and that are done
+  int own_[2] = {}, all_[2] = {};  // number of ranks asked, number done
   bool asked_ = false, over_ = false;
   Clock::time_point next_;
 };
 
 }  // namespace
 
-AtTermination::AtTermination(std::function<void()> act) : act_(std::move(act)) {
+AtTermination::AtTermination(std::function<void()> handler) : handler_(std::move(handler)) {
   const std::lock_guard lock(gate());
-  acts().push_back(&act_);
+  handlers().push_back(&handler_);
 }
 
 AtTermination::~AtTermination() {
   const std::lock_guard lock(gate());
-  std::erase(acts(), &act_);
+  std::erase(handlers(), &handler_);
 }
 
 SignalsBlocked::SignalsBlocked() { gate().lock(); }
 SignalsBlocked::~SignalsBlocked() { gate().unlock(); }
 
-void performLastActs() noexcept {
+void runTerminationHandlers() noexcept {
   const std::lock_guard lock(gate());
-  for (const auto* act : acts()) try {
-      (*act)();
-    } catch (...) {  // the run is over; what is left behind is put away by the next one
+  for (const auto* handler : handlers()) try {
+      (*handler)();
+    } catch (...) {  // the process ends anyway; the next run removes the remains
     }
 }
 
@@ -209,14 +209,14 @@ void workApart(MPI_Comm comm, const std::function<void(const StopAsked& asked)>&
     work([&] { return shared.asked(); });
   } catch (const Error& error) {
     failure = error.what();
-  } catch (const Interrupted&) {  // join() knows why
+  } catch (const Interrupted&) {  // join() returns true then
   }
   if (shared.join()) throw Interrupted();
   failTogether(comm, failure);
 }
 
 void abortRun() noexcept {
-  performLastActs();
+  runTerminationHandlers();
   MPI_Abort(MPI_COMM_WORLD, 1);
   _exit(1);
 }
@@ -233,10 +233,10 @@ void SignalWatch::begin(int rank) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   if (pipe2(signalPipe, O_CLOEXEC) != 0)
-    throw Error("no pipe for signals can be made: " + std::string(std::strerror(errno)));
+    throw Error("cannot create a pipe for signals: " + std::string(std::strerror(errno)));
   std::thread(awaitSignal, rank, hasTime_).detach();
-  gate(), acts();                // live until then
-  std::atexit(performLastActs);  // as MPI ends a rank that has lost its mpirun
+  gate(), handlers();                   // constructed first, they outlive the call at exit
+  std::atexit(runTerminationHandlers);  // MPI calls exit() on a rank that has lost its mpirun
   endByDefects();
   struct sigaction action {};
   action.sa_flags = SA_RESTART;

@@ -46,7 +46,7 @@ std::string trimmed(const std::string& text) {
 
 namespace {
 
-/// A character of a text in UTF-8; the length is 0 where the bytes are no UTF-8.
+/// A character of a text in UTF-8; the length is 0 if the bytes are not UTF-8.
 struct Character {
   std::uint32_t code = 0;
   std::size_t length = 0;
@@ -69,8 +69,8 @@ Character characterAt(const std::string& text, std::size_t at) {
   return {code, length};
 }
 
-/// Returns true for Unicode's controls, format characters (Cc, Cf) and line separators as far as
-/// they change the direction of other characters, or have no width.
+/// Returns true for control and format characters (Cc, Cf) and line separators of Unicode that
+/// change the direction of other characters or have zero width.
 bool isHidden(std::uint32_t code) {
   struct Range {
     std::uint32_t first, last;
@@ -95,7 +95,7 @@ std::string escaped(const std::string& text) {
       shown += text.substr(at, length);
     else if (code < 0x10000)
       shown += formatted("\\u%04x", unsigned(code));
-    else  // as in JSON, by two surrogates
+    else  // as in JSON, two surrogates
       shown += formatted("\\u%04x\\u%04x", unsigned(0xd7c0 + (code >> 10)),
                          unsigned(0xdc00 + (code & 0x3ff)));
     at += std::max<std::size_t>(length, 1);

@@ -1,5 +1,5 @@
 #pragma once
-/// This function finds the reason why a file cannot be read.
+/// Finds the reason why a file cannot be read.
 #include <filesystem>
 #include <string>
 
@@ -7,8 +7,8 @@ namespace squeal {
 
 inline constexpr const char* noSuchFile = "there is no such file";
 
-/// Not collective. Returns the reason why this process may not read the file, or list the folder,
-/// of this name; empty if it may. Nothing is opened, since the writer of a pipe would notice.
+/// Not collective. Returns the reason why this process cannot read the file or list the folder;
+/// empty if it can. It opens nothing, since the writer of a pipe would notice.
 std::string whyUnreadable(const std::filesystem::path& path);
 
 }  // namespace squeal

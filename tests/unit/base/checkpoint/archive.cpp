@@ -1,5 +1,4 @@
-// What is written to a checkpoint is read back the same, on any number of ranks; what is damaged is
-// refused.
+// A checkpoint is read back as it was written, on any number of ranks; a damaged one is rejected.
 #include "base/checkpoint/archive.hpp"
 
 #include <fstream>
@@ -17,19 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int rankHere() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
-}
+int rankHere() { return mpi::rank(PETSC_COMM_WORLD); }
 
+/// The folder of a checkpoint. Its parent is removed with it.
 fs::path folder(const std::string& name) {
-  int ranks = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
-  return fs::path(SQUEAL_OUTPUT_DIR) / ("checkpoint_" + name + "_" + std::to_string(ranks));
+  return fs::path(SQUEAL_OUTPUT_DIR) /
+         ("checkpoint_" + name + "_" + std::to_string(mpi::size(PETSC_COMM_WORLD))) / "entries";
 }
 
-/// Makes every call an entry, and leaves the option as it was.
+/// Writes an entry at every call, and restores the option afterwards.
 struct EveryEntry {
   EveryEntry() { insert({{"checkpoint_interval", "0"}}); }
   ~EveryEntry() { removeOption("checkpoint_interval"); }
@@ -115,7 +110,7 @@ TEST(Checkpoint, IsReadAsItWasWritten) {
   expectAsWritten(second, 2);
   EXPECT_FALSE(second.next("log"));
   EXPECT_FALSE(second.next("other"));
-  write(second, 3);  // behind those that it has read
+  write(second, 3);  // after those that it has read
   Checkpoint third(PETSC_COMM_WORLD, place, identity, true);
   for (const double value : {1., 2., 3.}) expectAsWritten(third, value);
   third.remove();
@@ -132,16 +127,16 @@ TEST(Checkpoint, OfAnotherRunIsRefused) {
     Checkpoint(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, true);
     ADD_FAILURE() << "it is taken";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("is of another run: b was '2' and is '3'"),
+    EXPECT_NE(std::string(error.what()).find("belongs to another run: b was '2' and is '3'"),
               std::string::npos)
         << error.what();
   }
-  // One that does not continue it leaves it there until its own first entry.
-  Checkpoint anew(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, false);
-  EXPECT_FALSE(anew.next("log"));
+  // A run that does not resume it leaves it there until its own first entry.
+  Checkpoint fresh(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, false);
+  EXPECT_FALSE(fresh.next("log"));
   Checkpoint old(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "2"}}, true);
   expectAsWritten(old, 1);
-  write(anew, 5);
+  write(fresh, 5);
   Checkpoint again(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, true);
   expectAsWritten(again, 5);
   EXPECT_FALSE(again.next("log"));
@@ -157,7 +152,8 @@ TEST(Checkpoint, DamageIsFound) {
   write(first, 1);
   const auto size = fs::file_size(file);
   MPI_Barrier(PETSC_COMM_WORLD);
-  // The mark, the table of the parts, the common part, that of the last rank, the last byte.
+  // In the mark, the table of the parts, the common part, the part of the last rank, and the last
+  // byte.
   for (const double part : {0.0, 0.02, 0.1, 0.9, 1.0}) {
     const auto change = [&] {
       if (rankHere() == 0) {
@@ -184,20 +180,21 @@ TEST(Checkpoint, DamageIsFound) {
   MPI_Barrier(PETSC_COMM_WORLD);
 }
 
-TEST(Checkpoint, WhatCannotBeWrittenDoesNotEndTheRun) {
+TEST(Checkpoint, AFailedWriteDoesNotEndTheRun) {
   const EveryEntry all;
-  const fs::path file = folder("file");
+  const fs::path file = folder("file").parent_path();
   if (rankHere() == 0) std::ofstream(file) << "mine";
   MPI_Barrier(PETSC_COMM_WORLD);
   Checkpoint checkpoint(PETSC_COMM_WORLD, file / "inside", {{"a", "1"}}, false);
   EXPECT_NO_THROW(write(checkpoint, 1));
   EXPECT_FALSE(checkpoint.exists());
-  EXPECT_FALSE(checkpoint.due());  // it is given up
+  EXPECT_FALSE(checkpoint.due());  // it is disabled
   MPI_Barrier(PETSC_COMM_WORLD);
   if (rankHere() == 0) fs::remove(file);
 }
 
-// A link in the place of the next entry let it overwrite a foreign file, and a pipe blocked it.
+// Regression: a link in the place of the next entry let the run overwrite a foreign file, and a
+// pipe blocked it.
 TEST(Checkpoint, IsWrittenNeitherThroughALinkNorIntoAPipe) {
   const EveryEntry all;
   for (const std::string kind : {"a link", "a named pipe", "a folder"}) {
@@ -210,12 +207,12 @@ TEST(Checkpoint, IsWrittenNeitherThroughALinkNorIntoAPipe) {
     EXPECT_TRUE(checkpoint.exists());
     test::plant(kind, partial, foreign);
     EXPECT_NO_THROW(write(checkpoint, 2));
-    EXPECT_FALSE(checkpoint.due());  // it is given up
+    EXPECT_FALSE(checkpoint.due());  // it is disabled
     for (const bool resumes : {false, true}) {
       const std::string message =
           test::errorOf([&] { Checkpoint(PETSC_COMM_WORLD, entries, identity, resumes); });
-      EXPECT_EQ(message, "option -checkpoint: no file of a checkpoint: " + partial.string() +
-                             " is " + kind + ", not a regular file");
+      EXPECT_EQ(message, "option -checkpoint: invalid file in the checkpoint folder: " +
+                             partial.string() + " is " + kind + ", not a regular file");
     }
     EXPECT_EQ(contentOfRegular(foreign), "foreign");
     MPI_Barrier(PETSC_COMM_WORLD);

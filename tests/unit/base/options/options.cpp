@@ -17,7 +17,7 @@ namespace {
 using test::contains;
 using test::errorOf;
 
-// Options of the tests' own, beside those of the method.
+// Options of these tests, in addition to those of the method.
 const RealOption length("general", "probe_<part>_length", std::nullopt, "m", positive,
                         "length of a part");
 const RealOption ratio("general", "probe_ratio", 0.25, "", {-1, 0.5, true, true}, "a ratio");
@@ -43,7 +43,7 @@ TEST(Lists, RangesEndExactly) {
   ASSERT_EQ(values.size(), 13u);
   const double expected[] = {0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6};
   for (std::size_t i = 0; i < values.size(); ++i)
-    EXPECT_EQ(values[i], expected[i]);  // the doubles one would type: 12 × 0.05 is not 0.6
+    EXPECT_EQ(values[i], expected[i]);  // the doubles that a user would type: 12 × 0.05 is not 0.6
   EXPECT_EQ(swept("0.1:0.7:0.1"), (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}));
   EXPECT_EQ(swept("0.3:0.3:1"), (std::vector<double>{0.3}));
   EXPECT_EQ(swept("0:1:0.4"), (std::vector<double>{0, 0.4, 0.8}));  // never beyond the last
@@ -61,15 +61,16 @@ TEST(Lists, ValuesAreReadToTheLastDigit) {
   EXPECT_EQ(vector.get(), (std::vector<double>{0, 0, 1}));
 }
 
-// Before memory is taken for them.
+// Long lists are rejected before their memory is allocated.
 TEST(Lists, OfTooManyValuesAreRefused) {
-  EXPECT_TRUE(contains(errorOf([] { swept("0:1:1e-7"); }),
-                       "-probe_sweep 0:1:1e-7: 10000001 values; a list holds 100000 at most"));
-  EXPECT_TRUE(contains(errorOf([] { swept("0:1e9:1e-9"); }), "a list holds 100000 at most"));
+  EXPECT_TRUE(
+      contains(errorOf([] { swept("0:1:1e-7"); }),
+               "-probe_sweep 0:1:1e-7: 10000001 values; a list may contain at most 100000"));
+  EXPECT_TRUE(contains(errorOf([] { swept("0:1e9:1e-9"); }), "a list may contain at most 100000"));
   EXPECT_EQ(swept("1:100000:1").size(), 100000U);
 }
 
-// Squares of 1e50, and products of several such numbers, are still numbers.
+// Squares of 1e50, and products of several such numbers, do not overflow.
 TEST(Numbers, MagnitudesAreLimited) {
   for (const std::string value : {"1e51", "-1e51", "1e300", "1e-51", "-1e-300"}) {
     test::setOptions("-probe_a_offset " + value);
@@ -115,7 +116,7 @@ TEST(Lists, EmptyItemsAreRefused) {
   EXPECT_TRUE(contains(errorOf([] { list.list(); }), "-probe_list without a value"));
 }
 
-// Beside the options file that names it, then in the working folder; on the command line in the
+// Next to the options file that names it, then in the working folder; on the command line in the
 // working folder.
 TEST(Files, AreLookedForBesideTheOptionsFile) {
   const std::string folder = SQUEAL_OUTPUT_DIR "/beside here";
@@ -133,7 +134,7 @@ TEST(Files, AreLookedForBesideTheOptionsFile) {
       << file.get("disc");
   EXPECT_EQ(errorOf([] { rejectUnknownOptions(); }), "");
   EXPECT_EQ(givenOptions().at("probe_disc_file"),
-            file.get("disc"));  // which the record of the run repeats
+            file.get("disc"));  // as in the record of the run
   named("../beside here/probe.msh");
   EXPECT_TRUE(std::filesystem::equivalent(file.get("disc"), folder + "/probe.msh"));
   named("meshes/layer.geo");  // the tests run in the root of the repository
@@ -141,12 +142,12 @@ TEST(Files, AreLookedForBesideTheOptionsFile) {
   named("nosuch.msh");
   const auto missing = errorOf([] { rejectUnknownOptions(); });
   EXPECT_TRUE(contains(missing, "-probe_disc_file nosuch.msh") && contains(missing, "line 3") &&
-              contains(missing, "no such file") && contains(missing, "neither beside"))
+              contains(missing, "no such file") && contains(missing, "neither next to"))
       << missing;
   test::setOptions("-probe_disc_file probe.msh");
   const auto working = errorOf([] { rejectUnknownOptions(); });
   EXPECT_TRUE(contains(working, "-probe_disc_file probe.msh: there is no such file") &&
-              !contains(working, "beside"))
+              !contains(working, "next to"))
       << working;
   test::setOptions("-probe_disc_file meshes");
   EXPECT_TRUE(contains(errorOf([] { rejectUnknownOptions(); }), "this is a folder"));
@@ -160,7 +161,7 @@ TEST(Lists, BadOnesAreRejectedByName) {
     EXPECT_TRUE(contains(message, "-probe_sweep")) << value;
     EXPECT_TRUE(contains(message, "first:last:step")) << value << ": " << message;
   }
-  // A range where none is declared.
+  // A range, which the option does not declare.
   test::setOptions("-probe_vector 0:1:0.5");
   EXPECT_TRUE(contains(errorOf([] { vector.get(); }), "-probe_vector"));
 }
@@ -235,7 +236,7 @@ TEST(Required, MissingOnesAreNamedWithTheirMeaning) {
   EXPECT_TRUE(offset.given("pad"));
 }
 
-// Group names hold underscores, even words that options hold too.
+// Group names may contain underscores, and even words of option names.
 TEST(Subjects, AreTheWordsInPlaceOfThePlaceholder) {
   test::setOptions(
       "-probe_back_plate_length 1 -probe_disc_length 2 -probe_the_length_of_it_length 3 "
@@ -251,7 +252,7 @@ TEST(Subjects, AreTheWordsInPlaceOfThePlaceholder) {
   EXPECT_EQ(length.fullName("back_plate"), "probe_back_plate_length");
 }
 
-// A case file nests names; the command line replaces single values of it.
+// A case file nests names; the command line overrides single values.
 TEST(CaseFile, NestsAndIsOverridden) {
   const auto file = test::writeFile("options.yaml", R"(
 # a comment
@@ -276,10 +277,10 @@ probe:
   EXPECT_EQ(sweep.get(), (std::vector<double>{0, 0.1, 0.2}));
   EXPECT_TRUE(flag.get());
   EXPECT_EQ(errorOf([] { rejectUnknownOptions(); }), "");
-  EXPECT_EQ(resolvedOptions().at("probe_disc_length"), "8");  // what the recipe of the run will say
+  EXPECT_EQ(resolvedOptions().at("probe_disc_length"), "8");  // as in the record of the run
 }
 
-// Asked for a name with a number, PETSc takes one without it.
+// PETSc itself accepts a name without its number in place of one with it.
 TEST(Subjects, WithNumbersAreNotTakenForOthers) {
   test::setOptions("-probe_length 2 -probe_offset 3");
   EXPECT_FALSE(length.given("1"));
@@ -289,7 +290,7 @@ TEST(Subjects, WithNumbersAreNotTakenForOthers) {
   EXPECT_EQ(offset.get("1"), 4);
 }
 
-// A buffer of fixed length would cut the list, and the sweep with it.
+// A buffer of fixed length would truncate the list, and thus the sweep.
 TEST(Lists, MayBeLong) {
   std::string value = "0";
   for (int i = 1; i < 3000; ++i) value += "," + std::to_string(i);

@@ -1,5 +1,5 @@
 // Options as they are given: words of the command line, options files in YAML and in lines, and
-// what is said of mistakes there.
+// the messages on mistakes in them.
 #include "base/options/settings.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ std::string yamlError(const std::string& text) {
   return errorOf([&] { settingsOfYaml(text, "case.yaml"); });
 }
 
-/// Collective. A file of its own for each text: another rank may still read the last one.
+/// Collective. Each text gets its own file, since another rank may still be reading the last one.
 std::string fileWith(const std::string& text, const std::string& suffix = ".txt") {
   static int count = 0;
   return test::writeFile("settings_" + std::to_string(count++) + suffix, text);
@@ -57,7 +57,7 @@ TEST(Yaml, ListsAreJoinedByCommas) {
   EXPECT_EQ(yaml("a: [0:0.6:0.1]\n"), (Pairs{{"a", "0:0.6:0.1"}}));
 }
 
-// PETSc's reader has them too.
+// PETSc's reader supports them as well.
 TEST(Yaml, AliasesAndMergeKeys) {
   const std::string iron = "hat: &iron\n  young: 1\n  density: 7\n";
   EXPECT_EQ(
@@ -67,7 +67,7 @@ TEST(Yaml, AliasesAndMergeKeys) {
   const Pairs expected{
       {"hat_young", "1"}, {"hat_density", "7"}, {"disc_young", "2"}, {"disc_density", "7"}};
   EXPECT_EQ(yaml(iron + "disc:\n  <<: *iron\n  young: 2\n"), expected);
-  // What stands beside the merge key counts more, before it as well.
+  // Entries next to the merge key have priority, also those before it.
   EXPECT_EQ(yaml(iron + "disc:\n  young: 2\n  <<: [*iron]\n"), expected);
   EXPECT_TRUE(contains(yamlError(iron + "disc:\n  <<: *iron\n  young: 2\n  young: 3\n"),
                        "case.yaml, line 7: a second value of -disc_young"));
@@ -82,8 +82,8 @@ TEST(Yaml, MistakesAreNamedWithTheirLine) {
       {"a: 1\nb: [1, 2\nc: 2\n", "line", "bracket left open"},
       {"- a\n- b\n", "line 1", "a list at the top"},
       {"hello\n", "line 1", "a text at the top"},
-      {"a: 1\nb: 2\na: 3\n", "line 3", "a second value of -a, which line 1 gives"},
-      {"a:\n  b: 1\na_b: 1\n", "line 3", "a second value of -a_b, which line 2 gives"},
+      {"a: 1\nb: 2\na: 3\n", "line 3", "a second value of -a, already set in line 1"},
+      {"a:\n  b: 1\na_b: 1\n", "line 3", "a second value of -a_b, already set in line 2"},
       {"a:\n  b: 1\nc: 2\na:\n  d: 1\n", "line 4", "'a' is given twice, first in line 1"},
       {"a:\n  b: {c: 1}\n  b: {d: 2}\n", "line 3", "'b' is given twice, first in line 2"},
       {"a: 1\na: {b: 2}\n", "line 2", "'a' is given twice, first in line 1"},
@@ -91,12 +91,12 @@ TEST(Yaml, MistakesAreNamedWithTheirLine) {
       {"a: &a {b: 1}\nc: &c {b: 2}\nd:\n  <<: *a\n  <<: *c\n", "line 5", "'<<' is given twice"},
       {"a: 1\n---\nb: 2\n", "line", "second document"},
       {"a: 1\nb: *c\n", "line 2", "undefined alias"},
-      {"a: 1\nb: &b\n  c: *b\n", "line", "alias hold itself"},
+      {"a: 1\nb: &b\n  c: *b\n", "line", "alias contain itself"},
       {"a: 1\nb: !include c.yaml\n", "line 2", "tag '!include'"},
       {"a: 1\nb: {}\n", "line 2", "without entries"},
       {"a: 1\nb: []\n", "line 2", "list of -b is empty"},
-      {"a: 1\nb: [1, '', 2]\n", "line 2", "list of -b holds an empty item"},
-      {"a:\n  b: [1, [2, 3]]\n", "line 2", "list of -a_b holds a list"},
+      {"a: 1\nb: [1, '', 2]\n", "line 2", "list of -b contains an empty item"},
+      {"a:\n  b: [1, [2, 3]]\n", "line 2", "list of -a_b contains a list"},
       {"a: 1\n? [b]\n: 2\n", "line 2", "in place of a name"},
       {std::string("a: 1\nb: \0\1\2\n", 12), "line 2", "control characters"},
       {"a: 1\nb: \xff\xfe\n", "line 2", "UTF-8"},
@@ -141,19 +141,20 @@ TEST(Words, RefusedNamesAreGivenWithTheirRule) {
     return errorOf([&] { settingsOfCall({name, "1"}); });
   };
   const std::string is = "' is not the name of an option: ";
-  EXPECT_EQ(message("-contact_a,b_pad"),
-            "'contact_a,b_pad" + is + "it holds ',', which no name may hold; rename the group");
   EXPECT_EQ(
-      message("-material_disc#1_young"),
-      "'material_disc#1_young" + is + "it holds '#', which no name may hold; rename the group");
+      message("-contact_a,b_pad"),
+      "'contact_a,b_pad" + is + "it contains ',', which is not allowed in names; rename the group");
+  EXPECT_EQ(message("-material_disc#1_young"),
+            "'material_disc#1_young" + is +
+                "it contains '#', which is not allowed in names; rename the group");
   EXPECT_EQ(message("-material_a\x1b[31m_young"),
             "'material_a\x1b[31m_young" + is +
-                "it holds the control character \\u001b; rename the group");
+                "it contains the control character \\u001b; rename the group");
   EXPECT_EQ(yamlError("material:\n  disc:\n    young: 1\n"), "");
   const auto file = fileWith("material:\n  the disc:\n    young: 1\n", ".yaml");
   EXPECT_EQ(errorOf([&] { settingsOfFile(file); }),
             file + ", line 3: 'material_the disc_young" + is +
-                "it holds a blank; write _ for a blank in the name of a group");
+                "it contains a blank; write _ for a blank in the name of a group");
   EXPECT_TRUE(contains(message("-" + std::string(600, 'a')),
                        "is too long: 600 characters, at most 511 are allowed"));
   test::setOptions("-contact__pad top");
@@ -191,7 +192,7 @@ TEST(Words, StrayOnesAreNamedWithTheOptionBeforeThem) {
               contains(first, "-options_file disc_brake"))
       << first;
   EXPECT_TRUE(contains(message({"-a=1"}), "-a 1"));
-  EXPECT_TRUE(contains(message({"-my disc_young", "1"}), "it holds a blank"));
+  EXPECT_TRUE(contains(message({"-my disc_young", "1"}), "it contains a blank"));
   EXPECT_TRUE(contains(message({"-a", "1\n2"}), "line break"));
   EXPECT_TRUE(contains(message({"-a", "'\""}), "both kinds of quotes"));
   EXPECT_TRUE(contains(message({"-prefix_pop"}), "without -prefix_push"));
@@ -212,7 +213,7 @@ TEST(Files, LinesOfNamesAndValues) {
   EXPECT_EQ(settingsOfFile(file)[1].place(), file + ", line 4");
 }
 
-// What optionLine() writes is what is read, whatever the value.
+// Any value that optionLine() writes is read back unchanged.
 TEST(Files, LinesRepeatTheirValues) {
   const Pairs values{{"a", ""},   {"b", "0, 0.2"},      {"c", "-x y"},
                      {"d", "-x"}, {"e", "it's # here"}, {"f", "a \"b\""},
@@ -233,7 +234,7 @@ TEST(Files, MistakesAreNamedWithTheirLine) {
       {"alias -a -b\n", "line 1: 'alias' is not an option"},
       {"-help\n", "line 1: option -help belongs on the command line"},
       {"-skip_petscrc\n", "belongs on the command line"},
-      {"# nothing\n", "holds no option"}};
+      {"# nothing\n", "contains no option"}};
   for (const auto& [text, what] : mistakes) {
     const auto file = fileWith(text);
     const auto message = errorOf([&] { settingsOfFile(file); });
@@ -265,8 +266,8 @@ TEST(Files, KindIsToldByNameAndByContent) {
   EXPECT_EQ(pairs(settingsOfCall({"-options_file_yaml", fileWith(text)})), expected);
 }
 
-// Later wins, files and words in the order in which they stand; a file reads another one where it
-// names it, beside itself.
+// The later setting wins, in the order of files and words. A file that includes another one finds
+// it in its own folder.
 TEST(Files, CountInTheOrderInWhichTheyStand) {
   const auto base = test::writeFile("base.yaml", "a: 1\nb: 1\nc: 1\n");
   const auto file = fileWith("-a 2\n-options_file base.yaml\n-b 3\n");
@@ -277,7 +278,7 @@ TEST(Files, CountInTheOrderInWhichTheyStand) {
   EXPECT_EQ(pairs(settingsOfCall({"-c", "0", "-options_file", base, "-a", "9"})),
             (Pairs{{"c", "0"}, {"a", "1"}, {"b", "1"}, {"c", "1"}, {"a", "9"}}));
   const auto loop = test::writeFile("loop.txt", "-options_file loop.txt\n");
-  EXPECT_TRUE(contains(errorOf([&] { settingsOfFile(loop); }), "reads itself"));
+  EXPECT_TRUE(contains(errorOf([&] { settingsOfFile(loop); }), "includes itself"));
 }
 
 TEST(Text, IsACommandLine) {
@@ -298,8 +299,7 @@ TEST(Environment, ComesBeforeTheCommandLine) {
   unsetenv("PETSC_OPTIONS_YAML");
 }
 
-// Values come out of the database as they went in: with blanks, with a dash in front, longer than
-// any buffer.
+// The database returns values unchanged: with blanks, with a leading dash, longer than any buffer.
 TEST(Database, KeepsValuesAsTheyAre) {
   const std::string lengthy(20000, 'x');
   clearOptions();
@@ -314,19 +314,19 @@ TEST(Database, KeepsValuesAsTheyAre) {
   clearOptions();
 }
 
-TEST(Database, KnowsWhereAValueStands) {
+TEST(Database, KnowsThePlaceOfAValue) {
   const auto file = test::writeFile("origin.yaml", "a:\n  b: 1\n");
   clearOptions();
   insertFile(PETSC_COMM_WORLD, file);
   EXPECT_EQ(givenOptions(), (std::map<std::string, std::string>{{"a_b", "1"}}));
   EXPECT_EQ(origin("a_b", "1").place(), file + ", line 2");
-  EXPECT_EQ(origin("a_b", "2").place(), "");  // set since
+  EXPECT_EQ(origin("a_b", "2").place(), "");  // set to another value
   clearOptions();
 }
 
-// A case that says one thing and a command line that says another are not settled in silence; the
-// same value twice is no conflict.
-TEST(Database, TellsWhichSettingsOfFilesWereReplaced) {
+// If the command line overrides a case, the program reports it; the same value twice is not a
+// conflict.
+TEST(Database, ReportsReplacedSettingsOfFiles) {
   const auto file =
       test::writeFile("replaced.yaml", "probe:\n  first: 1\n  second: 2\n  third: 3\n");
   clearOptions();

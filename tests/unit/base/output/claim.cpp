@@ -1,5 +1,5 @@
-// Which folders a run takes, and what it does where something else than a regular file has the name
-// of one of its own.
+// Folders that a run may write to, and its reaction if anything except a regular file has the name
+// of one of its own files.
 #include "base/output/folder.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ void run(const fs::path& folder, const Files& results) { test::replace(naming(),
 const Files old{{"a.csv", "old"}, {"summary.txt", "old"}};
 const Files fresh{{"a.csv", "new"}, {"summary.txt", "new"}};
 
-// --- which folders are taken ---
+// --- folders that a run accepts ---
 
 TEST(Folder, TakesOneThatIsNewOrEmptyOrOurs) {
   const std::vector<std::pair<const char*, Files>> takable{
@@ -65,8 +65,9 @@ TEST(Folder, RefusesOneWithFilesOfOthers) {
     for (const fs::path& path : {place.path, place.path / "", place.path / "." / ""}) {
       const std::string message = errorOf([&] { run(path, fresh); });
       EXPECT_NE(message.find(place.path.string()), std::string::npos) << message;
-      EXPECT_NE(message.find(" is not empty and holds no earlier results: a run writes into a new"),
-                std::string::npos)
+      EXPECT_NE(
+          message.find(" is not empty and contains no earlier results: a run writes only to a new"),
+          std::string::npos)
           << message;
     }
     EXPECT_EQ(filesIn(place.path), (Files{{name, "mine"}}));
@@ -102,7 +103,7 @@ TEST(Folder, RefusesTheRootAndWhatIsNoFolder) {
            {"", "the name of the folder is empty"},
            {place.path / "file", "file is a regular file, not a folder"},
            {place.path / "file/sub", "file is a regular file, not a folder"},
-           {place.path / "to_file", "to_file is a link to something else than a folder"},
+           {place.path / "to_file", "to_file is a link, but not to a folder"},
            {place.path / "pipe", "pipe is a named pipe, not a folder"},
            {place.path / "to_nothing", "nowhere, which does not exist"},
            {place.path / "to_nothing/sub", "nowhere, which does not exist"}}) {
@@ -121,9 +122,9 @@ TEST(Folder, RefusesTheRootAndWhatIsNoFolder) {
             std::string::npos);
 }
 
-// --- what has the name of a file of ours, and is none ---
+// --- other things with the name of a file of ours ---
 
-/// Puts something else than a file of ours there, on rank 0. A hard link is one of the foreign
+/// Puts anything except a file of ours there, on rank 0. A hard link is one of the foreign
 /// file.
 void plant(const std::string& kind, const fs::path& path, const fs::path& foreign) {
   if (first()) {
@@ -144,7 +145,7 @@ const std::vector<std::string> kinds{"a link", "a folder", "a named pipe", "a se
 TEST(Folder, OpensOnlyRegularFiles) {
   for (const auto& kind : kinds)
     for (const std::string name : {Lock::name, Manifest::name, "a.csv"}) {
-      if (kind == "a second name") continue;  // neither is written to
+      if (kind == "a second name") continue;  // the run writes to neither
       const test::Folder place;
       const fs::path folder = place.path / "results", foreign = place.path / "foreign";
       put(place.path, {{"foreign", "mine"}});
@@ -157,9 +158,10 @@ TEST(Folder, OpensOnlyRegularFiles) {
         EXPECT_NE(message.find((folder / name).string() + " is " + kind + ", not a regular file"),
                   std::string::npos)
             << message;
-      else if (name == Manifest::name || kind == "a folder")  // no manifest: nothing is of a run
+      else if (name == Manifest::name ||
+               kind == "a folder")  // without a manifest nothing belongs to a run
         EXPECT_NE(message.find(" is in the way"), std::string::npos) << kind << ": " << message;
-      else  // a file that the manifest lists is of the earlier run, and goes, be it a link
+      else  // a listed file belongs to the earlier run, and is removed, even if it is a link
         EXPECT_EQ(message, "") << kind;
       EXPECT_EQ(contentOfRegular(foreign), "mine") << kind << " " << name;
       MPI_Barrier(PETSC_COMM_WORLD);

@@ -1,5 +1,5 @@
-// A folder of results is replaced as a whole: what is in it before and after, and after an end at
-// each step between.
+// A run replaces a folder of results as a whole: its content before and after, and after
+// termination at each step between.
 #include "base/output/folder.hpp"
 
 #include <fcntl.h>
@@ -55,9 +55,9 @@ TEST(Folder, ReplacesWhatAnEarlierRunListsAndNothingElse) {
   put(folder, mine);
   run(folder, fresh);
   EXPECT_EQ(without(filesIn(folder), Manifest::name), both(fresh, mine));
-  EXPECT_FALSE(isThere(folder / "vtk" / "y"));  // was of the earlier run alone, and is empty
-  run(folder, {{"summary.txt",
-                "third"}});  // leaves vtk/ with the user's file, and remembers that it is ours
+  EXPECT_FALSE(isThere(folder / "vtk" / "y"));  // belonged only to the earlier run, and is empty
+  run(folder,
+      {{"summary.txt", "third"}});  // vtk/ stays with the user's file, and is listed as ours
   EXPECT_EQ(without(filesIn(folder), Manifest::name), both({{"summary.txt", "third"}}, mine));
   run(folder, fresh);
   EXPECT_EQ(without(filesIn(folder), Manifest::name), both(fresh, mine));
@@ -113,8 +113,7 @@ void putManifest(const fs::path& folder, const std::set<fs::path>& files) {
   put(folder, {{Manifest::name, Manifest(files).text()}});
 }
 
-// A kill can come between any two steps of a commit: the next run finishes it, whatever is there by
-// then.
+// A run may be killed between any two steps of a commit: the next run completes it from any state.
 TEST(Folder, FinishesACommitThatWasCutShort) {
   std::set<fs::path> oldNames, freshNames;
   for (const auto& [name, text] : old) oldNames.insert(name);
@@ -192,8 +191,9 @@ TEST(Folder, RemovesNothingOutsideThatAManifestNames) {
     const test::Folder place;
     put(place.path, {{"mine.txt", "mine"}});
     putManifest(place.path / "results", {path});
-    EXPECT_NE(errorOf([&] { run(place.path / "results", fresh); }).find("no path in this folder"),
-              std::string::npos)
+    EXPECT_NE(
+        errorOf([&] { run(place.path / "results", fresh); }).find("not a path in this folder"),
+        std::string::npos)
         << path;
     EXPECT_EQ(filesIn(place.path)["mine.txt"], "mine");
   }
@@ -202,7 +202,7 @@ TEST(Folder, RemovesNothingOutsideThatAManifestNames) {
 TEST(Folder, IsForOneRunAtATime) {
   const test::Folder place;
   const int other = open((place.path / Lock::name).c_str(), O_RDWR | O_CREAT,
-                         0666);  // a file of its own: another process' would do the same
+                         0666);  // as the file of another process would
   MPI_Barrier(PETSC_COMM_WORLD);
   const int taken = first() ? flock(other, LOCK_EX | LOCK_NB) : 0;
   EXPECT_EQ(taken, 0);

@@ -1,5 +1,5 @@
-// Files that are there and cannot be read: the error says why, and what the file system says is not
-// taken for a mistake in the file.
+// Files that exist and cannot be read: the error gives the reason, and does not report an error of
+// the file system as a mistake in the file.
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Permissions do not bind root, as whom the tests may run: while this lives, another user's rights
-/// hold.
+/// The tests may run as root, whom permissions do not bind: during its lifetime this object lowers
+/// the rights to those of another user.
 class Unprivileged {
  public:
   Unprivileged() {
@@ -40,7 +40,7 @@ std::string errorOfUnprivileged(const std::function<void()>& action) {
   return errorOf(action);
 }
 
-/// Collective. A file or folder that its owner alone could read, and does not.
+/// Collective. Makes a file or folder without any permissions.
 std::string withoutRights(const std::string& name) {
   return written(name, [](const auto& path) { chmod(path.c_str(), 0); });
 }
@@ -88,7 +88,7 @@ TEST(Unreadable, FilesWithoutPermissionSaySo) {
   }
 }
 
-// What is in a folder that cannot be entered is unknown, which is no reason to say that it is not.
+// A file in a folder that cannot be entered may exist; the message must not deny it.
 TEST(Unreadable, FoldersThatCannotBeEntered) {
   const std::string shut = SQUEAL_OUTPUT_DIR "/shut";
   if (rankHere() == 0) {
@@ -107,17 +107,16 @@ TEST(Unreadable, FoldersThatCannotBeEntered) {
                 {"option -mesh_file", "inside.msh" + why});
   expectMessage(errorOfUnprivileged([&] { matrices::read(PETSC_COMM_WORLD, shut + "/x.mtx"); }),
                 {"x.mtx" + why});
-  // A home folder of somebody else's holds no options for this user.
+  // The home folder of another user contains no options for this user.
   const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
   setenv("HOME", shut.c_str(), 1);
   EXPECT_EQ(errorOfUnprivileged([] { settingsOfCall({"-quiet"}); }), "");
   setenv("HOME", home.c_str(), 1);
   check(MPI_Barrier(PETSC_COMM_WORLD));
-  if (rankHere() == 0)
-    fs::permissions(shut, fs::perms::owner_all);  // so that it can be cleared away
+  if (rankHere() == 0) fs::permissions(shut, fs::perms::owner_all);  // so that it can be removed
 }
 
-// PETSc passes such a file over, and runs without what it says.
+// PETSc itself ignores such a file, and runs without its options.
 TEST(Unreadable, OptionsOfTheHomeFolderAreNotPassedOver) {
   if (rankHere() == 0) {
     fs::create_directories(SQUEAL_OUTPUT_DIR "/of_a_user");
@@ -150,7 +149,7 @@ TEST(Unreadable, LinksToNothingNameTheirTarget) {
   const std::string options = link("dangling.yaml"), matrix = link("dangling.mtx");
   expectMessage(errorOf([&] { settingsOfFile(options); }), {"dangling.yaml" + why});
   expectMessage(errorReading(matrix), {"dangling.mtx" + why});
-  // The one beside the options file is meant, although it leads nowhere.
+  // The link next to the options file is used, although it is broken.
   const auto beside = writeFile("beside_link.yaml", "mesh_file: dangling.msh\n");
   clearOptions();
   insertFile(PETSC_COMM_WORLD, beside);
