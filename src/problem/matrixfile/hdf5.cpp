@@ -38,14 +38,14 @@ bool isMatrix(hid_t object) {
   return isCompressed(object) || isMatlabSparse(object) || isTable(object);
 }
 
-/// Returns true for a number alone. MATLAB saves every number so, and none can be meant if a matrix
-/// is there.
+/// Returns true for a single number. MATLAB saves every number as a matrix; next to a real matrix
+/// none of them can be meant.
 bool isNumber(hid_t object) {
   return isTable(object) && shapeOf(object) == std::vector<hsize_t>{1, 1};
 }
 
-/// Returns true for lists by columns and false for lists by rows; none if the group does not say
-/// it. scipy.sparse.save_npz keeps the format as a dataset; a copy of it in HDF5 does too.
+/// Returns true for lists by columns and false for lists by rows; none if the group does not
+/// define it. scipy.sparse.save_npz stores the format as a dataset; so does a copy of it in HDF5.
 std::optional<bool> byColumns(hid_t group) {
   std::string found;
   for (const std::string& text :
@@ -83,7 +83,7 @@ bool isSymmetric(const Entries& entries) {
   return sums(entries.row, entries.column) == sums(entries.column, entries.row);
 }
 
-/// Throws Error unless rows and columns are as many as `size`, where they are written: in the
+/// Throws Error unless rows and columns are as many as `size`, if they are stored: in the
 /// attribute of anndata or h5sparse, or in the dataset of scipy.sparse.save_npz.
 void checkShape(hid_t group, long long size) {
   std::vector<long long> shape;

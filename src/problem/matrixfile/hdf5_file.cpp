@@ -25,9 +25,8 @@ hsize_t product(const std::vector<hsize_t>& shape, hsize_t size) {
   return size;
 }
 
-/// Returns the largest number of bytes that `stored` bytes can stand for; HSIZE_UNDEF with an
-/// unknown filter. All known filters keep something of each byte: deflate, the best at it, a
-/// thousandth.
+/// Returns the largest number of bytes that `stored` bytes can expand to; HSIZE_UNDEF with an
+/// unknown filter. Of the known filters, deflate has the highest ratio, about a thousand.
 hsize_t mostUnpacked(hid_t properties, hsize_t stored) {
   const int filters = H5Pget_nfilters(properties);
   for (int k = 0; k < filters; ++k) {
@@ -70,8 +69,8 @@ hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width,
   return product(chunk, product({chunks}, width));
 }
 
-/// Throws Error unless the file holds the values: HDF5 reads zeros where nothing was written, and
-/// takes the memory that a header asks for.
+/// Throws Error unless the values are in the file: HDF5 reads zeros if nothing was written, and
+/// allocates the memory that a header requests.
 void requireStored(hid_t dataset, hid_t type, const std::vector<hsize_t>& shape) {
   const PropertiesId properties(H5Dget_create_plist(dataset));
   if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) > 0)

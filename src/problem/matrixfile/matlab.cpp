@@ -1,5 +1,5 @@
-// MATLAB files are read by hand: matio 1.5 fills up with zeros what a file cut short no longer
-// holds, and leaves out what follows.
+// MATLAB files are read by hand: in a truncated file, matio 1.5 replaces missing values by zeros
+// and omits the variables after them.
 #include "problem/matrixfile/matlab.hpp"
 
 #include "base/petsc/check.hpp"

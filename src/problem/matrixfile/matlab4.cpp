@@ -1,4 +1,4 @@
-// A file of MATLAB's version 4 holds variables one after the other, each with a header of five
+// A file of MATLAB's version 4 consists of consecutive variables, each with a header of five
 // integers, its name and its values by columns.
 #include "problem/matrixfile/matlab4.hpp"
 
@@ -100,7 +100,7 @@ long long sizeFrom(double value) {
   return value;
 }
 
-/// Reads the size of a sparse matrix, which stands in its last row.
+/// Reads the size of a sparse matrix, which is in its last row.
 void completeSparse(BinaryFile& file, Variable& variable) {
   const std::size_t rows = variable.shape[0];
   if (!variable.real) return;

@@ -61,11 +61,12 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
   if (elasticity::prestressWanted())
     prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
   const auto friction = terms::frictionState(analysis.contact, solution, terms::Settings::given());
-  for (auto& shape : point.shapes)
+  for (auto& shape : point.shapes) {
+    const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
     shape.frictionWork =
-        terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction, point.at,
-                            point.eigenvalues[shape.index].s,
-                            linalg::ComplexVector::copied(shape.real, shape.imaginary), prestress);
+        terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction,
+                            {point.at, point.eigenvalues[shape.index].s, u, prestress});
+  }
   if (!sensitivity::sensitivitiesWanted()) return;
   Stage stage(analysis.mesh->comm, "flutter");
   influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
