@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 /// squeal: flutter of the steady sliding state of brakes. The method itself is
 /// squeal::analysis::analyse (src/analysis/analysis.cpp).
 #include <cstdio>
@@ -18,6 +19,7 @@
 #include "run/analysis/analysis.hpp"
 #include "run/analysis/dry_run.hpp"
 #include "run/report/report.hpp"
+#include "run/report/settings.hpp"
 
 namespace {
 
@@ -39,7 +41,7 @@ constexpr const char* usage =
     "Exit code: 0 done, 2 some point or stage has no result, 3 asked to stop (SIGTERM, SIGUSR1; "
     "-resume goes on), 1 error.\n";
 
-/// Prints an error and tells it to programs.
+/// Prints an error and reports it to other programs.
 void tellError(const squeal::Session& session, const std::string& message, bool onAllRanks) {
   squeal::tellEvent("error", {{"text", message}});
   const squeal::LineAway away;
@@ -74,7 +76,8 @@ int run(const squeal::Session& session) try {
   if (const auto settings = squeal::matrices::ExportSettings::given(); settings.wanted())
     squeal::matrices::requireExportFolder(session.comm(), settings, directory.path());
   squeal::analysis::Analysis analysis =
-      squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint");
+      squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint",
+                                squeal::report::Settings::given().modes);
   try {
     squeal::report::write(analysis, directory);
   } catch (const squeal::Error&) {

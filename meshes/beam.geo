@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Cantilever along x with a rectangular section, also a plain box for other checks. Lengths in m.
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Two concentric cylinders in contact on the circle r = b, in plane strain: pressure on the bore presses the inner one against the
 // outer one (Lamé's solution). Matching meshes, each cylinder with its own interface nodes. Lengths in m.
 // The whole circle is meshed: at the ends of a quarter the normals of a faceted circle would lean out of the symmetry planes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Disc brake: friction ring and hat of the disc about the z axis, one pad (friction lining and steel back plate) on the upper face
 // of the ring, its middle on the x axis. The disc turns about +z, so the matter under the pad moves along +y. Disc and lining share
 // the nodes of the contact surface; the program gives each its own. With `apart` the disc has a mesh of its own there.
@@ -64,7 +65,7 @@ For j In {0 : 6}
   angle[] = {half, -half, -half - (360 - pad_angle) / 3, half + (360 - pad_angle) / 3};
   For k In {0 : 3}
     For i In {0 : 6}
-      // The pad stands on sector 0 alone, and the hat's plate ends at its wall.
+      // The pad is only on sector 0, and the hat's plate ends at its wall.
       If ((j < 2 && i < 4) || ((j == 2 || j == 3) && i > 1) || (j > 3 && k < 2 && (i == 4 || i == 5)))
         radius = r[i] + (i == 4 ? -jut : (i == 5 ? jut : 0));
         turned = (angle[k] + (apart && j < 4 ? disc_turn : 0)) * Pi / 180;

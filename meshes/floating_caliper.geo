@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Disc brake with a floating caliper: ventilated disc with hat, two pads (friction lining and steel back plate), piston, caliper, two
 // guide pins and bracket. Every part is meshed for itself: where two touch, their faces lie on one another with a gap of zero but
-// are different surfaces with cells of different size, so that no two meshes match. Booleans join shapes of one part alone.
+// are different surfaces with cells of different size, so that no two meshes match. Booleans only join shapes of one part.
 // The disc turns about +z; the pads' middle is on the x axis, where the disc moves along +y. -z is inboard: piston, hub and
 // vehicle are there, the hat and the caliper's finger are outboard. Lengths in m, angles in degrees. Sources: README.md.
 SetFactory("OpenCASCADE");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A cylinder on a block, the half x > 0 of both and the lower half of the cylinder, or a sphere on a block, a quarter of both.
 // They are `lift` apart at the origin, lest gmsh unites the points there; y points from the block to the round body. Cells are
 // fine near the contact, and the meshes do not match there. Lengths in mm, so that MPa and N go with them.

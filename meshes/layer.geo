@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // One elastic layer, a cell of length Lx of a strip periodic in x; plane mesh, y = 0 is the sliding surface. Lengths in m.
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The layer of layer.geo as a solid slab one cell thick in z. Clamp z on the group `layer` for plane strain. Lengths in m.
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells

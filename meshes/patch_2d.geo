@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Patch test in the plane: the unit square of 2 x 2 blocks whose corners are moved off the regular grid, so that every cell is
 // distorted. Lengths in m.
 DefineConstant[

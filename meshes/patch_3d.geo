@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Patch test in space: the unit cube of 2 x 2 x 2 blocks whose corners are moved off the regular grid, so that every cell is
 // distorted. The faces of the cube stay plane, those inside are warped. Lengths in m.
 DefineConstant[

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Patch test with three kinds of cells: hexahedra below, tetrahedra above, and pyramids between them on the faces of the hexahedra.
 // The surface where they meet is warped. Lengths in m.
 DefineConstant[

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Free circular ring of rectangular section about the z axis, for comparison with the theory of thin rings. Lengths in m.
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},                          // 1 linear, 2 quadratic cells

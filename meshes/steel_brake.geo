@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Disc between two pads, unstructured tetrahedra as a mesher makes them of CAD parts. Disc and pads share the nodes of the contact
 // surfaces; the program gives each its own. Axis z, angles from the x axis; lengths in m.
 SetFactory("OpenCASCADE");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Two elastic layers on each other, a cell of length Lx of strips periodic in x; plane mesh, y = 0 is the sliding surface.
 // The meshes match on it unless nx_pad is given. Lengths in m.
 DefineConstant[

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The two layers of two_layers.geo as solid slabs one cell thick in z: clamp z on both bodies for plane strain, or x and y, with
 // front an image of back, for anti-plane motion. Lengths in m.
 DefineConstant[

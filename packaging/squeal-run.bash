@@ -1,4 +1,6 @@
-# Completion of squeal-run for bash: names of cases and files first, then the options of squeal, whose completion stands beside this file.
+# SPDX-License-Identifier: BSD-2-Clause
+# Completion of squeal-run for bash: names of cases and files first, then the options of squeal,
+# whose completion stands beside this file.
 # shellcheck source=packaging/squeal.bash
 . "${BASH_SOURCE[0]%-run}"
 _squeal_run() {

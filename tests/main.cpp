@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 /// main() of every test program: one session for all its tests, one verdict for all ranks.
 #include <gtest/gtest.h>
 #include <mpi.h>

@@ -1,89 +1,148 @@
+// SPDX-License-Identifier: BSD-2-Clause
 "use strict";
-// The motion after flutter: growth to saturation, spectrum, and what each contact node does. One run is shown at a time.
+// The motion after flutter: growth to saturation, spectrum, and state of the contact nodes. One run
+// is shown at a time.
 
-const regime = { charts: {}, run: 0, field: 0, line: 0 };
+const regime = {
+  charts: {},
+  run: 0,
+  field: 0,
+  line: 0
+};
 
 /** Points of [x, y] as Chart.js takes them. */
-const pointsOf = (line) => line.map(([x, y]) => ({ x, y }));
+const pointsOf = (line) => line.map(([x, y]) => ({x, y}));
+
+/** The words of a point: those that it has, or its coordinates. */
+function labelOf(context) {
+  const {text, x, y} = context.raw;
+  return text || `${digits(x, 5)}, ${digits(y, 4)}`;
+}
 
 function regimeChart(id, xTitle, yTitle, logarithmic) {
-  const axis = (text) => ({ title: { display: true, text } });
+  const axis = (text) => ({title: {display: true, text}});
+  const y = logarithmic ? {...axis(yTitle), type: "logarithmic"} : axis(yTitle);
   regime.charts[id] = new Chart(element(id), {
     type: "scatter",
-    data: { datasets: [] },
+    data: {datasets: []},
     options: {
-      animation: false, maintainAspectRatio: false, normalized: true,
-      plugins: { legend: { display: false }, tooltip: { callbacks: { label: (context) => context.raw.text || `${digits(context.raw.x, 5)}, ${digits(context.raw.y, 4)}` } } },
-      scales: { x: axis(xTitle), y: logarithmic ? { ...axis(yTitle), type: "logarithmic" } : axis(yTitle) },
+      animation: false,
+      maintainAspectRatio: false,
+      normalized: true,
+      plugins: {legend: {display: false}, tooltip: {callbacks: {label: labelOf}}},
+      scales: {x: axis(xTitle), y},
     },
   });
 }
 
-/** A dashed line through the diagram, where there is one to draw. */
+/** A dashed line through the diagram. */
 function guide(from, to) {
-  return { data: [from, to], showLine: true, pointRadius: 0, pointHitRadius: 0, borderColor: css("--soft"), borderDash: [5, 4], borderWidth: 1 };
+  return {
+    data: [from, to],
+    showLine: true,
+    pointRadius: 0,
+    pointHitRadius: 0,
+    borderColor: css("--soft"),
+    borderDash: [5, 4],
+    borderWidth: 1
+  };
 }
 
 function curve(line) {
-  return { data: line, showLine: true, pointRadius: 0, pointHitRadius: 4, borderColor: css("--accent"), borderWidth: 1 };
+  return {
+    data: line,
+    showLine: true,
+    pointRadius: 0,
+    pointHitRadius: 4,
+    borderColor: css("--accent"),
+    borderWidth: 1
+  };
 }
 
 function growthSets(run) {
-  const line = pointsOf(run.cycles).map(({ x, y }) => ({ x: 1e3 * x, y }));
+  const line = pointsOf(run.cycles).map(({x, y}) => ({x: 1e3 * x, y}));
   if (!line.length || !(run.onset > 0)) return [curve(line)];
-  return [curve(line), guide({ x: line[0].x, y: run.onset }, { x: line[line.length - 1].x, y: run.onset })];
+  return [
+    curve(line), guide({x: line[0].x, y: run.onset}, {x: line[line.length - 1].x, y: run.onset})
+  ];
 }
 
 function spectrumSets(run) {
-  const line = pointsOf(Object.values(run.spectrum)[regime.line] || []).map(({ x, y }) => ({ x: x / 1e3, y }));
+  const line =
+      pointsOf(Object.values(run.spectrum)[regime.line] || []).map(({x, y}) => ({x: x / 1e3, y}));
   if (!line.length || !run.flutter) return [curve(line)];
-  const heights = line.map(({ y }) => y), at = run.flutter / 1e3;
-  return [curve(line), guide({ x: at, y: heights.reduce((a, b) => Math.min(a, b)) }, { x: at, y: heights.reduce((a, b) => Math.max(a, b)) })];
+  const heights = line.map(({y}) => y), at = run.flutter / 1e3;
+  return [
+    curve(line),
+    guide(
+        {x: at, y: heights.reduce((a, b) => Math.min(a, b))},
+        {x: at, y: heights.reduce((a, b) => Math.max(a, b))})
+  ];
 }
 
 function nodeSets(run) {
   if (!run.nodes) return [];
-  const { title, unit, values } = run.nodes.fields[regime.field];
+  const {title, unit, values} = run.nodes.fields[regime.field];
   const most = values.reduce((a, b) => Math.max(a, b), 0) || 1;
-  const colour = (value) => data.colours[Math.min(31, Math.max(0, Math.floor((32 * value) / most)))];
   element("nodescale").textContent = `dark: 0, bright: ${digits(most, 3)} ${unit}`;
-  return [{ data: run.nodes.places.map(([x, y], i) => ({ x, y, text: `${title} ${digits(values[i], 4)} ${unit}` })), pointRadius: 5, borderWidth: 0,
-    backgroundColor: values.map((value) => `rgb(${colour(value).join(",")})`) }];
+  return [{
+    data: run.nodes.places.map(
+        ([x, y], i) => ({x, y, text: `${title} ${digits(values[i], 4)} ${unit}`})),
+    pointRadius: 5,
+    borderWidth: 0,
+    backgroundColor: values.map((value) => rgb(colourAt(value / most)))
+  }];
 }
 
 /** Periodic motions over the friction: filled where they are stable. */
 function periodicSets(run) {
   const colour = css("--accent");
-  const text = (motion) => `friction ${digits(motion[0], 5)}, ${digits(motion[1], 4)} J, ${digits(motion[3], 6)} Hz, ${motion[2] ? "stable" : "unstable"}`;
-  return [{ data: run.periodic.map((motion) => ({ x: motion[0], y: motion[1], text: text(motion) })), pointRadius: 5, borderColor: colour, borderWidth: 1.5,
-    backgroundColor: run.periodic.map((motion) => (motion[2] ? colour : "transparent")) }];
+  const text =
+      ([friction, energy, stable,
+        frequency]) => [`friction ${digits(friction, 5)}`, `${digits(energy, 4)} J`,
+                        `${digits(frequency, 6)} Hz`, stable ? "stable" : "unstable"]
+                           .join(", ");
+  return [{
+    data: run.periodic.map((motion) => ({x: motion[0], y: motion[1], text: text(motion)})),
+    pointRadius: 5,
+    borderColor: colour,
+    borderWidth: 1.5,
+    backgroundColor: run.periodic.map((motion) => (motion[2] ? colour : "transparent"))
+  }];
 }
 
-/** Draws the run that is chosen; nothing where no motion was followed. */
+/** Draws the chosen run, if there is one. */
 function drawRegime() {
   const run = data.regimes[regime.run];
   if (!run || !regime.charts.cycles) return;
   element("regimesentence").textContent = run.sentence;
-  const sets = { cycles: growthSets(run), spectrum: spectrumSets(run), nodes: nodeSets(run), periodic: periodicSets(run) };
+  const sets = {
+    cycles: growthSets(run),
+    spectrum: spectrumSets(run),
+    nodes: nodeSets(run),
+    periodic: periodicSets(run)
+  };
   element("branch").hidden = !run.periodic.length;
-  regime.charts.spectrum.options.scales.y.title.text = Object.keys(run.spectrum)[regime.line] || "";
-  if (run.nodes) [regime.charts.nodes.options.scales.x.title.text, regime.charts.nodes.options.scales.y.title.text] = run.nodes.axes.map((axis) => `${axis} [mm]`);
+  const spectrum = regime.charts.spectrum.options.scales,
+        nodes = regime.charts.nodes.options.scales;
+  spectrum.y.title.text = Object.keys(run.spectrum)[regime.line] || "";
+  if (run.nodes)
+    [nodes.x.title.text, nodes.y.title.text] = run.nodes.axes.map((axis) => `${axis} [mm]`);
   for (const [id, one] of Object.entries(regime.charts)) {
-    for (const axis of Object.values(one.options.scales)) {
-      axis.grid = { color: css("--line") };
-      axis.ticks = { ...axis.ticks, color: css("--ink") };
-      axis.title.color = css("--ink");
-    }
+    colourAxes(one.options);
     one.data.datasets = sets[id];
     one.update("none");
   }
 }
 
-/** Fills a menu and draws anew when another entry is chosen. */
+/** Fills a menu and redraws when another entry is chosen. */
 function regimeMenu(id, titles, key) {
   element(id).replaceChildren(...titles.map((title, i) => new Option(title, i)));
   element(id).hidden = titles.length === 0;
-  element(id).addEventListener("change", (event) => { regime[key] = Number(event.target.value); drawRegime(); });
+  element(id).addEventListener("change", (event) => {
+    regime[key] = Number(event.target.value);
+    drawRegime();
+  });
 }
 
 function makeRegime() {

@@ -1,15 +1,17 @@
-# Copyright (c) The squeal developers
 # SPDX-License-Identifier: BSD-2-Clause
-"""Recipe of squeal for Spack. It stands in the folder packages/squeal of a Spack repository; packaging/README.md says how."""
+# Copyright (c) The squeal developers
+"""Recipe of squeal for Spack. Copy it to the folder packages/squeal of a Spack repository;
+packaging/README.md says how."""
 
 from spack.package import *
 
 
 class Squeal(CMakePackage):
-    """Brake squeal: flutter instability of the steady sliding of brake pads on a disc, with unilateral contact and Coulomb friction, by
-    the finite element method in parallel."""
+    """Brake squeal: flutter instability of the steady sliding of brake pads on a disc, with
+    unilateral contact and Coulomb friction, by the finite element method in parallel."""
 
-    # There is no archive to fetch: the recipe builds a folder of sources (spack dev-build, spack develop).
+    # There is no archive to fetch: the recipe builds a folder of sources (spack dev-build, spack
+    # develop).
     license("BSD-2-Clause")
     version("0.1.0")
 
@@ -63,8 +65,12 @@ class Squeal(CMakePackage):
         if "+report" not in self.spec:
             return
         scripts = join_path(self.prefix.share, "squeal", "scripts")
-        for name in ("squeal-report", "squeal-plot", "squeal-merge", "plot_stability.py", "plot_mode.py", "plot_regime.py", "convert_matrix"):
-            filter_file(r"^#!/usr/bin/python3", "#!" + self.spec["python"].command.path, join_path(scripts, name))
+        for name in ("squeal-report", "squeal-plot", "squeal-merge", "convert_matrix"):
+            filter_file(
+                r"^#!/usr/bin/python3",
+                "#!" + self.spec["python"].command.path,
+                join_path(scripts, name),
+            )
 
     def setup_run_environment(self, env):
         if "+report" in self.spec:

@@ -1,4 +1,6 @@
-"""Results of squeal, the program for brake squeal: tables as pandas, modes and contact fields as numpy arrays and VTK grids.
+# SPDX-License-Identifier: BSD-2-Clause
+"""Results of squeal, the program for brake squeal: pandas tables, modes and contact fields as numpy
+arrays and VTK grids.
 
     import squeal
     run = squeal.open("results/disc_brake")
@@ -8,6 +10,15 @@
 """
 from squeal.files import ResultsError
 from squeal.keys import PARAMETERS
-from squeal.results import Mode, Results, open  # noqa: A004
 
 __all__ = ["PARAMETERS", "Mode", "Results", "ResultsError", "open"]
+
+
+def __getattr__(name):
+    """Imports numpy, pandas and h5py when a program first opens results: a command can then report
+    which of them is missing."""
+    if name in ("Mode", "Results", "open"):
+        from squeal import results
+
+        return getattr(results, name)
+    raise AttributeError(f"module 'squeal' has no attribute '{name}'")

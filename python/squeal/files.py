@@ -1,29 +1,43 @@
-"""Opens files in a folder of results only if they are regular files: a link of the same name leads to a foreign file, and a pipe blocks."""
+# SPDX-License-Identifier: BSD-2-Clause
+"""Opens only regular files in a folder of results.
+
+A link of the same name would lead to another file, and a named pipe would block.
+"""
 import errno
 import os
 import stat
 from pathlib import Path
 
-KINDS = ((stat.S_ISLNK, "a link"), (stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a named pipe"), (stat.S_ISSOCK, "a socket"))
+KINDS = (
+    (stat.S_ISLNK, "a link"),
+    (stat.S_ISDIR, "a folder"),
+    (stat.S_ISFIFO, "a named pipe"),
+    (stat.S_ISSOCK, "a socket"),
+)
 
 
 class ResultsError(Exception):
-    """A folder holds no complete results, or not what was asked for."""
+    """A folder holds no complete results, or not the results that were requested."""
 
 
 def why_not_regular(path):
-    """A sentence such as "PATH is a link, not a regular file"; none where nothing, or a regular file, has this name."""
+    """Returns a sentence such as "PATH is a link, not a regular file"; None for a regular file,
+    or if there is no file."""
     try:
         mode = os.lstat(path).st_mode
     except OSError:
         return None
     if stat.S_ISREG(mode):
         return None
-    return f"{path} is {next((kind for is_one, kind in KINDS if is_one(mode)), 'a device')}, not a regular file"
+    return (
+        f"{path} is {next((kind for is_one, kind in KINDS if is_one(mode)), 'a device')}, not a"
+        " regular file"
+    )
 
 
 def is_there(path):
-    """Whether a regular file has this name. Raises ResultsError where something else has it."""
+    """Returns whether there is a regular file. Raises ResultsError if something else has its
+    name."""
     why = why_not_regular(path)
     if why:
         raise ResultsError(why)
@@ -31,14 +45,17 @@ def is_there(path):
 
 
 def open_regular(path, flags=os.O_RDONLY):
-    """Opens a regular file as os.open does, and never waits. Raises ResultsError where something else has its name, and OSError."""
+    """Opens a regular file as os.open does, but never blocks. Raises ResultsError if something
+    else has its name, and OSError."""
     why = why_not_regular(path)
     if why:
         raise ResultsError(why)
     try:
-        file = os.open(path, (flags & ~os.O_TRUNC) | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+        file = os.open(
+            path, (flags & ~os.O_TRUNC) | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666
+        )
     except OSError as error:
-        if error.errno in (errno.ELOOP, errno.ENXIO):  # put there meanwhile
+        if error.errno in (errno.ELOOP, errno.ENXIO):  # somebody has put it there meanwhile
             raise ResultsError(f"{path} is not a regular file") from None
         raise
     try:
@@ -53,7 +70,8 @@ def open_regular(path, flags=os.O_RDONLY):
 
 
 def read_text(path):
-    """The text of a file. Raises ResultsError where it cannot be read, or is no text; FileNotFoundError where there is none."""
+    """Returns the text of a file. Raises FileNotFoundError if there is no file, and ResultsError
+    if it cannot be read or is not text."""
     try:
         with os.fdopen(open_regular(path), "rb") as file:
             return file.read().decode("utf-8")
@@ -66,8 +84,13 @@ def read_text(path):
 
 
 def make_new(path):
-    """Makes an empty file, of which nothing has the name yet: what is written to it goes nowhere else."""
-    os.close(os.open(Path(path), os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666))
+    """Creates an empty file under a name that is still free, so that nothing is written
+    elsewhere."""
+    os.close(
+        os.open(
+            Path(path), os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666
+        )
+    )
 
 
 __all__ = ["ResultsError", "is_there", "make_new", "open_regular", "read_text", "why_not_regular"]

@@ -1,11 +1,13 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Meshes and modes as VTK grids."""
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import VTK_DOUBLE, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 
-# VTK's cell type of gmsh's element types and, where the order of the nodes differs, the node of gmsh for each of VTK: in solids gmsh
-# sorts the mid-edge nodes by the corners of their edge, VTK walks round the base, round the top, then up the edges between.
+# VTK's cell type of gmsh's element types and, where the order of the nodes differs, the node of
+# gmsh for each of VTK: in solids gmsh sorts the mid-edge nodes by the corners of their edge, VTK
+# walks round the base, round the top, then up the edges between.
 CELLS = {
     2: (5, None),
     3: (9, None),
@@ -16,7 +18,38 @@ CELLS = {
     9: (22, None),
     10: (28, None),
     11: (24, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
-    12: (29, [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26]),
+    12: (
+        29,
+        [
+            0,
+            1,
+            2,
+            3,
+            4,
+            5,
+            6,
+            7,
+            8,
+            11,
+            13,
+            9,
+            16,
+            18,
+            19,
+            17,
+            10,
+            12,
+            14,
+            15,
+            22,
+            23,
+            21,
+            24,
+            20,
+            25,
+            26,
+        ],
+    ),
     13: (32, [0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16]),
     14: (27, [0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12]),
     16: (23, None),
@@ -27,7 +60,8 @@ CELLS = {
 
 
 def grid_of(mesh):
-    """A vtkUnstructuredGrid with the cell array `body` and the names of the bodies as field data."""
+    """A vtkUnstructuredGrid with the cell array `body` and the names of the bodies as field
+    data."""
     points = vtkPoints()
     points.SetData(numpy_to_vtk(mesh.coordinates, deep=True, array_type=VTK_DOUBLE))
     offsets, nodes, types, bodies = [np.zeros(1, np.int64)], [], [], []
@@ -35,11 +69,16 @@ def grid_of(mesh):
         vtk_type, order = CELLS[gmsh_type]
         of_cells = block["nodes"] if order is None else block["nodes"][:, order]
         nodes.append(of_cells.astype(np.int64).ravel())
-        offsets.append(offsets[-1][-1] + of_cells.shape[1] * np.arange(1, len(of_cells) + 1, dtype=np.int64))
+        offsets.append(
+            offsets[-1][-1] + of_cells.shape[1] * np.arange(1, len(of_cells) + 1, dtype=np.int64)
+        )
         types.append(np.full(len(of_cells), vtk_type, np.uint8))
         bodies.append(block["body"].ravel())
     cells = vtkCellArray()
-    cells.SetData(numpy_to_vtkIdTypeArray(np.concatenate(offsets), deep=True), numpy_to_vtkIdTypeArray(np.concatenate(nodes), deep=True))
+    cells.SetData(
+        numpy_to_vtkIdTypeArray(np.concatenate(offsets), deep=True),
+        numpy_to_vtkIdTypeArray(np.concatenate(nodes), deep=True),
+    )
     grid = vtkUnstructuredGrid()
     grid.SetPoints(points)
     grid.SetCells(numpy_to_vtk(np.concatenate(types), deep=True), cells)

@@ -1,10 +1,12 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The parameters of a sweep, as keys of points."""
 
 PARAMETERS = ("friction", "speed", "pressure", "damping")
 
 
 def key_of(values):
-    """Parameters in a form in which equal ones are equal, whether counted up to or written: 0.1 + 0.2 is 0.3."""
+    """Returns parameters as a key: equal values have equal keys, also if one was counted up to,
+    as 0.1 + 0.2, and the other was written, as 0.3."""
     return tuple(float(f"{float(value):.12g}") for value in values)
 
 

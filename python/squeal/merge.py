@@ -1,17 +1,28 @@
-"""Joins the results of several runs over parts of one grid of parameters, or lists those of variants."""
-import contextlib
+# SPDX-License-Identifier: BSD-2-Clause
+"""Joins the results of several runs over parts of one grid of parameters, or lists variants."""
+import argparse
 import json
 import os
-import shutil
-import tempfile
+import signal
+import sys
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from squeal.parts import SWEPT, TABLES, differs, indifferent, keys_of, owners_of, read_parts, require_alike
-from squeal.files import ResultsError, read_text
+from squeal.files import ResultsError
+from squeal.folder import new_folder, read_manifest, write_manifest
 from squeal.keys import PARAMETERS, key_of
+from squeal.parts import (
+    SWEPT,
+    TABLES,
+    differs,
+    indifferent,
+    keys_of,
+    owners_of,
+    read_parts,
+    require_alike,
+)
 from squeal.results import read_summary
 from squeal.schema import VERDICTS as GRAVITY
 
@@ -19,43 +30,72 @@ SAME_CRITICAL = 1e-7  # relative; ten times -flutter_critical_tolerance by defau
 
 
 def merge(out, folders):
-    """Writes the folder `out` with the joined results of `folders`; returns what there is to say, in lines. Raises ResultsError."""
+    """Writes the folder `out` with the joined results of `folders`. Returns messages, one per
+    line. Raises ResultsError."""
     parts = read_parts(folders, out)
     for part in parts[1:]:
         require_alike(parts[0], part)
     taken, said = owners_of(parts)
     tables, left = _joined_tables(parts, taken)
-    said += [f"{name}.csv is not merged: {', '.join(map(str, folders))} have none" for name, folders in left.items()]
+    said += [
+        f"{name}.csv is not merged: {', '.join(map(str, folders))} have none"
+        for name, folders in left.items()
+    ]
     grid = np.prod([tables["stability_map"][name].astype(float).nunique() for name in PARAMETERS])
     points = len(tables["stability_map"])
     if points < grid:
         said.append(f"{points} of the {grid} points of the grid of all values are there")
-    with _new_folder(out) as new:
+    _require_replaceable(out)
+    with new_folder(out) as new:
         for name, table in tables.items():
             table.to_csv(new / f"{name}.csv", index=False, lineterminator="\n")
-        shapes = {name: {"rows": len(table), "columns": list(table.columns)} for name, table in tables.items()}
+        shapes = {
+            name: {"rows": len(table), "columns": list(table.columns)}
+            for name, table in tables.items()
+        }
         _write_summary(new, {**_joined_summary(parts, taken, out, left), "tables": shapes})
-    said.append(f"{points} points of {len(parts)} parts in {out}; mode shapes and fields stay in the parts")
+    said.append(
+        f"{points} points of {len(parts)} parts in {out}; mode shapes and fields stay in the parts"
+    )
     return said
 
 
 def list_variants(out, folders):
-    """Writes the folder `out` with variants.csv, a row for each of `folders`; returns what there is to say, in lines."""
+    """Writes the folder `out` with variants.csv, which has a row for each of `folders`. Returns
+    messages, one per line."""
     parts = read_parts(folders, out)
     known = sorted(set().union(*(part.options for part in parts)))
     differing = [name for name in known if any(differs(name, parts[0], part) for part in parts[1:])]
     rows = [
-        {"part": _from(out, part.folder), **{name: part.options.get(name, "") for name in differing}, **_outcome(part)} for part in parts
+        {
+            "part": _from(out, part.folder),
+            **{name: part.options.get(name, "") for name in differing},
+            **_outcome(part),
+        }
+        for part in parts
     ]
-    with _new_folder(out) as new:
+    _require_replaceable(out)
+    with new_folder(out) as new:
         pd.DataFrame(rows).to_csv(new / "variants.csv", index=False, lineterminator="\n")
-        _write_summary(new, {"version": parts[0].summary.get("version", ""), "complete": True, "variants": True,
-                             "options_that_differ": differing, "parts": [_entry(part, out) for part in parts]})  # fmt: skip
-    return [f"{len(parts)} variants, which differ in {', '.join(differing) or 'nothing'}, in {Path(out) / 'variants.csv'}"]
+        _write_summary(
+            new,
+            {
+                "version": parts[0].summary.get("version", ""),
+                "complete": True,
+                "variants": True,
+                "options_that_differ": differing,
+                "parts": [_entry(part, out) for part in parts],
+            },
+        )
+    return [
+        f"{len(parts)} variants, which differ in {', '.join(differing) or 'nothing'}, in"
+        f" {Path(out) / 'variants.csv'}"
+    ]
 
 
 def _joined_tables(parts, taken):
-    """The tables that all parts have, row by row as the parts have them; and the folders that lack one that others have."""
+    """Returns the tables that all parts have, and for each table that only some have, the
+    folders without it."""
     left = {}
     for name in TABLES:
         without = [part.folder for part in parts if name not in part.tables]
@@ -75,13 +115,15 @@ def _joined_tables(parts, taken):
         columns = list(pieces[0].columns)
         for part, piece in zip(parts, pieces):
             if list(piece.columns) != columns:
-                raise ResultsError(f"{part.folder / name}.csv has other columns than {parts[0].folder / name}.csv")
+                raise ResultsError(
+                    f"{part.folder / name}.csv has other columns than {parts[0].folder / name}.csv"
+                )
         tables[name] = _in_order(pd.concat(pieces, ignore_index=True), name)
     return tables, left
 
 
 def _in_order(table, name):
-    """The rows in the order in which one run over the whole grid writes them."""
+    """Sorts the rows as one run over the whole grid would write them."""
     keys = ["damping", "speed", "pressure"]
     keys += ["branch", "friction"] if name == "branches" else ["friction"]
     order = table[keys].astype(float).sort_values(keys, kind="stable").index
@@ -89,9 +131,13 @@ def _in_order(table, name):
 
 
 def _renumbered(parts):
-    """branches.csv and critical.csv of each part. Branches are numbered along a line of equal speed, pressure and damping; where two parts
-    follow the same line, the numbers of the later one go on after those of the earlier one, and no branch of one part is joined to one of
-    another. Active sets are numbered through all parts; 0 stays 0. A critical friction that both parts have found is taken once."""
+    """Renumbers the branches and active sets in branches.csv and critical.csv of each part.
+
+    Branches are numbered along a line of equal speed, pressure and damping. If two parts follow
+    the same line, the numbers of the later part continue those of the earlier one; branches of
+    different parts are not joined. Active sets are numbered through all parts; 0 stays 0. A
+    critical friction that both parts have found appears once.
+    """
     last, sets, found, results = {}, 0, [], []
     for part in parts:
         made = {}
@@ -104,7 +150,9 @@ def _renumbered(parts):
         for name, table in (("branches", branches), ("critical", critical)):
             if table is None:
                 continue
-            shift = pd.Series([last.get(line, 0) for line in _line(table)], index=table.index, dtype=int)
+            shift = pd.Series(
+                [last.get(line, 0) for line in _line(table)], index=table.index, dtype=int
+            )
             made[name] = table.copy()
             for column in ("branch", "partner"):
                 if column in table:
@@ -113,7 +161,13 @@ def _renumbered(parts):
             numbers = table["active_set"].astype(int)
             made[name]["active_set"] = numbers.where(numbers <= 0, numbers + sets).astype(str)
         if critical is not None:
-            fresh = np.array([not any(_same_critical(row, known) for known in found) for row in critical.to_dict("records")], bool)
+            fresh = np.array(
+                [
+                    not any(_same_critical(row, known) for known in found)
+                    for row in critical.to_dict("records")
+                ],
+                bool,
+            )
             found += critical[fresh].to_dict("records")
             made["critical"] = made["critical"][fresh]
         for line, count in counts.items():
@@ -129,8 +183,14 @@ def _line(table):
 
 def _same_critical(one, other):
     same = [one[name] == other[name] for name in ("kind", "direction")]
-    same += [key_of(one[name] for name in PARAMETERS[1:]) == key_of(other[name] for name in PARAMETERS[1:])]
-    same += [np.isclose(float(one[name]), float(other[name]), rtol=SAME_CRITICAL, atol=SAME_CRITICAL) for name in ("friction", "frequency_hz")]
+    same += [
+        key_of(one[name] for name in PARAMETERS[1:])
+        == key_of(other[name] for name in PARAMETERS[1:])
+    ]
+    same += [
+        np.isclose(float(one[name]), float(other[name]), rtol=SAME_CRITICAL, atol=SAME_CRITICAL)
+        for name in ("friction", "frequency_hz")
+    ]
     return all(same)
 
 
@@ -140,23 +200,46 @@ def _joined_summary(parts, taken, out, left):
     for number, (part, fresh) in enumerate(zip(parts, taken), 1):
         for entry in part.summary.get("frictions", []):
             point = key_of(entry[name] for name in PARAMETERS)
-            if point in fresh or point not in frictions:  # a point without steady sliding is in no table
+            # A point without steady sliding is in no table.
+            if point in fresh or point not in frictions:
                 frictions[point] = {**entry, "part": number}
         sets += [{**entry, "part": number} for entry in part.summary.get("active_sets", [])]
     frictions = list(frictions.values())
     order = ("damping", "speed", "pressure", "friction")
-    options = {name: value for name, value in first.get("options", {}).items() if not indifferent(name)}
+    options = {
+        name: value for name, value in first.get("options", {}).items() if not indifferent(name)
+    }
     for name in PARAMETERS:
         if f"flutter_{name}" in options:
             values = sorted({entry[name] for entry in frictions})
             options[f"flutter_{name}"] = ",".join(f"{value:.15g}" for value in values)
-    shared = {name: first[name] for name in ("version", "case", "nodes", "cells", "contact_nodes", "interfaces", "method", "dofs") if name in first}
+    shared = {
+        name: first[name]
+        for name in (
+            "version",
+            "case",
+            "nodes",
+            "cells",
+            "contact_nodes",
+            "interfaces",
+            "method",
+            "dofs",
+        )
+        if name in first
+    }
     return {
         **shared,
         "complete": all(part.summary["complete"] for part in parts),
         "parts": [_entry(part, out) for part in parts],
-        "branches_joined": "no: a branch ends where its part does; numbers are unique on a line of equal speed, pressure and damping",
-        "not_merged": {"results.h5": "mode shapes and fields are in the parts", "modes.csv, steady_*.csv, contact_path.csv, onset.csv, regime*.csv": "in the parts", **{f"{name}.csv": "not in all parts" for name in left}},
+        "branches_joined": (
+            "no: a branch ends where its part does; numbers are unique on a line of equal speed,"
+            " pressure and damping"
+        ),
+        "not_merged": {
+            "results.h5": "mode shapes and fields are in the parts",
+            "modes.csv, steady_*.csv, contact_path.csv, onset.csv, regime*.csv": "in the parts",
+            **{f"{name}.csv": "not in all parts" for name in left},
+        },
         "frictions": sorted(frictions, key=lambda entry: [entry[name] for name in order]),
         "active_sets": sets,
         "wall_s": sum(part.summary.get("wall_s", 0) for part in parts),
@@ -183,16 +266,22 @@ def _from(out, path):
 
 
 def _outcome(part):
-    """What became of a variant, at its worst."""
+    """Returns the worst results of a variant."""
     points = part.results.stability_map
     row = {"points": len(points), "unstable_points": int((points["unstable_modes"] > 0).sum())}
     growth = points["largest_growth_rate_1_per_s"]
     worst = points.loc[growth.idxmax()] if growth.notna().any() else None
     row["worst_growth_rate_1_per_s"] = "" if worst is None else worst["largest_growth_rate_1_per_s"]
-    row["worst_frequency_hz"] = "" if worst is None or "frequency_hz" not in worst else worst["frequency_hz"]
+    row["worst_frequency_hz"] = (
+        "" if worst is None or "frequency_hz" not in worst else worst["frequency_hz"]
+    )
     row["worst_friction"] = "" if worst is None else worst["friction"]
     critical = part.results.critical
-    lost = [] if critical is None else critical[(critical["direction"] == "loss") & (critical["converged"] == 1)]["friction"]
+    lost = (
+        []
+        if critical is None
+        else critical[(critical["direction"] == "loss") & (critical["converged"] == 1)]["friction"]
+    )
     row["critical_friction"] = min(lost, default="")
     verdicts = set(points["verdict"])
     row["verdict"] = next((verdict for verdict in GRAVITY if verdict in verdicts), "")
@@ -201,57 +290,51 @@ def _outcome(part):
 
 def _write_summary(folder, summary):
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n")
-    names = sorted([*(path.name for path in folder.iterdir()), "manifest.txt"])
-    head = f"# squeal {summary.get('version', '')}: the {len(names)} files of a run"  # the program and scripts/results.py read it
-    (folder / "manifest.txt").write_text("\n".join([head, *names]) + "\n")
-
-
-@contextlib.contextmanager
-def _new_folder(out):
-    """A folder beside `out` that takes its place when it is complete; an earlier merge there goes then, and nothing else ever does."""
-    out = Path(out)
-    _require_replaceable(out)
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        new = Path(tempfile.mkdtemp(prefix=f".{out.name}.", dir=out.parent))
-    except OSError as error:
-        raise ResultsError(f"cannot write {out}: {error.strerror}") from None
-    try:
-        yield new
-        new.chmod(0o777 & ~_mask())
-        for path in new.iterdir():
-            with path.open("rb") as file:
-                os.fsync(file.fileno())
-        earlier = new.with_name(new.name + ".earlier")
-        if out.exists():
-            out.rename(earlier)
-        new.rename(out)
-        shutil.rmtree(earlier, ignore_errors=True)
-    except OSError as error:
-        raise ResultsError(f"cannot write {out}: {error.strerror}") from None
-    finally:
-        shutil.rmtree(new, ignore_errors=True)
-
-
-def _mask():
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+    write_manifest(folder, summary.get("version", ""))
 
 
 def _require_replaceable(out):
+    """Raises ResultsError unless `out` is free, or holds an earlier merge and nothing else."""
+    out = Path(out)
     if not os.path.lexists(out):
         return
     try:
         merged = "parts" in read_summary(out / "summary.json")
-        listed = set(read_text(out / "manifest.txt").splitlines()[1:])
+        listed = read_manifest(out) or []
         others = sorted(path.name for path in out.iterdir() if path.name not in listed)
     except (OSError, ValueError, ResultsError):
         merged, others = False, []
     if not merged:
-        raise ResultsError(f"{out} exists and is no merge: name another folder, or move it")
+        raise ResultsError(f"{out} exists and is not a merge: name another folder, or move it")
     if others:
-        raise ResultsError(f"{out} holds a file that no merge has written, {others[0]}: move it")
+        raise ResultsError(f"{out} holds {others[0]}, which no merge has written: move it")
 
 
-__all__ = ["list_variants", "merge"]
+HELP = """squeal-merge [--variants] OUT DIR...: joins the results of several runs.
+
+The folders DIR hold the results of runs over parts of one grid of parameters. The new folder OUT
+holds summary.json and the tables that all parts have; squeal-plot, squeal-report and squeal.open()
+read it. Mode shapes and fields stay in the parts. The parts may differ only in -flutter_friction,
+_speed, _pressure and _damping.
+--variants: the parts may differ in any option. OUT holds variants.csv, with a row for each part and
+a column for each option that differs.
+The command replaces an earlier merge in OUT and refuses to replace anything else.
+"""
+
+
+def main(words):
+    parser = argparse.ArgumentParser(
+        prog="squeal-merge", description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--variants", action="store_true", help="list variants of a case")
+    parser.add_argument("out", metavar="OUT")
+    parser.add_argument("folders", metavar="DIR", nargs="+")
+    arguments = parser.parse_args(words)
+    # The exception lets new_folder() remove its folder.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    join = list_variants if arguments.variants else merge
+    for line in join(arguments.out, arguments.folders):
+        print(f"merge: {line}")
+
+
+__all__ = ["list_variants", "main", "merge"]

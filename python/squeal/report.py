@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The report of a run: one HTML file that opens offline in a browser."""
 import base64
 import html
@@ -5,6 +6,7 @@ import json
 import math
 import os
 import re
+import sys
 import zlib
 from pathlib import Path
 
@@ -13,16 +15,39 @@ import numpy as np
 
 from squeal import regime
 from squeal.files import ResultsError, open_regular
+from squeal.folder import Folder
 from squeal.keys import PARAMETERS
+from squeal.results import Results
 from squeal.skin import Skin
 
 WEB = Path(__file__).resolve().parents[2] / "web"
 # Debian's packages libjs-three and libjs-chart.js: program, controls of the view, licences.
 SCRIPTS = {
-    "three.js": ("/usr/share/javascript/three/three.min.js", "/usr/share/doc/libjs-three/copyright"),
-    "its orbit controls": ("/usr/share/javascript/three/examples/js/controls/OrbitControls.js", None),
-    "Chart.js": ("/usr/share/javascript/chart.js/chart.min.js", "/usr/share/doc/libjs-chart.js/copyright"),
+    "three.js": (
+        "/usr/share/javascript/three/three.min.js",
+        "/usr/share/doc/libjs-three/copyright",
+    ),
+    "its orbit controls": (
+        "/usr/share/javascript/three/examples/js/controls/OrbitControls.js",
+        None,
+    ),
+    "Chart.js": (
+        "/usr/share/javascript/chart.js/chart.min.js",
+        "/usr/share/doc/libjs-chart.js/copyright",
+    ),
 }
+# Of web/, in the order in which the browser runs them: the last one starts the report.
+OWN_SCRIPTS = (
+    "state",
+    "plots",
+    "selection",
+    "table",
+    "shape",
+    "fields",
+    "regime",
+    "sections",
+    "report",
+)
 MOST_BYTES = 22_000_000  # of the skin, fields and shapes in the file
 SMALL = 1e-300
 
@@ -30,48 +55,63 @@ SMALL = 1e-300
 def build(results):
     """Returns the text of the HTML file."""
     template = (WEB / "report.html").read_text()
-    scripts, licences = _scripts()
-    data, blobs = _data(results, with_shapes=bool(scripts))
+    libraries, licences = _libraries()
+    data, blobs = _data(results, with_shapes=bool(libraries))
+    own = [(WEB / f"{name}.js").read_text() for name in OWN_SCRIPTS] if libraries else []
     parts = {
         "title": html.escape(f"{data['case']}: brake squeal"),
         "style": (WEB / "report.css").read_text(),
         "verdict": html.escape(data["verdict"]),
         "certificate": "".join(f"<li>{html.escape(line)}</li>" for line in data["certificate"]),
         "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
-        "blobs": "\n".join(f'<script type="application/octet-stream" id="blob-{name}">{text}</script>' for name, text in blobs.items()),
-        "libraries": "\n".join(f"<script>{_script_safe(text)}</script>" for text in scripts),
-        **{
-            name: _script_safe((WEB / file).read_text()) if scripts else ""
-            for name, file in (("script", "report.js"), ("regimescript", "regime.js"))
-        },
-        "pictures": _after_flutter(results) + _pictures(results) if not scripts else "",
-        "licences": "".join(f"<h3>{html.escape(name)}</h3><pre>{html.escape(text)}</pre>" for name, text in licences),
+        "blobs": "\n".join(
+            f'<script type="application/octet-stream" id="blob-{name}">{text}</script>'
+            for name, text in blobs.items()
+        ),
+        "libraries": "\n".join(map(_script_element, libraries)),
+        "scripts": "\n".join(map(_script_element, own)),
+        "pictures": _after_flutter(results) + _pictures(results) if not libraries else "",
+        "licences": "".join(
+            f"<h3>{html.escape(name)}</h3><pre>{html.escape(text)}</pre>" for name, text in licences
+        ),
     }
     return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template)
 
 
-def _script_safe(text):
-    """JavaScript that cannot end the script element it stands in."""
-    return text.replace("</", "<\\/").replace("<!--", "<\\!--")
+def _script_element(text):
+    """A script element with JavaScript that cannot end it."""
+    safe = text.replace("</", "<\\/").replace("<!--", "<\\!--")
+    return f"<script>\n{safe}</script>"
 
 
-def _scripts():
-    """The libraries and their licences; none of either if one is missing."""
+def _libraries():
+    """Returns the libraries and their licences; neither if a library is missing."""
     if any(not Path(program).exists() for program, _ in SCRIPTS.values()):
         return [], []
     programs = [Path(program).read_text() for program, _ in SCRIPTS.values()]
-    return programs, [(name, Path(text).read_text()) for name, (_, text) in SCRIPTS.items() if text and Path(text).exists()]
+    return programs, [
+        (name, Path(text).read_text())
+        for name, (_, text) in SCRIPTS.items()
+        if text and Path(text).exists()
+    ]
 
 
 def _pictures(results):
-    """The static pictures of the folder, for a report without libraries."""
-    found = sorted(results.folder.glob("stability*.png")) + sorted(results.folder.glob("mode*.png")) + sorted(results.folder.glob("regime.png"))
+    """Returns the pictures of the folder, for a report without libraries."""
+    found = (
+        sorted(results.folder.glob("stability*.png"))
+        + sorted(results.folder.glob("mode*.png"))
+        + sorted(results.folder.glob("regime.png"))
+    )
     images = "".join(
-        f'<img alt="{html.escape(path.stem)}" src="data:image/png;base64,{base64.b64encode(_bytes_of(path)).decode()}">' for path in found
+        f'<img alt="{html.escape(path.stem)}"'
+        f' src="data:image/png;base64,{base64.b64encode(_bytes_of(path)).decode()}">'
+        for path in found
     )
     return (
-        "<p class=note>Diagrams and modes cannot be turned here: the libraries three.js and Chart.js were not installed when the report was "
-        f"made (packages libjs-three, libjs-chart.js).</p>{images}"
+        "<p class=note>Diagrams and modes cannot be turned here: the libraries three.js and"
+        " Chart.js were not installed when the report was made (packages libjs-three,"
+        f" libjs-chart.js).</p>{images}"
     )
 
 
@@ -81,7 +121,7 @@ def _bytes_of(path):
 
 
 def _after_flutter(results):
-    """What became of the flutter in words, for a report without libraries."""
+    """Returns sentences on the motion after flutter, for a report without libraries."""
     return "".join(f"<p>{html.escape(line)}</p>" for line in regime.sentences(results))
 
 
@@ -90,11 +130,14 @@ def _blob(array):
 
 
 def _columns(table):
-    """A table as lists by column, without numbers that JSON lacks."""
+    """Returns a table as lists by column, without the numbers that JSON lacks."""
     if table is None:
         return None
     return {
-        name: [None if isinstance(value, float) and not math.isfinite(value) else value for value in column.tolist()]
+        name: [
+            None if isinstance(value, float) and not math.isfinite(value) else value
+            for value in column.tolist()
+        ]
         for name, column in table.items()
         if not np.iscomplexobj(column)
     }
@@ -110,7 +153,9 @@ def _data(results, with_shapes):
         "certificate": certificate(results),
         "parameters": list(PARAMETERS),
         "swept": results.swept(),
-        "bandHz": max((point.get("band_top_hz") or 0 for point in summary.get("frictions", [])), default=0),
+        "bandHz": max(
+            (point.get("band_top_hz") or 0 for point in summary.get("frictions", [])), default=0
+        ),
         "points": _columns(results.stability_map),
         "eigenvalues": _columns(eigenvalues),
         "branches": _columns(results.branches),
@@ -119,11 +164,21 @@ def _data(results, with_shapes):
         "sensitivities": _columns(results.sensitivities),
         "steady": _steady_forces(summary),
         "regimes": regime.diagrams(results),
-        "stages": {name: [stage.get("wall_s", 0), stage.get("peak_memory_bytes", 0)] for name, stage in summary.get("stages", {}).items()},
+        "stages": {
+            name: [stage.get("wall_s", 0), stage.get("peak_memory_bytes", 0)]
+            for name, stage in summary.get("stages", {}).items()
+        },
         "wallSeconds": summary.get("wall_s", 0),
-        "sizes": {name: summary[name] for name in ("ranks", "nodes", "cells", "contact_nodes", "dofs") if name in summary},
+        "sizes": {
+            name: summary[name]
+            for name in ("ranks", "nodes", "cells", "contact_nodes", "dofs")
+            if name in summary
+        },
         "options": {name: str(value) for name, value in summary.get("options", {}).items()},
-        "colours": [[round(255 * part) for part in colour[:3]] for colour in matplotlib.colormaps["viridis"](np.linspace(0, 1, 32))],
+        "colours": [
+            [round(255 * part) for part in colour[:3]]
+            for colour in matplotlib.colormaps["viridis"](np.linspace(0, 1, 32))
+        ],
         "shapes": [],
         "skin": None,
         "left": [],
@@ -131,7 +186,10 @@ def _data(results, with_shapes):
     blobs = {}
     if results.parts:
         folders = ", ".join(part["folder"] for part in results.summary["parts"])
-        data["left"].append(f"These are the joined tables of several runs. Shapes of modes and contact fields are in the reports of each: {folders}.")
+        data["left"].append(
+            "These are the joined tables of several runs. Shapes of modes and contact fields are"
+            f" in the reports of each: {folders}."
+        )
     elif with_shapes and results.mesh is not None and len(kept):
         _add_shapes(results, kept, data, blobs)
     elif with_shapes and results.mesh is None:
@@ -142,57 +200,108 @@ def _data(results, with_shapes):
 
 
 def _steady_forces(summary):
-    """Forces of steady sliding, a row for each point and interface."""
+    """Returns the forces of steady sliding, a row for each point and interface."""
     rows = []
     for point in summary.get("frictions", []):
         for name, found in (point.get("steady") or {}).get("interfaces", {}).items():
-            normal, friction = (np.linalg.norm(found.get(key) or [0]) for key in ("normal_force_n", "friction_force_n"))
-            rows.append([*(point[key] for key in PARAMETERS), name, float(normal), float(friction), point["steady"].get("open_nodes", 0)])
+            normal, friction = (
+                np.linalg.norm(found.get(key) or [0])
+                for key in ("normal_force_n", "friction_force_n")
+            )
+            rows.append(
+                [
+                    *(point[key] for key in PARAMETERS),
+                    name,
+                    float(normal),
+                    float(friction),
+                    point["steady"].get("open_nodes", 0),
+                ]
+            )
     return rows
 
 
 def verdict(results):
-    """One sentence on the stability of the sweep."""
+    """Returns one sentence on the stability of the sweep, by the program, or for a merge by its
+    tables."""
+    given = results.summary.get("verdict")
+    return given["sentence"] if given else _verdict_of_merge(results)
+
+
+def _verdict_of_merge(results):
     table, points, critical = results.eigenvalues, results.stability_map, results.critical
     grows = table[table["grows"]]
     if len(points) == 0:
         return "No point of the sweep has a steady sliding state."
-    where = "at all points of the sweep" if len(points) > 1 else f"at friction {points['friction'].iloc[0]:g}"
+    where = (
+        "at all points of the sweep"
+        if len(points) > 1
+        else f"at friction {points['friction'].iloc[0]:g}"
+    )
     undecided = int((table["verdict"] == "undecided").sum())
     if results.summary.get("complete") is False:
         solved = int(points["unstable_modes"].notna().sum())
-        found = "all of them are stable" if grows.empty else f"the lowest friction among them with an unstable mode is {grows['friction'].min():g}"
-        return f"The run was stopped before its end: {solved} of {len(points)} points are solved, and {found}."
+        found = (
+            "all of them are stable"
+            if grows.empty
+            else (
+                "the lowest friction among them with an unstable mode is"
+                f" {grows['friction'].min():g}"
+            )
+        )
+        return (
+            f"The run was stopped before its end: {solved} of {len(points)} points are solved, and"
+            f" {found}."
+        )
     if grows.empty:
         rest = f"; {undecided} eigenvalues are undecided" if undecided else ""
-        return f"Stable {where}{rest}." if len(table) else f"No eigenvalue was found in the band {where}."
+        return (
+            f"Stable {where}{rest}."
+            if len(table)
+            else f"No eigenvalue was found in the band {where}."
+        )
     worst = grows.loc[grows["growth_rate_1_per_s"].idxmax()]
     begins = None
     if critical is not None and len(critical) and len(results.swept()) <= 1:
-        lost = critical[(critical["direction"] == "loss") & (critical["converged"] == 1)]["friction"]
+        lost = critical[(critical["direction"] == "loss") & (critical["converged"] == 1)][
+            "friction"
+        ]
         below = points[points["unstable_modes"] > 0]["friction"].min()
         if len(lost) and lost.min() <= below:
-            begins = f"Stable up to friction {lost.min():.6g}" if lost.min() > 0 else "Unstable as soon as there is friction"
+            begins = (
+                f"Stable up to friction {lost.min():.6g}"
+                if lost.min() > 0
+                else "Unstable as soon as there is friction"
+            )
     if begins is None:
         first = points[points["unstable_modes"] > 0]["friction"].min()
-        begins = f"Unstable from friction {first:g} on" if first > points["friction"].min() else f"Unstable at friction {first:g} already"
+        begins = (
+            f"Unstable from friction {first:g} on"
+            if first > points["friction"].min()
+            else f"Unstable at friction {first:g} already"
+        )
     most = int(points["unstable_modes"].max())
-    others = "".join(f", {name} {worst[name]:g}" for name in PARAMETERS[1:] if name in results.swept())
+    others = "".join(
+        f", {name} {worst[name]:g}" for name in PARAMETERS[1:] if name in results.swept()
+    )
     return (
-        f"{begins}; above it, up to {most} unstable mode{'s' if most > 1 else ''} at once. "
-        f"The fastest grows at {worst['frequency_hz']:.6g} Hz with {worst['growth_rate_1_per_s']:.4g} 1/s "
-        f"(damping {100 * worst['damping_ratio']:.3g} %) at friction {worst['friction']:g}{others}."
+        f"{begins}; above it, up to {most} unstable mode{'s' if most > 1 else ''} at once. The"
+        f" fastest grows at {worst['frequency_hz']:.6g} Hz with"
+        f" {worst['growth_rate_1_per_s']:.4g} 1/s (damping {100 * worst['damping_ratio']:.3g} %) at"
+        f" friction {worst['friction']:g}{others}."
     )
 
 
 def certificate(results):
-    """What the verdict rests on, in sentences."""
+    """Returns the grounds of the verdict, in sentences."""
     table, summary = results.eigenvalues, results.summary
     certified = int((table["certified"] == 1).sum()) if "certified" in table else 0
-    lines = [f"{certified} of {len(table)} eigenvalues are certified against the full-order problem"]
+    lines = [
+        f"{certified} of {len(table)} eigenvalues are certified against the full-order problem"
+    ]
     if "error_estimate" in table and len(table):
         lines[0] += (
-            f": backward errors up to {table['backward_error'].max():.1e}, estimated errors |δs|/|s| up to {table['error_estimate'].max():.1e}"
+            f": backward errors up to {table['backward_error'].max():.1e}, estimated errors"
+            f" |δs|/|s| up to {table['error_estimate'].max():.1e}"
         )
     lines[0] += "."
     lines += [
@@ -201,9 +310,17 @@ def certificate(results):
         for followed in active.get("followed", [])
         if followed.get("statement")
     ][:3]
-    failed = [point for point in summary.get("frictions", []) if not (point.get("steady") or {"converged": True}).get("converged", True)]
+    failed = [
+        point
+        for point in summary.get("frictions", [])
+        if not (point.get("steady") or {"converged": True}).get("converged", True)
+    ]
     if failed:
-        lines.append(f"{len(failed)} points of the sweep have no steady sliding state: " + ", ".join(f"{p['friction']:g}" for p in failed[:8]) + ".")
+        lines.append(
+            f"{len(failed)} points of the sweep have no steady sliding state: "
+            + ", ".join(f"{p['friction']:g}" for p in failed[:8])
+            + "."
+        )
     return lines
 
 
@@ -224,8 +341,17 @@ def _add_shapes(results, kept, data, blobs):
         fields, points = fields[::2], points[::2]
         blobs["steady"] = _blob(fields.astype(np.float32))
     if len(points) < every:
-        data["left"].append(f"Contact fields are shown at {len(points)} of the {every} points of the sweep: the file would be too large.")
-    data["skin"] = {"nodes": len(skin.nodes), "size": size, "bodies": skin.bodies, "touching": int(touching.sum()), "steady": points}
+        data["left"].append(
+            f"Contact fields are shown at {len(points)} of the {every} points of the sweep: the"
+            " file would be too large."
+        )
+    data["skin"] = {
+        "nodes": len(skin.nodes),
+        "size": size,
+        "bodies": skin.bodies,
+        "touching": int(touching.sum()),
+        "steady": points,
+    }
     total = sum(len(text) for text in blobs.values())
     order = kept.sort_values("growth_rate_1_per_s", ascending=False)
     for row in order.itertuples():
@@ -235,32 +361,46 @@ def _add_shapes(results, kept, data, blobs):
         parts = np.concatenate([shape.real[skin.nodes], shape.imag[skin.nodes]], axis=1) / largest
         text = _blob(np.round(127 * parts).astype(np.int8))
         worked = mode.friction_work is not None and touching.any()
-        work = _blob(mode.friction_work[skin.nodes[touching], 1].astype(np.float32)) if worked else ""
+        work = (
+            _blob(mode.friction_work[skin.nodes[touching], 1].astype(np.float32)) if worked else ""
+        )
         total += len(text) + len(work)
         if total > MOST_BYTES:
-            data["left"].append(f"The shapes of {len(order) - len(data['shapes'])} slower growing modes were left out: the file would be too large.")
+            data["left"].append(
+                f"The shapes of {len(order) - len(data['shapes'])} slower growing modes were left"
+                " out: the file would be too large."
+            )
             break
         name = f"shape{len(data['shapes'])}"
         blobs[name] = text
-        entry = {"blob": name, "mode": int(row.mode), "at": [float(getattr(row, key)) for key in PARAMETERS], "work": None}
+        entry = {
+            "blob": name,
+            "mode": int(row.mode),
+            "at": [float(getattr(row, key)) for key in PARAMETERS],
+            "work": None,
+        }
         if work:
             blobs[name + "work"] = work
             entry["work"] = name + "work"
         data["shapes"].append(entry)
     if skin.detail:
         data["left"].append(
-            f"The surface has {skin.whole} triangles and is drawn with {len(skin.triangles)}, on {len(skin.nodes)} of its nodes: "
-            f"details below {skin.detail:.2g} m are not seen."
+            f"The surface has {skin.whole} triangles and is drawn with {len(skin.triangles)}, on"
+            f" {len(skin.nodes)} of its nodes: details below {skin.detail:.2g} m are not seen."
         )
     if skin.unseen:
         data["left"].append(f"Bodies that are smaller are not drawn: {', '.join(skin.unseen)}.")
     if any(kind in (9, 10, 11, 12, 13, 14, 16, 17, 18, 19) for kind in mesh.cells):
         data["left"].append("Nodes amid the edges of cells are not drawn.")
-    data["left"].append("Shapes are drawn to 1/127 of their largest displacement, places to 1/65534 of the size of the brake.")
+    data["left"].append(
+        "Shapes are drawn to 1/127 of their largest displacement, places to 1/65534 of the size of"
+        " the brake."
+    )
 
 
 def _contact(results, skin):
-    """Which nodes of the skin are contact nodes; pressure and gap, [point, 2, contact node]; and the parameters of the points."""
+    """Returns which nodes of the skin are contact nodes, pressure and gap as [point, 2, contact
+    node], and the parameters of the points."""
     touching, fields, points = np.zeros(len(skin.nodes), bool), [], []
     for at in results.points.to_dict("records"):
         try:
@@ -276,4 +416,19 @@ def _contact(results, skin):
     return touching, np.stack([field[touching].T for field in fields]), points
 
 
-__all__ = ["build", "certificate", "verdict"]
+HELP = """squeal-report DIR: writes report.html into the folder of results DIR.
+
+The report is one file that any browser opens without a network."""
+
+
+def main(words):
+    if words in (["-h"], ["--help"]):
+        print(HELP)
+        return
+    if len(words) != 1 or words[0].startswith("-"):
+        sys.exit(HELP)
+    folder = Folder(words[0])
+    print(folder.save_text("report.html", build(Results(words[0]))))
+
+
+__all__ = ["build", "certificate", "main", "verdict"]

@@ -1,4 +1,5 @@
-"""The folder of a run: its tables, modes and fields."""
+# SPDX-License-Identifier: BSD-2-Clause
+"""The results of a run: tables, modes and fields."""
 import contextlib
 import dataclasses
 import functools
@@ -13,12 +14,14 @@ import pandas as pd
 from squeal import schema
 from squeal.agreement import require_agreement
 from squeal.files import ResultsError, is_there, open_regular, read_text
-from squeal.keys import PARAMETERS, key_of, words_of
+from squeal.keys import PARAMETERS, words_of
+from squeal.tables import read_table
 
-# Without an estimate of its error, a growth rate below this fraction of |s| is taken as round-off.
+# A growth rate below this fraction of |s| is round-off, if there is no estimate of its error.
 NOISE = 1e-6
 NUMBER = (float, int)
-# What is read of summary.json, as the program writes it: a name with ? may be missing, * stands for all names.
+# The form of summary.json, as far as this package reads it: a name with ? may be missing, * means
+# all names.
 SUMMARY = {
     "version": str,
     "complete": bool,
@@ -31,66 +34,95 @@ SUMMARY = {
             "verdicts?": {"*": int},
             "unstable_modes?": [dict],
             "band_top_hz?": (*NUMBER, type(None)),
-            "steady?": {"converged?": bool, "open_nodes?": int,
-                        "interfaces?": {"*": {"normal_force_n?": [NUMBER], "friction_force_n?": [NUMBER]}}},
+            "steady?": {
+                "converged?": bool,
+                "open_nodes?": int,
+                "interfaces?": {"*": {"normal_force_n?": [NUMBER], "friction_force_n?": [NUMBER]}},
+            },
         }
     ],
     "active_sets?": [{"followed?": [{"critical_frictions?": [NUMBER], "statement?": str}]}],
     "stages?": {"*": {"wall_s?": NUMBER, "peak_memory_bytes?": NUMBER}},
     "wall_s?": NUMBER,
+    "verdict?": {"sentence": str},
     "parts?": [{"folder": str}],
     "tables?": {"*": {"rows": int, "columns": [str]}},
     "regimes?": [{**dict.fromkeys(PARAMETERS, NUMBER), "start": str, "class": str}],
-}  # fmt: skip
-KINDS = {bool: "not true or false", str: "no text", float: "no number", int: "no whole number", dict: "no object", list: "no list"}
+}
+KINDS = {
+    bool: "not true or false",
+    str: "not a text",
+    float: "not a number",
+    int: "not a whole number",
+    dict: "not an object",
+    list: "not a list",
+}
 
 
-def open(folder):  # noqa: A001
-    """Returns the results in a folder. Raises ResultsError if they are missing, not complete, or not as a run writes them."""
+def open(folder):
+    """Returns the results in a folder. Raises ResultsError if they are missing, incomplete or
+    damaged."""
     return Results(folder)
 
 
 class Results:
-    """The results of one run. Its tables are read, and checked, at once; results.h5 when it is first asked for."""
+    """The results of one run. The constructor reads and checks its tables; results.h5 is opened
+    at the first use."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
         self.summary = read_summary(self.folder / "summary.json")
         shapes = self.summary.get("tables", {})
-        self.texts, self._tables = {}, {}  # by the names of the tables: cells as texts, and with numbers
+        # Tables by name: cells as texts, and as numbers.
+        self.texts, self._tables = (
+            {},
+            {},
+        )
         for name in sorted({*shapes, *self._found()}):
-            self.texts[name], self._tables[name] = schema.read_table(self.folder / f"{name}.csv", shapes.get(name))
+            self.texts[name], self._tables[name] = read_table(
+                self.folder / f"{name}.csv", shapes.get(name)
+            )
         require_agreement(self.folder, self.summary, self._tables)
 
     def _found(self):
-        """The names of the tables in the folder that a run may have written; other files are the user's."""
+        """Returns the names of the tables that a run may have written; other files are the
+        user's."""
         try:
             paths = sorted(self.folder.glob("*.csv"))
-            return [path.stem for path in paths if schema.schema_of(path.stem) and (path.stem in schema.TABLES or self._lists(path)) and is_there(path)]
+            return [
+                path.stem
+                for path in paths
+                if schema.schema_of(path.stem)
+                and (path.stem in schema.TABLES or self._lists(path))
+                and is_there(path)
+            ]
         except OSError as error:
             raise ResultsError(f"{self.folder}: {error.strerror}") from None
 
     def _lists(self, path):
-        """Whether a table of one point is of this run: a file steady_notes.csv is the user's."""
-        return path.stem in self.summary.get("tables", {}) or any(path.stem.endswith(f"_{point['friction']:g}") for point in self.summary.get("frictions", []))
+        """Returns whether a table of one point is of this run: a file steady_notes.csv is the
+        user's."""
+        return path.stem in self.summary.get("tables", {}) or any(
+            path.stem.endswith(f"_{point['friction']:g}")
+            for point in self.summary.get("frictions", [])
+        )
 
     def __repr__(self):
         return f"<squeal results in {self.folder}: {len(self.points)} points>"
 
     def table(self, name):
-        """A .csv file of the folder by its name without ending; None where the run wrote none."""
+        """Returns a .csv file of the folder by its name without ending; None if the run wrote
+        none."""
         table = self._tables.get(name)
         return None if table is None else table.copy()
 
     @functools.cached_property
     def eigenvalues(self):
-        """All eigenvalues of the band, with a column `s` of complex numbers, 1/s, and `grows`: whether one counts as unstable, by its
-        verdict or, where that is `uncertified`, since it grows by more than round-off and -flutter_unstable_tolerance, as in the program."""
+        """All eigenvalues of the band, with two more columns: `s`, the complex eigenvalue in
+        1/s, and `grows`, which is true if the program counts the mode as unstable."""
         table = self._needed("eigenvalues")
         s = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
-        least = max(NOISE, float(self.summary.get("options", {}).get("flutter_unstable_tolerance", "0")))
-        uncertified = (table["verdict"] == "uncertified") & (table["growth_rate_1_per_s"] > least * s.abs())
-        return table.assign(s=s, grows=(table["verdict"] == "unstable") | uncertified)
+        return table.assign(s=s, grows=table["unstable"] == 1)
 
     @functools.cached_property
     def stability_map(self):
@@ -108,22 +140,24 @@ class Results:
 
     @functools.cached_property
     def branches(self):
-        """The eigenvalues followed over the friction; None where they were not."""
+        """The eigenvalues followed over the friction; None if the run did not follow them."""
         return self.table("branches")
 
     @functools.cached_property
     def critical(self):
-        """The frictions at which stability changes; None where eigenvalues were not followed."""
+        """The frictions at which stability changes; None if the run did not follow eigenvalues."""
         return self.table("critical")
 
     @functools.cached_property
     def contact_path(self):
-        """Where contact nodes open and close between the points; None where that was not found."""
+        """The places where contact nodes separate and close between the points; None if not
+        computed."""
         return self.table("contact_path")
 
     @functools.cached_property
     def friction_work(self):
-        """What friction on each interface adds to the growth of the modes kept; None for matrices from files."""
+        """The growth that the friction of each interface adds to the stored modes; None for
+        matrices from files."""
         return self.table("friction_work")
 
     @functools.cached_property
@@ -133,35 +167,47 @@ class Results:
 
     @functools.cached_property
     def free_modes(self):
-        """Free modes of the first active set; None where there are none, as with the direct method."""
+        """Free modes of the first active set; None without them, as with the direct method."""
         return self.table("modes")
 
     def steady(self, **at):
-        """Gap, pressure, forces and state of each contact node at a point; None where steady sliding was not found."""
+        """Returns gap, pressure, forces and state of each contact node at a point; None without
+        steady sliding."""
         return self.table("steady_" + self._point(at))
 
     @property
     def parts(self):
-        """The folders of the runs that were merged here (scripts/squeal-merge), which hold the shapes of modes; none for a run."""
+        """The folders of the merged runs (scripts/squeal-merge), which hold the shapes of modes;
+        empty for a run."""
         return [self.folder / part["folder"] for part in self.summary.get("parts", [])]
 
     def kept_modes(self):
-        """The complex modes whose shapes were kept: parameters, number in the list of the point, s, verdict."""
+        """Returns the complex modes whose shapes were stored: parameters, number at the point,
+        s, verdict."""
         rows = []
         with contextlib.nullcontext({}) if self.parts else self._fields() as file:
             for group in file.get("flutter", {}).values():
-                numbers = sorted(int(name.split("_")[1]) for name in group if name.endswith("_real"))
-                rows += [{**{name: group.attrs[name] for name in PARAMETERS}, "mode": number} for number in numbers]
+                numbers = sorted(
+                    int(name.split("_")[1]) for name in group if name.endswith("_real")
+                )
+                rows += [
+                    {**{name: group.attrs[name] for name in PARAMETERS}, "mode": number}
+                    for number in numbers
+                ]
         kept = pd.DataFrame(rows, columns=[*PARAMETERS, "mode"])
         return kept.merge(self.eigenvalues, on=[*PARAMETERS, "mode"], how="left")
 
     def mode(self, number, **at):
-        """A complex mode whose shape was kept, by its number at a point. Raises ResultsError where there is none."""
+        """Returns a complex mode whose shape was stored, by its number at a point. Raises
+        ResultsError if there is none."""
         with self._fields() as file:
             group = self._group(file, "flutter", at)
             name = f"mode_{number:03d}"
             if group is None or f"{name}_real" not in group:
-                raise ResultsError(f"{self.folder / 'results.h5'}: no shape of mode {number} was kept at {words_of(at) or 'this point'}")
+                raise ResultsError(
+                    f"{self.folder / 'results.h5'}: no shape of mode {number} was kept at"
+                    f" {words_of(at) or 'this point'}"
+                )
             growth, angular = group["eigenvalues"][number - 1, :2]
             shape = group[f"{name}_real"][()] + 1j * group[f"{name}_imaginary"][()]
             work = group[f"{name}_friction_work"][()] if f"{name}_friction_work" in group else None
@@ -169,7 +215,8 @@ class Results:
         return Mode(self, values, number, complex(growth, angular), shape, work)
 
     def fastest_mode(self, **at):
-        """The fastest growing mode whose shape was kept, of the points with these values of parameters; None where none was kept."""
+        """Returns the fastest growing mode whose shape was stored, of the points with these
+        values of parameters; None if there is none."""
         kept = _rows(self.kept_modes(), at)
         if kept.empty:
             return None
@@ -177,16 +224,21 @@ class Results:
         return self.mode(int(row["mode"]), **{name: row[name] for name in PARAMETERS})
 
     def fields(self, **at):
-        """The fields of steady sliding at a point by name, node by node: `displacement` in m, `contact_pressure_gap`."""
+        """Returns the fields of steady sliding at a point by name, node by node: `displacement`
+        in m, `contact_pressure_gap`."""
         with self._fields() as file:
             group = self._group(file, "steady", at)
             if group is None:
-                raise ResultsError(f"{self.folder / 'results.h5'}: there is no steady sliding at {words_of(at) or 'this point'}")
+                raise ResultsError(
+                    f"{self.folder / 'results.h5'}: there is no steady sliding at"
+                    f" {words_of(at) or 'this point'}"
+                )
             return {name: data[()] for name, data in group.items()}
 
     @functools.cached_property
     def mesh(self):
-        """Coordinates in m, cells by gmsh's element type, and names of the bodies; None for matrices from files."""
+        """Coordinates in m, cells by gmsh's element type, and names of the bodies; None for
+        matrices from files."""
         with self._fields() as file:
             if "mesh" not in file:
                 return None
@@ -197,7 +249,11 @@ class Results:
                 for name, block in group.items()
                 if name.startswith("cells_")
             }
-            return Mesh(group["coordinates"][()], cells, (names.decode() if isinstance(names, bytes) else str(names)).split(","))
+            return Mesh(
+                group["coordinates"][()],
+                cells,
+                (names.decode() if isinstance(names, bytes) else str(names)).split(","),
+            )
 
     def grid(self):
         """The mesh as a vtkUnstructuredGrid, with the number of the body of each cell."""
@@ -215,9 +271,12 @@ class Results:
 
     @contextlib.contextmanager
     def _fields(self):
-        """results.h5. What is damaged in it shows where it is read."""
+        """Opens results.h5. Damage in it shows where it is read."""
         if self.parts:
-            raise ResultsError(f"{self.folder} is a merge: modes and fields are in its parts, {', '.join(map(str, self.parts))}")
+            raise ResultsError(
+                f"{self.folder} is a merge: modes and fields are in its parts,"
+                f" {', '.join(map(str, self.parts))}"
+            )
         path = self.folder / "results.h5"
         try:
             with os_closing(open_regular(path)), h5py.File(path) as file:
@@ -225,25 +284,45 @@ class Results:
         except ResultsError:
             raise
         except FileNotFoundError:
-            raise ResultsError(f"{path} is missing: fields were not written (-report_fields off), or it has been removed") from None
-        except (OSError, KeyError, IndexError, ValueError, TypeError, AttributeError, RuntimeError) as error:
+            raise ResultsError(
+                f"{path} is missing: fields were not written (-report_fields off), or it has been"
+                " removed"
+            ) from None
+        except (
+            OSError,
+            KeyError,
+            IndexError,
+            ValueError,
+            TypeError,
+            AttributeError,
+            RuntimeError,
+        ) as error:
             raise ResultsError(f"{path} is damaged: {' '.join(str(error).split())}") from None
 
     def _point(self, at):
-        """The name of a point in the names of files, as the program makes it: friction, and what else is not 1."""
+        """Returns the name of a point in names of files, by the rule of the program: friction,
+        and other parameters that are not 1."""
         values = self._only_point(at)
-        return f"{values['friction']:g}" + "".join(f"_{name}_{values[name]:g}" for name in PARAMETERS[1:] if values[name] != 1)
+        return f"{values['friction']:g}" + "".join(
+            f"_{name}_{values[name]:g}" for name in PARAMETERS[1:] if values[name] != 1
+        )
 
     def _only_point(self, at):
         found = _rows(self.points, at)
         if len(found) != 1:
-            raise ResultsError(f"{self.folder}: {len(found)} points of the sweep have {words_of(at) or 'no given parameters'}; name one")
+            raise ResultsError(
+                f"{self.folder}: {len(found)} points of the sweep have"
+                f" {words_of(at) or 'no given parameters'}; name one"
+            )
         return found.iloc[0]
 
     def _group(self, file, kind, at):
         values = self._only_point(at)
         for group in file.get(kind, {}).values():
-            if all(np.isclose(group.attrs[name], values[name], rtol=1e-12, atol=0) for name in PARAMETERS):
+            if all(
+                np.isclose(group.attrs[name], values[name], rtol=1e-12, atol=0)
+                for name in PARAMETERS
+            ):
                 return group
         return None
 
@@ -253,7 +332,8 @@ class Mesh:
     """The mesh of a run."""
 
     coordinates: np.ndarray  # m, [node, 3]
-    cells: dict  # by gmsh's element type: `nodes` [cell, node of the cell], `body` and `tag` [cell, 1]
+    # By gmsh's element type: `nodes` [cell, node of the cell], `body` and `tag` [cell, 1].
+    cells: dict
     bodies: list  # their names
 
 
@@ -266,7 +346,7 @@ class Mode:
     number: int  # in the list of the point, from 1
     s: complex  # 1/s
     shape: np.ndarray  # [node, components]; rows of the matrices for a run without mesh
-    friction_work: np.ndarray  # what friction does in a cycle, [node, 3]; None without contact
+    friction_work: np.ndarray  # work of friction in a cycle, [node, 3]; None without contact
 
     @property
     def frequency(self):
@@ -285,7 +365,8 @@ class Mode:
         return np.pad(moved, ((0, 0), (0, 3 - moved.shape[1])))
 
     def grid(self, phase=0.0):
-        """The mesh as a vtkUnstructuredGrid with the arrays `displacement`, as displacement() gives it, and `amplitude`."""
+        """The mesh as a vtkUnstructuredGrid with the arrays `displacement`, as displacement() gives
+        it, and `amplitude`."""
         from squeal.grid import add_points
 
         grid = self.results.grid()
@@ -297,7 +378,7 @@ class Mode:
 
 @contextlib.contextmanager
 def os_closing(file):
-    """A file that is no pipe stays open while a library opens it by its name."""
+    """Keeps a regular file open while a library opens it by its name."""
     try:
         yield
     finally:
@@ -305,26 +386,31 @@ def os_closing(file):
 
 
 def read_summary(path):
-    """What summary.json says, if it is the summary of a run or of a merge."""
+    """Returns the content of summary.json, of a run or of a merge."""
     try:
         summary = json.loads(read_text(path))
     except ResultsError:
         raise
     except (FileNotFoundError, NotADirectoryError):
-        raise ResultsError(f"{path.parent} holds no complete results: there is no summary.json") from None
+        raise ResultsError(
+            f"{path.parent} holds no complete results: there is no summary.json"
+        ) from None
     except (ValueError, RecursionError) as error:
         raise ResultsError(f"{path}: {error}") from None
     for wrong in _departures(summary, SUMMARY, ""):
-        raise ResultsError(f"{path} is no summary of a run: {wrong}")
+        raise ResultsError(f"{path} is not a summary of a run: {wrong}")
     try:
         float(summary.get("options", {}).get("flutter_unstable_tolerance", "0"))
     except ValueError:
-        raise ResultsError(f"{path} is no summary of a run: `options.flutter_unstable_tolerance` is no number") from None
+        raise ResultsError(
+            f"{path} is not a summary of a run:"
+            " `options.flutter_unstable_tolerance` is not a number"
+        ) from None
     return summary
 
 
 def _departures(found, form, place):
-    """Where a value departs from a form, in words."""
+    """Yields in words each difference between a value and a form."""
     kinds = form if isinstance(form, tuple) else (form if isinstance(form, type) else type(form),)
     if not isinstance(found, kinds) or (isinstance(found, bool) and bool not in kinds):
         yield f"{f'`{place}`' if place else 'it'} is {KINDS[kinds[0]]}"
@@ -344,7 +430,9 @@ def _departures(found, form, place):
 def _rows(table, at):
     unknown = [name for name in at if name not in PARAMETERS]
     if unknown:
-        raise ResultsError(f"{', '.join(unknown)} is no parameter of a sweep: {', '.join(PARAMETERS)}")
+        raise ResultsError(
+            f"{', '.join(unknown)} is not a parameter of a sweep: {', '.join(PARAMETERS)}"
+        )
     chosen = np.ones(len(table), bool)
     for name, value in at.items():
         chosen &= np.isclose(table[name], value, rtol=1e-12, atol=1e-300)

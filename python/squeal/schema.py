@@ -1,30 +1,21 @@
-"""The schema of the tables of a run (columns, units, allowed values), and the reader that checks tables against it.
+# SPDX-License-Identifier: BSD-2-Clause
+"""The schema of the tables of a run: columns, units and allowed values.
 
-To add a column, add it here and to the writer (src/report). tests/python/test_schema.py compares the two; docs/results.md lists the columns.
+To add a column, add it here and to the writer (src/run/report). tests/python/test_schema.py
+compares the two; docs/results.md lists the columns.
 """
-import csv
 import dataclasses
-import io
 import math
 import re
 
-import numpy as np
-import pandas as pd
-
-from squeal.files import ResultsError, read_text
-
 VERDICTS = ("unstable", "undecided", "uncertified", "stable", "neutral")  # the gravest first
 CLASSES = ("growing", "steady", "periodic", "modulated", "irregular", "nothing measured")
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-OPEN = re.compile(r"[+-]?(nan|inf)")  # where there is no estimate
-WHOLE = re.compile(r"-?\d+")
-KINDS = {"number": "a number", "whole": "a whole number", "flag": "0 or 1"}
-LONGEST = 40  # of a cell in a message
 
 
 @dataclasses.dataclass(frozen=True)
 class Column:
-    """A column and its allowed values. Columns with `read` are needed in tables of any version, since programs here read them."""
+    """A column and its allowed values. Tables of all versions must have the columns with `read`,
+    which programs here read."""
 
     name: str  # with {} for a number: velocity_{}_x_m_per_s
     unit: str = ""
@@ -42,11 +33,12 @@ class Column:
 
 @dataclasses.dataclass(frozen=True)
 class Table:
-    """The columns of a table, and which cells depend on each other: `together` are empty, or full, at once."""
+    """The columns of a table. The cells of columns in `together` are all empty or all full."""
 
     columns: tuple
     together: tuple = ()
-    counted: tuple = ()  # a column that counts 1, 2, 3, … in the rows that agree in the columns before it
+    # The last column counts 1, 2, 3, … in the rows that agree in the columns before it.
+    counted: tuple = ()
 
     def column(self, name):
         return next((column for column in self.columns if column.matches(name)), None)
@@ -69,12 +61,26 @@ def word(name, *words, **more):
 
 
 def numbers(text, **more):
-    """Columns by their names, of which the ends are their units."""
+    """Returns columns by their names, which end with their units."""
     return tuple(Column(name, unit_of(name), **more) for name in text.split())
 
 
-UNITS = {"1_per_s": "1/s", "rad_per_s": "rad/s", "sqrt_kg_m_per_s": "√kg m/s", "m2_per_s2": "m²/s²", "m_per_s": "m/s", "hz": "Hz", "pa": "Pa", "db": "dB re 1e-12 W",
-         "m2": "m²", "m": "m", "n": "N", "j": "J", "w": "W", "s": "s"}  # fmt: skip
+UNITS = {
+    "1_per_s": "1/s",
+    "rad_per_s": "rad/s",
+    "sqrt_kg_m_per_s": "√kg m/s",
+    "m2_per_s2": "m²/s²",
+    "m_per_s": "m/s",
+    "hz": "Hz",
+    "pa": "Pa",
+    "db": "dB re 1e-12 W",
+    "m2": "m²",
+    "m": "m",
+    "n": "N",
+    "j": "J",
+    "w": "W",
+    "s": "s",
+}
 
 
 def unit_of(name):
@@ -89,184 +95,250 @@ SIZE = {"least": 0}
 
 TABLES = {
     "eigenvalues": Table(
-        (*POINT, *MODE, *numbers("angular_frequency_rad_per_s"), *numbers("frequency_hz", read=False), number("damping_ratio", least=-1, most=1, empty=True, open=True, read=False),
-         number("backward_error", least=0, open=True, read=False), number("error_estimate", least=0, open=True, read=False), flag("certified", read=False), word("verdict", *VERDICTS)),
+        (
+            *POINT,
+            *MODE,
+            *numbers("angular_frequency_rad_per_s"),
+            *numbers("frequency_hz", read=False),
+            number("damping_ratio", least=-1, most=1, empty=True, open=True, read=False),
+            number("backward_error", least=0, open=True, read=False),
+            number("error_estimate", least=0, open=True, read=False),
+            flag("certified", read=False),
+            word("verdict", *VERDICTS),
+            flag("unstable"),
+        ),
         counted=("friction", "speed", "pressure", "damping", "mode"),
     ),
     "stability_map": Table(
-        (*POINT, whole("unstable_modes", empty=True), *numbers("largest_growth_rate_1_per_s", empty=True), *numbers("frequency_hz", empty=True, read=False),
-         *numbers("worst_backward_error worst_error_estimate", empty=True, read=False, **SIZE), word("verdict", *VERDICTS, empty=True),
-         whole("undecided_modes", empty=True, read=False)),
-        together=(("unstable_modes", "verdict", "undecided_modes"), ("largest_growth_rate_1_per_s", "frequency_hz")),
+        (
+            *POINT,
+            whole("unstable_modes", empty=True),
+            *numbers("largest_growth_rate_1_per_s", empty=True),
+            *numbers("frequency_hz", empty=True, read=False),
+            *numbers("worst_backward_error worst_error_estimate", empty=True, read=False, **SIZE),
+            word("verdict", *VERDICTS, empty=True),
+            whole("undecided_modes", empty=True, read=False),
+        ),
+        together=(
+            ("unstable_modes", "verdict", "undecided_modes"),
+            ("largest_growth_rate_1_per_s", "frequency_hz"),
+        ),
     ),
-    "branches": Table((whole("active_set"), whole("branch", 1), *POINT, *numbers("growth_rate_1_per_s frequency_hz"), *numbers("angular_frequency_rad_per_s", read=False),
-                       number("overlap", open=True, read=False), flag("in_band"), flag("swept", read=False))),
-    "critical": Table((whole("active_set"), *(whole(name, read=False) for name in ("branch", "partner")), word("kind", "coalescence", "hopf", "divergence", "contact"),
-                       word("direction", "loss", "regain"), *POINT, *numbers("frequency_hz"), number("slope", open=True, read=False),
-                       number("friction_error_estimate", least=0, open=True, read=False), number("backward_error", least=0, open=True, read=False),
-                       flag("converged", read=False))),
-    "contact_path": Table((*POINT[:3], *PLACE, word("interface"), word("change", "opens", "closes"))),
-    "friction_work": Table((*POINT, *MODE, *numbers("frequency_hz"), word("interface"), number("friction_work_1_per_s", "1/s"))),
+    "branches": Table(
+        (
+            whole("active_set"),
+            whole("branch", 1),
+            *POINT,
+            *numbers("growth_rate_1_per_s frequency_hz"),
+            *numbers("angular_frequency_rad_per_s", read=False),
+            number("overlap", open=True, read=False),
+            flag("in_band"),
+            flag("swept", read=False),
+        )
+    ),
+    "critical": Table(
+        (
+            whole("active_set"),
+            *(whole(name, read=False) for name in ("branch", "partner")),
+            word("kind", "coalescence", "hopf", "divergence", "contact"),
+            word("direction", "loss", "regain"),
+            *POINT,
+            *numbers("frequency_hz"),
+            number("slope", open=True, read=False),
+            number("friction_error_estimate", least=0, open=True, read=False),
+            number("backward_error", least=0, open=True, read=False),
+            flag("converged", read=False),
+        )
+    ),
+    "contact_path": Table(
+        (*POINT[:3], *PLACE, word("interface"), word("change", "opens", "closes"))
+    ),
+    "friction_work": Table(
+        (
+            *POINT,
+            *MODE,
+            *numbers("frequency_hz"),
+            word("interface"),
+            number("friction_work_1_per_s", "1/s"),
+        )
+    ),
     "sensitivities": Table(
-        (*POINT, *MODE, *numbers("frequency_hz"), *(number(name, least=0, open=True, read=False) for name in ("condition", "separation", "left_backward_error")),
-         word("parameter"), *numbers("growth_rate_derivative_1_per_s frequency_derivative_hz", empty=True)),
+        (
+            *POINT,
+            *MODE,
+            *numbers("frequency_hz"),
+            *(
+                number(name, least=0, open=True, read=False)
+                for name in ("condition", "separation", "left_backward_error")
+            ),
+            word("parameter"),
+            *numbers("growth_rate_derivative_1_per_s frequency_derivative_hz", empty=True),
+        ),
         together=(("growth_rate_derivative_1_per_s", "frequency_derivative_hz"),),
     ),
-    "modes": Table((whole("mode", 1), *numbers("angular_frequency_rad_per_s frequency_hz", **SIZE), number("relative_residual", least=0, open=True, read=False)), counted=("mode",)),
-    "steady": Table((*PLACE, *numbers("gap_m normal_force_n pressure_pa friction_force_x_n friction_force_y_n friction_force_z_n"), word("interface"),
-                     word("state", "open", "sliding", "frictionless", "sticking", "released", "unheld", "beyond_friction"))),
+    "modes": Table(
+        (
+            whole("mode", 1),
+            *numbers("angular_frequency_rad_per_s frequency_hz", **SIZE),
+            number("relative_residual", least=0, open=True, read=False),
+        ),
+        counted=("mode",),
+    ),
+    "steady": Table(
+        (
+            *PLACE,
+            *numbers(
+                "gap_m normal_force_n pressure_pa friction_force_x_n friction_force_y_n"
+                " friction_force_z_n"
+            ),
+            word("interface"),
+            word(
+                "state",
+                "open",
+                "sliding",
+                "frictionless",
+                "sticking",
+                "released",
+                "unheld",
+                "beyond_friction",
+            ),
+        )
+    ),
     "onset": Table(
-        (*POINT, *MODE, *numbers("frequency_hz"), word("event", "none", "opens", "comes_to_rest", "slides"), *numbers("x_m y_m z_m", empty=True),
-         word("interface", empty=True), *numbers("kinetic_energy_j turning", empty=True)),
+        (
+            *POINT,
+            *MODE,
+            *numbers("frequency_hz"),
+            word("event", "none", "opens", "comes_to_rest", "slides"),
+            *numbers("x_m y_m z_m", empty=True),
+            word("interface", empty=True),
+            *numbers("kinetic_energy_j turning", empty=True),
+        ),
         together=(("x_m", "y_m", "z_m", "interface", "kinetic_energy_j", "turning"),),
     ),
     "regime": Table(
-        (*RUN, word("class", *CLASSES), flag("settled"), *numbers("duration_s", empty=True, read=False, **SIZE), *numbers("step_s", read=False, **SIZE),
-         *numbers("carrier_hz", empty=True), *numbers("flutter_frequency_hz"), *numbers("modulation_hz growth_rate_1_per_s", empty=True, read=False),
-         *numbers("certified_growth_rate_1_per_s", read=False), *numbers("largest_kinetic_energy_j mean_kinetic_energy_j peak_deviation largest_slip_velocity_m_per_s "
-         "largest_gap_change_m", empty=True, read=False, **SIZE), *numbers("friction_coefficient friction_power_w steady_friction_power_w", empty=True, read=False),
-         *numbers("open_nodes sticking_nodes", empty=True, read=False, **SIZE), whole("contact_nodes", empty=True, read=False), *numbers("onset_kinetic_energy_j", empty=True, **SIZE),
-         *numbers("largest_defect energy_imbalance model_error mean_square_velocity_m2_per_s2 radiating_area_m2 sound_power_estimate_w sound_power_level_db", empty=True, read=False)),
+        (
+            *RUN,
+            word("class", *CLASSES),
+            flag("settled"),
+            *numbers("duration_s", empty=True, read=False, **SIZE),
+            *numbers("step_s", read=False, **SIZE),
+            *numbers("carrier_hz", empty=True),
+            *numbers("flutter_frequency_hz"),
+            *numbers("modulation_hz growth_rate_1_per_s", empty=True, read=False),
+            *numbers("certified_growth_rate_1_per_s", read=False),
+            *numbers(
+                (
+                    "largest_kinetic_energy_j mean_kinetic_energy_j peak_deviation"
+                    " largest_slip_velocity_m_per_s largest_gap_change_m"
+                ),
+                empty=True,
+                read=False,
+                **SIZE,
+            ),
+            *numbers(
+                "friction_coefficient friction_power_w steady_friction_power_w",
+                empty=True,
+                read=False,
+            ),
+            *numbers("open_nodes sticking_nodes", empty=True, read=False, **SIZE),
+            whole("contact_nodes", empty=True, read=False),
+            *numbers("onset_kinetic_energy_j", empty=True, **SIZE),
+            *numbers(
+                (
+                    "largest_defect energy_imbalance model_error mean_square_velocity_m2_per_s2"
+                    " radiating_area_m2 sound_power_estimate_w sound_power_level_db"
+                ),
+                empty=True,
+                read=False,
+            ),
+        ),
         together=(("open_nodes", "sticking_nodes", "mean_kinetic_energy_j"),),
     ),
-    "regime_nodes": Table((*RUN, *PLACE, word("interface"), *(number(name, least=0, most=1) for name in ("open", "stick", "slip")),
-                           *numbers("mean_pressure_pa largest_gap_m friction_power_w", read=False))),
-    "regime_cycles": Table((*RUN, whole("cycle", 1), *numbers("time_s largest_kinetic_energy_j", **SIZE)), counted=("friction", "speed", "pressure", "damping", "start", "cycle")),
-    "regime_spectrum": Table((*RUN, *numbers("frequency_hz velocity_sqrt_kg_m_per_s", **SIZE),
-                              *numbers("velocity_{}_x_m_per_s velocity_{}_y_m_per_s velocity_{}_z_m_per_s velocity_{}_normal_m_per_s", read=False, **SIZE))),
-    "regime_points": Table((*RUN, whole("point", 1), word("name"), *PLACE, *numbers("normal_x normal_y normal_z", least=-1, most=1),
-                            *numbers("mean_square_velocity_m2_per_s2", empty=True, **SIZE))),
+    "regime_nodes": Table(
+        (
+            *RUN,
+            *PLACE,
+            word("interface"),
+            *(number(name, least=0, most=1) for name in ("open", "stick", "slip")),
+            *numbers("mean_pressure_pa largest_gap_m friction_power_w", read=False),
+        )
+    ),
+    "regime_cycles": Table(
+        (*RUN, whole("cycle", 1), *numbers("time_s largest_kinetic_energy_j", **SIZE)),
+        counted=("friction", "speed", "pressure", "damping", "start", "cycle"),
+    ),
+    "regime_spectrum": Table(
+        (
+            *RUN,
+            *numbers("frequency_hz velocity_sqrt_kg_m_per_s", **SIZE),
+            *numbers(
+                (
+                    "velocity_{}_x_m_per_s velocity_{}_y_m_per_s velocity_{}_z_m_per_s"
+                    " velocity_{}_normal_m_per_s"
+                ),
+                read=False,
+                **SIZE,
+            ),
+        )
+    ),
+    "regime_points": Table(
+        (
+            *RUN,
+            whole("point", 1),
+            word("name"),
+            *PLACE,
+            *numbers("normal_x normal_y normal_z", least=-1, most=1),
+            *numbers("mean_square_velocity_m2_per_s2", empty=True, **SIZE),
+        )
+    ),
     "periodic": Table(
-        (*RUN, whole("motion", 1), number("motion_friction"), flag("converged"), number("frequency_hz", "Hz", least=0, open=True), number("change", open=True, read=False),
-         *numbers("largest_kinetic_energy_j", open=True), *numbers("friction_coefficient friction_power_w", open=True, read=False),
-         *(whole(name, read=False) for name in ("opening_nodes", "sticking_nodes")), *numbers("trivial_multiplier", empty=True, read=False, **SIZE),
-         *numbers("largest_multiplier", empty=True, **SIZE), flag("stable", empty=True)),
+        (
+            *RUN,
+            whole("motion", 1),
+            number("motion_friction"),
+            flag("converged"),
+            number("frequency_hz", "Hz", least=0, open=True),
+            number("change", open=True, read=False),
+            *numbers("largest_kinetic_energy_j", open=True),
+            *numbers("friction_coefficient friction_power_w", open=True, read=False),
+            *(whole(name, read=False) for name in ("opening_nodes", "sticking_nodes")),
+            *numbers("trivial_multiplier", empty=True, read=False, **SIZE),
+            *numbers("largest_multiplier", empty=True, **SIZE),
+            flag("stable", empty=True),
+        ),
         together=(("trivial_multiplier", "largest_multiplier", "stable"),),
     ),
-    "periodic_branch": Table((*RUN, word("towards", "smaller", "larger", read=False), *numbers("fold_friction", empty=True), *numbers("end_friction", empty=True, read=False),
-                              word("reason", read=False))),
-    "floquet": Table((*RUN, whole("motion", 1), *numbers("motion_friction real imaginary"), *numbers("modulus", **SIZE), *numbers("frequency_hz growth_rate_1_per_s", open=True),
-                      flag("trivial"))),
-}  # fmt: skip
+    "periodic_branch": Table(
+        (
+            *RUN,
+            word("towards", "smaller", "larger", read=False),
+            *numbers("fold_friction", empty=True),
+            *numbers("end_friction", empty=True, read=False),
+            word("reason", read=False),
+        )
+    ),
+    "floquet": Table(
+        (
+            *RUN,
+            whole("motion", 1),
+            *numbers("motion_friction real imaginary"),
+            *numbers("modulus", **SIZE),
+            *numbers("frequency_hz growth_rate_1_per_s", open=True),
+            flag("trivial"),
+        )
+    ),
+}
 
 
 def schema_of(name):
-    """The schema of a table by its name without ending; none for a table that no run writes. modes_POINT is one of modes."""
+    """Returns the schema of a table by its name without ending, modes_POINT as modes; None for
+    tables that no run writes."""
     if name in TABLES:
         return TABLES[name]
-    return TABLES.get(next((kind for kind in ("modes", "steady") if name.startswith(f"{kind}_")), None))
+    return TABLES.get(
+        next((kind for kind in ("modes", "steady") if name.startswith(f"{kind}_")), None)
+    )
 
 
-def read_table(path, shape=None):
-    """A table as its text has it, and with numbers in the place of their texts. `shape` holds its columns and number of rows from the
-    summary of the run. Raises ResultsError, which names the file, the line, the column and the rule, where it breaks its schema."""
-    texts = _texts_of(path)
-    _require_shape(path, texts, shape)
-    table = schema_of(path.stem)
-    if table is None:
-        return texts, texts
-    _require_columns(path, texts, table, whole=shape is not None)
-    values = pd.DataFrame({name: _values(path, name, texts[name], table.column(name)) for name in texts}, columns=list(texts))
-    _require_together(path, texts, table)
-    _require_counted(path, texts, table)
-    return texts, values
-
-
-def _texts_of(path):
-    """The cells as texts. A field that is lost would be taken for an empty one."""
-    try:
-        text = read_text(path)
-    except FileNotFoundError:
-        raise ResultsError(f"{path} is missing") from None
-    try:
-        rows = list(csv.reader(io.StringIO(text, newline=""), strict=True))
-    except csv.Error as error:
-        raise ResultsError(f"{path}: {error}") from None
-    if not rows or not rows[0]:
-        raise ResultsError(f"{path}: the line with the names of the columns is missing")
-    short = next((number for number, row in enumerate(rows, 1) if len(row) != len(rows[0])), len(rows) if not text.endswith("\n") else None)
-    if short:
-        raise ResultsError(f"{path}: line {short} is cut: it has {len(rows[short - 1])} of {len(rows[0])} fields, or no end")
-    twice = next((name for name in rows[0] if rows[0].count(name) > 1), None)
-    if twice is not None:
-        raise ResultsError(f"{path}: two columns have the name {_shown(twice)}")
-    return pd.DataFrame(rows[1:], columns=rows[0], dtype=object)
-
-
-def _require_shape(path, texts, shape):
-    if shape is None:
-        return
-    missing = [name for name in shape["columns"] if name not in texts]
-    if missing:
-        raise ResultsError(f"{path}: there is no column {', '.join(missing)}, which the run has written")
-    if list(texts) != shape["columns"]:
-        raise ResultsError(f"{path}: its columns are not those that the run has written, {', '.join(shape['columns'])}")
-    if len(texts) != shape["rows"]:
-        raise ResultsError(f"{path} is cut: it has {len(texts)} rows, summary.json tells of {shape['rows']}")
-
-
-def _require_columns(path, texts, table, whole):
-    needed = [column.name for column in table.columns if (whole or column.read) and "{}" not in column.name]
-    missing = [name for name in needed if name not in texts]
-    if missing:
-        raise ResultsError(f"{path}: there is no column {', '.join(missing)}")
-    unknown = next((name for name in texts if table.column(name) is None), None)
-    if unknown is not None:
-        raise ResultsError(f"{path}: the column {_shown(unknown)} is in no table of this name")
-
-
-def _values(path, name, texts, column):
-    """The values of a column of cells that are as they may be. Most tables are short: plain lists take a tenth of the time of Series."""
-    cells = texts.tolist()
-    blank = np.array([text == "" for text in cells], bool)
-    if column.kind == "word":
-        wrong = np.zeros(len(cells), bool) if column.empty else blank
-        if column.words:
-            wrong = wrong | ~(np.array([text in column.words for text in cells], bool) | blank)
-        _refuse(path, texts, wrong, column, f"is none of the words {', '.join(column.words)}" if column.words else "is empty")
-        return texts.where(~blank, np.nan) if blank.any() else texts
-    kind = {"whole": WHOLE, "flag": re.compile("[01]")}.get(column.kind, NUMBER)
-    unbounded = np.array([bool(column.open and OPEN.fullmatch(text)) for text in cells], bool)
-    good = np.array([kind.fullmatch(text) is not None for text in cells], bool) | unbounded
-    _refuse(path, texts, ~good & ~(blank & column.empty), column, f"is not {KINDS[column.kind]}")
-    values = np.array([float(text or "nan") for text in cells], float)
-    _refuse(path, texts, np.isinf(values) & ~unbounded, column, "is beyond the largest number")
-    _refuse(path, texts, values < column.least, column, f"is below {column.least:g}")
-    _refuse(path, texts, values > column.most, column, f"is above {column.most:g}")
-    return pd.Series(values.astype(int) if column.kind != "number" and not blank.any() else values, texts.index)
-
-
-def _refuse(path, texts, wrong, column, rule):
-    if wrong.any():
-        at = int(np.argmax(wrong))
-        unit = f" in {column.unit}" if column.unit else ""
-        raise ResultsError(f"{path}, line {at + 2}, column {texts.name}{unit}: {_shown(texts.iloc[at])} {rule}")
-
-
-def _require_together(path, texts, table):
-    for names in table.together:
-        names = [name for name in names if name in texts]
-        for name in names[1:]:
-            differ = (texts[name] == "") != (texts[names[0]] == "")
-            if differ.any():
-                raise ResultsError(f"{path}, line {int(np.argmax(differ.to_numpy())) + 2}: {names[0]} and {name} are empty together, or neither is")
-
-
-def _require_counted(path, texts, table):
-    names = [name for name in table.counted if name in texts]
-    if not names or names[-1] != table.counted[-1]:
-        return
-    *keys, counter = names
-    expected = texts.groupby(keys, sort=False).cumcount() + 1 if keys else pd.Series(np.arange(1, len(texts) + 1), texts.index)
-    differ = texts[counter].map(int).ne(expected) if len(texts) else pd.Series([], dtype=bool)
-    if differ.any():
-        at = int(np.argmax(differ.to_numpy()))
-        raise ResultsError(f"{path}, line {at + 2}, column {counter}: {texts[counter].iloc[at]} follows where {expected.iloc[at]} has to: rows are lost or doubled")
-
-
-def _shown(text):
-    text = text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
-    return repr(text)
-
-
-__all__ = ["CLASSES", "TABLES", "VERDICTS", "Column", "Table", "read_table", "schema_of"]
+__all__ = ["CLASSES", "TABLES", "VERDICTS", "Column", "Table", "schema_of"]

@@ -1,11 +1,17 @@
-"""The surface of a mesh, as the report draws it."""
+# SPDX-License-Identifier: BSD-2-Clause
+"""The surface of a mesh, for the report."""
 import math
 
 import numpy as np
 from scipy.spatial import cKDTree
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject
-from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkQuadricClustering, vtkThreshold, vtkTriangleFilter
+from vtkmodules.vtkFiltersCore import (
+    vtkFeatureEdges,
+    vtkQuadricClustering,
+    vtkThreshold,
+    vtkTriangleFilter,
+)
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
 from squeal.grid import add_points, grid_of
@@ -14,19 +20,22 @@ MOST_TRIANGLES = 200_000  # which a processor without a graphics card still draw
 
 
 class Skin:
-    """The boundary of the bodies, in triangles on corner nodes; each body has nodes of its own. One of more than MOST_TRIANGLES is drawn
-    coarser, on some of its nodes."""
+    """The boundary of the bodies: triangles on corner nodes, with separate nodes for each body.
+    A boundary of more than MOST_TRIANGLES is coarsened."""
 
     def __init__(self, mesh):
         grid = grid_of(mesh)
         add_points(grid, "node", np.arange(len(mesh.coordinates), dtype=np.int64))
         surfaces = {name: _surface_of(grid, number) for number, name in enumerate(mesh.bodies)}
-        surfaces = {name: surface for name, surface in surfaces.items() if surface.GetNumberOfPolys()}
-        self.whole = sum(surface.GetNumberOfPolys() for surface in surfaces.values())  # its triangles
-        self.detail = 0.0  # m; what is smaller is not drawn
+        surfaces = {
+            name: surface for name, surface in surfaces.items() if surface.GetNumberOfPolys()
+        }
+        self.whole = sum(surface.GetNumberOfPolys() for surface in surfaces.values())
+        self.detail = 0.0  # m; smaller details are not drawn
         if self.whole > MOST_TRIANGLES:
             surfaces, self.detail = _coarser(surfaces)
-        self.unseen = [name for name, surface in surfaces.items() if not surface.GetNumberOfPolys()]  # bodies below that detail
+        # Bodies smaller than that detail.
+        self.unseen = [name for name, surface in surfaces.items() if not surface.GetNumberOfPolys()]
         self.nodes, self.triangles, self.lines, self.bodies = [], [], [], []
         first, triangles, lines = 0, 0, 0
         for name, surface in surfaces.items():
@@ -38,10 +47,18 @@ class Skin:
             self.nodes.append(nodes)
             self.triangles.append(first + faces)
             self.lines.append(first + sides)
-            self.bodies.append({"name": name, "nodes": [first, first + len(nodes)], "triangles": [triangles, triangles + len(faces)],
-                                "lines": [lines, lines + len(sides)]})  # fmt: skip
+            self.bodies.append(
+                {
+                    "name": name,
+                    "nodes": [first, first + len(nodes)],
+                    "triangles": [triangles, triangles + len(faces)],
+                    "lines": [lines, lines + len(sides)],
+                }
+            )
             first, triangles, lines = first + len(nodes), triangles + len(faces), lines + len(sides)
-        self.nodes, self.triangles, self.lines = (np.concatenate(part) for part in (self.nodes, self.triangles, self.lines))
+        self.nodes, self.triangles, self.lines = (
+            np.concatenate(part) for part in (self.nodes, self.triangles, self.lines)
+        )
 
 
 def _surface_of(grid, body):
@@ -62,9 +79,12 @@ def _surface_of(grid, body):
 
 
 def _coarser(surfaces):
-    """Surfaces with a node for each cube of space that they pass through, and the side of the cubes: flat faces keep nodes, since modes bend
-    them."""
-    area = sum(np.linalg.norm(np.cross(*_edges_of(surface)), axis=1).sum() / 2 for surface in surfaces.values())
+    """Returns surfaces with one node for each cube of space that they pass through, and the side
+    of the cubes. Flat faces keep nodes, since modes bend them."""
+    area = sum(
+        np.linalg.norm(np.cross(*_edges_of(surface)), axis=1).sum() / 2
+        for surface in surfaces.values()
+    )
     side = math.sqrt(2 * area / MOST_TRIANGLES)
     while True:
         coarse = {name: _clustered(surface, side) for name, surface in surfaces.items()}
@@ -89,7 +109,8 @@ def _clustered(surface, side):
     cubes.UseInputPointsOn()
     cubes.Update()
     coarse = cubes.GetOutput()
-    _, nearest = cKDTree(_places(surface)).query(_places(coarse))  # it keeps points but not their arrays
+    # The filter keeps points but not their arrays.
+    _, nearest = cKDTree(_places(surface)).query(_places(coarse))
     add_points(coarse, "node", _nodes(surface)[nearest])
     return coarse
 

@@ -1,4 +1,6 @@
-"""Slurm on this machine alone, without systemd and cgroups, in a folder of its own, on free ports, for as long as a test runs."""
+# SPDX-License-Identifier: BSD-2-Clause
+"""Slurm only on this machine, without systemd and cgroups, in a folder of its own, on free ports,
+for as long as a test runs."""
 import contextlib
 import os
 import socket
@@ -9,7 +11,8 @@ from pathlib import Path
 
 START_SECONDS = 60
 
-# Steps are bound to cores by task/affinity, as on a cluster. Requeued jobs wait for the lifetime of their credentials, 120 s by default.
+# Steps are bound to cores by task/affinity, as on a cluster. Requeued jobs wait for the lifetime of
+# their credentials, 120 s by default.
 CONFIGURATION = """\
 ClusterName=squeal
 SlurmctldHost={host}(127.0.0.1)
@@ -41,7 +44,8 @@ PartitionName=test Nodes=ALL Default=YES MaxTime=60 State=UP
 
 
 class Slurm:
-    """A context: within it the commands of Slurm, called with `environment`, are those of this machine's cluster."""
+    """A context: within it the commands of Slurm, called with `environment`, are those of this
+    machine's cluster."""
 
     def __init__(self, folder):
         self.folder = Path(folder).absolute()
@@ -73,9 +77,13 @@ class Slurm:
 
     def call(self, *command, **how):
         """Returns what a command says."""
-        run = subprocess.run(command, env=self.environment, text=True, capture_output=True, timeout=60, **how)
+        run = subprocess.run(
+            command, env=self.environment, text=True, capture_output=True, timeout=60, **how
+        )
         if run.returncode != 0:
-            raise subprocess.SubprocessError(f"{' '.join(map(str, command))}: exit code {run.returncode}: {run.stderr}")
+            raise subprocess.SubprocessError(
+                f"{' '.join(map(str, command))}: exit code {run.returncode}: {run.stderr}"
+            )
         return run.stdout.strip()
 
     def wait(self, done, seconds, what):
@@ -86,7 +94,10 @@ class Slurm:
             time.sleep(0.2)
 
     def logs(self):
-        return "\n".join(f"--- {path.name}\n{path.read_text(errors='replace')[-3000:]}" for path in sorted(self.folder.glob("*.log")))
+        return "\n".join(
+            f"--- {path.name}\n{path.read_text(errors='replace')[-3000:]}"
+            for path in sorted(self.folder.glob("*.log"))
+        )
 
     def _start(self):
         # Of a name with dots Slurm takes the part before the first.
@@ -96,15 +107,27 @@ class Slurm:
         for name in ("state", "spool"):
             (self.folder / name).mkdir()
         (self.folder / "slurm.conf").write_text(
-            CONFIGURATION.format(host=host, folder=self.folder, controller_port=controller_port, node_port=node_port,
-                                 cores=len(os.sched_getaffinity(0)), megabytes=memory * 9 // 10))  # fmt: skip
-        # Its folders in /tmp are named after jobs, whose numbers another cluster on this machine may have as well.
+            CONFIGURATION.format(
+                host=host,
+                folder=self.folder,
+                controller_port=controller_port,
+                node_port=node_port,
+                cores=len(os.sched_getaffinity(0)),
+                megabytes=memory * 9 // 10,
+            )
+        )
+        # Its folders in /tmp are named after jobs, whose numbers another cluster on this machine
+        # may have as well.
         (self.folder / "mpi.conf").write_text(f"PMIxCliTmpDirBase={self.folder}\n")
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o600)
-        files = [f"--{name}-file={self.folder}/munge.{name}" for name in ("key", "log", "pid", "seed")]
-        self._daemon("munged", "--foreground", "--force", f"--socket={self.folder}/munge.socket", *files)
+        files = [
+            f"--{name}-file={self.folder}/munge.{name}" for name in ("key", "log", "pid", "seed")
+        ]
+        self._daemon(
+            "munged", "--foreground", "--force", f"--socket={self.folder}/munge.socket", *files
+        )
         self.wait((self.folder / "munge.socket").exists, START_SECONDS, "the socket of munge")
         self._daemon("slurmctld", "-D", "-f", self.folder / "slurm.conf")
         self._daemon("slurmd", "-D", "-f", self.folder / "slurm.conf")
@@ -113,12 +136,18 @@ class Slurm:
     def _daemon(self, program, *words):
         with (self.folder / f"{program}.out.log").open("w") as log:
             command = [f"/usr/sbin/{program}", *words]
-            self.daemons.append(subprocess.Popen(command, env=self.environment, stdout=log, stderr=log, stdin=subprocess.DEVNULL))
+            self.daemons.append(
+                subprocess.Popen(
+                    command, env=self.environment, stdout=log, stderr=log, stdin=subprocess.DEVNULL
+                )
+            )
 
     def _idle(self):
         for daemon in self.daemons:
             if daemon.poll() is not None:
-                raise RuntimeError(f"{daemon.args[0]} has ended with exit code {daemon.returncode}\n{self.logs()}")
+                raise RuntimeError(
+                    f"{daemon.args[0]} has ended with exit code {daemon.returncode}\n{self.logs()}"
+                )
         try:
             return "idle" in self.call("sinfo", "--noheader", "--format=%T").split()
         except subprocess.SubprocessError:

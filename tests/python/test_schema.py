@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """Tables of runs against their schema, and damaged ones, which are refused: test_schema.py PROGRAM.
 
 With SQUEAL_LONG in the environment, ten times as many damaged tables.
@@ -18,28 +19,98 @@ from pathlib import Path
 repository = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(repository / "python"))
 sys.dont_write_bytecode = True
-import squeal  # noqa: E402
-from squeal import schema  # noqa: E402
-from squeal.agreement import require_agreement  # noqa: E402
+import squeal
+from squeal import schema
+from squeal.agreement import require_agreement
+from squeal.tables import read_table
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 LONG = bool(os.environ.get("SQUEAL_LONG"))
 DAMAGES = 20000 if LONG else 2000
 COARSE = "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"
-LAYERS = ["-mesh_set", "nx=4,ny_disc=2,ny_pad=2,order=2", "-modes_count", "30", "-report_fields", "off"]
+LAYERS = [
+    "-mesh_set",
+    "nx=4,ny_disc=2,ny_pad=2,order=2",
+    "-modes_count",
+    "30",
+    "-report_fields",
+    "off",
+]
 # Shipped cases on small meshes, and a block of which nodes open: all tables that there are.
 RUNS = {
-    "brake": ["-options_file", repository / "options/disc_brake_regime.yaml", "-modes_count", "60", "-flutter_band", "9000", "-mesh_set", COARSE,
-              "-flutter_friction", "0.4", "-regime_time", "0.016", "-regime_start_factor", "1", "-regime_cycle", "on", "-regime_cycle_steps", "128",
-              "-regime_cycle_range", "0.39,0.41", "-regime_cycles_kept", "0", "-regime_spectrum_points", "0.15,0,0;-0.15,0,0"],
-    "layers": ["-options_file", repository / "options/two_layers_moving.yaml", *LAYERS, "-flutter_friction", "0,0.2,0.4", "-flutter_track", "on", "-flutter_sensitivities"],
+    "brake": [
+        "-options_file",
+        repository / "options/disc_brake_regime.yaml",
+        "-modes_count",
+        "60",
+        "-flutter_band",
+        "9000",
+        "-mesh_set",
+        COARSE,
+        "-flutter_friction",
+        "0.4",
+        "-regime_time",
+        "0.016",
+        "-regime_start_factor",
+        "1",
+        "-regime_cycle",
+        "on",
+        "-regime_cycle_steps",
+        "128",
+        "-regime_cycle_range",
+        "0.39,0.41",
+        "-regime_cycles_kept",
+        "0",
+        "-regime_spectrum_points",
+        "0.15,0,0;-0.15,0,0",
+    ],
+    "layers": [
+        "-options_file",
+        repository / "options/two_layers_moving.yaml",
+        *LAYERS,
+        "-flutter_friction",
+        "0,0.2,0.4",
+        "-flutter_track",
+        "on",
+        "-flutter_sensitivities",
+    ],
     "chain": ["-options_file", repository / "options/external_chain.yaml"],
     "belt": ["-options_file", repository / "options/external.yaml"],
-    "layer": ["-options_file", repository / "options/layer.yaml", "-report_fields", "off", "-modes_count", "20"],
-    "opening": ["-mesh_file", repository / "meshes/layer.geo", "-mesh_set", "Lx=0.5,nx=8,ny=8", "-material_layer_young", "1e9", "-material_layer_poisson", "0.3",
-                "-material_layer_density", "1000", "-constraint_bottom_clamped", "xy", "-contact_plate_pad", "top", "-contact_plate_obstacle_velocity", "1,0,0",
-                "-contact_plate_obstacle_displacement", "0,-0.001,0", "-report_fields", "off", "-modes_count", "20", "-flutter_friction", "0:0.5:0.1"],
-}  # fmt: skip
+    "layer": [
+        "-options_file",
+        repository / "options/layer.yaml",
+        "-report_fields",
+        "off",
+        "-modes_count",
+        "20",
+    ],
+    "opening": [
+        "-mesh_file",
+        repository / "meshes/layer.geo",
+        "-mesh_set",
+        "Lx=0.5,nx=8,ny=8",
+        "-material_layer_young",
+        "1e9",
+        "-material_layer_poisson",
+        "0.3",
+        "-material_layer_density",
+        "1000",
+        "-constraint_bottom_clamped",
+        "xy",
+        "-contact_plate_pad",
+        "top",
+        "-contact_plate_obstacle_velocity",
+        "1,0,0",
+        "-contact_plate_obstacle_displacement",
+        "0,-0.001,0",
+        "-report_fields",
+        "off",
+        "-modes_count",
+        "20",
+        "-flutter_friction",
+        "0:0.5:0.1",
+    ],
+}
 
 
 def cells_of(text):
@@ -59,7 +130,11 @@ class Tables(unittest.TestCase):
         cls.addClassCleanup(temporary.cleanup)
         cls.place = Path(temporary.name)
         for name, words in RUNS.items():
-            subprocess.run([PROGRAM, *words, "-report_dir", cls.place / name, "-quiet"], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run(
+                [PROGRAM, *words, "-report_dir", cls.place / name, "-quiet"],
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
         cls.runs = {name: squeal.open(cls.place / name) for name in RUNS}
 
     def test_the_program_writes_what_the_schema_says(self):
@@ -71,8 +146,14 @@ class Tables(unittest.TestCase):
                     table = schema.schema_of(path.stem)
                     header = cells_of(path.read_text())[0]
                     self.assertIsNotNone(table)
-                    self.assertEqual([column for column in header if table.column(column) is None], [])
-                    self.assertEqual({column.name for column in table.columns if "{}" not in column.name} - set(header), set())
+                    self.assertEqual(
+                        [column for column in header if table.column(column) is None], []
+                    )
+                    self.assertEqual(
+                        {column.name for column in table.columns if "{}" not in column.name}
+                        - set(header),
+                        set(),
+                    )
                     self.assertIn(path.stem, run.summary["tables"])
                     seen |= {kind for kind, one in schema.TABLES.items() if one is table}
         self.assertEqual(seen, set(schema.TABLES))
@@ -80,14 +161,24 @@ class Tables(unittest.TestCase):
     def test_units_are_those_of_the_names(self):
         for kind, table in schema.TABLES.items():
             for column in table.columns:
-                self.assertTrue(column.unit == "" or any(column.name.endswith(end) and column.unit == unit for end, unit in schema.UNITS.items()), (kind, column))
-        self.assertEqual(schema.TABLES["regime_spectrum"].column("velocity_2_normal_m_per_s").unit, "m/s")
+                self.assertTrue(
+                    column.unit == ""
+                    or any(
+                        column.name.endswith(end) and column.unit == unit
+                        for end, unit in schema.UNITS.items()
+                    ),
+                    (kind, column),
+                )
+        self.assertEqual(
+            schema.TABLES["regime_spectrum"].column("velocity_2_normal_m_per_s").unit, "m/s"
+        )
         self.assertIsNone(schema.TABLES["regime_spectrum"].column("velocity_0_normal_m_per_s"))
 
     # --- damage by hand: what is said ---
 
     def refused(self, run, name, change, message):
-        """A change of the text of a table is refused when the results are opened, by this message."""
+        """A change of the text of a table is refused when the results are opened, by this
+        message."""
         path = self.place / run / f"{name}.csv"
         before = path.read_text()
         self.addCleanup(path.write_text, before)
@@ -110,19 +201,69 @@ class Tables(unittest.TestCase):
     def test_messages_name_file_line_column_and_rule(self):
         words = "unstable, undecided, uncertified, stable, neutral"
         for run, name, change, message in (
-            ("chain", "eigenvalues", self.change_cell(3, "verdict", "wobbly"), f"line 4, column verdict: 'wobbly' is none of the words {words}"),
-            ("chain", "eigenvalues", self.change_cell(3, "growth_rate_1_per_s", "nan"), "line 4, column growth_rate_1_per_s in 1/s: 'nan' is not a number"),
-            ("chain", "eigenvalues", self.change_cell(3, "growth_rate_1_per_s", ""), "line 4, column growth_rate_1_per_s in 1/s: '' is not a number"),
-            ("chain", "eigenvalues", self.change_cell(3, "frequency_hz", "1e999"), "line 4, column frequency_hz in Hz: '1e999' is beyond the largest number"),
-            ("chain", "eigenvalues", self.change_cell(3, "mode", "0"), "line 4, column mode: '0' is below 1"),
-            ("chain", "eigenvalues", self.change_cell(3, "mode", "1.5"), "line 4, column mode: '1.5' is not a whole number"),
-            ("chain", "eigenvalues", self.change_cell(3, "certified", "2"), "line 4, column certified: '2' is not 0 or 1"),
-            ("chain", "eigenvalues", self.change_cell(0, "certified", "sure"), "there is no column certified, which the run has written"),
-            ("brake", "regime", self.change_cell(1, "class", "serene"), "line 2, column class: 'serene' is none of the words growing, steady, periodic"),
-            ("brake", "regime_cycles", lambda text: "".join(text.splitlines(True)[: len(text.splitlines()) // 2]), r"is cut: it has \d+ rows, summary.json tells of \d+"),
+            (
+                "chain",
+                "eigenvalues",
+                self.change_cell(3, "verdict", "wobbly"),
+                f"line 4, column verdict: 'wobbly' is none of the words {words}",
+            ),
+            (
+                "chain",
+                "eigenvalues",
+                self.change_cell(3, "growth_rate_1_per_s", "nan"),
+                "line 4, column growth_rate_1_per_s in 1/s: 'nan' is not a number",
+            ),
+            (
+                "chain",
+                "eigenvalues",
+                self.change_cell(3, "growth_rate_1_per_s", ""),
+                "line 4, column growth_rate_1_per_s in 1/s: '' is not a number",
+            ),
+            (
+                "chain",
+                "eigenvalues",
+                self.change_cell(3, "frequency_hz", "1e999"),
+                "line 4, column frequency_hz in Hz: '1e999' is beyond the largest number",
+            ),
+            (
+                "chain",
+                "eigenvalues",
+                self.change_cell(3, "mode", "0"),
+                "line 4, column mode: '0' is below 1",
+            ),
+            (
+                "chain",
+                "eigenvalues",
+                self.change_cell(3, "mode", "1.5"),
+                "line 4, column mode: '1.5' is not a whole number",
+            ),
+            (
+                "chain",
+                "eigenvalues",
+                self.change_cell(3, "certified", "2"),
+                "line 4, column certified: '2' is not 0 or 1",
+            ),
+            (
+                "chain",
+                "eigenvalues",
+                self.change_cell(0, "certified", "sure"),
+                "there is no column certified, which the run has written",
+            ),
+            (
+                "brake",
+                "regime",
+                self.change_cell(1, "class", "serene"),
+                "line 2, column class: 'serene' is none of the words growing, steady, periodic",
+            ),
+            (
+                "brake",
+                "regime_cycles",
+                lambda text: "".join(text.splitlines(True)[: len(text.splitlines()) // 2]),
+                r"is cut: it has \d+ rows, summary.json lists \d+",
+            ),
             ("brake", "regime_cycles", lambda text: text[: len(text) // 2], r"line \d+ is cut"),
             ("chain", "eigenvalues", lambda text: text + "x\0,\n", r"line \d+ is cut|NUL"),
-        ):  # fmt: skip
+        ):
             with self.subTest(run=run, table=name, message=message):
                 self.refused(run, name, change, message)
 
@@ -131,11 +272,31 @@ class Tables(unittest.TestCase):
         rows = cells_of((self.place / "layers/eigenvalues.csv").read_text())
         verdicts = [row[rows[0].index("verdict")] for row in rows]
         at = verdicts.index("unstable")
-        self.refused("layers", "eigenvalues", self.change_cell(at, "verdict", "undecided"), "eigenvalues that are .*, summary.json lists")
-        self.refused("layers", "stability_map", self.change_cell(1, "unstable_modes", "7"), "7 unstable modes at friction 0, .*, summary.json lists ")
+        self.refused(
+            "layers",
+            "eigenvalues",
+            self.change_cell(at, "verdict", "undecided"),
+            "eigenvalues that are .*, summary.json lists",
+        )
+        self.refused(
+            "layers",
+            "stability_map",
+            self.change_cell(1, "unstable_modes", "7"),
+            "7 unstable modes at friction 0, .*, summary.json lists ",
+        )
         for run in ("layers", "belt"):  # at friction 0, and beyond
-            self.refused(run, "critical", self.change_cell(1, "direction", "regain"), "line 2: regain of stability, with the slope")
-        self.refused("brake", "regime", self.change_cell(1, "class", "steady"), "is steady, summary.json lists")
+            self.refused(
+                run,
+                "critical",
+                self.change_cell(1, "direction", "regain"),
+                "line 2: regain of stability, with the slope",
+            )
+        self.refused(
+            "brake",
+            "regime",
+            self.change_cell(1, "class", "steady"),
+            "is steady, summary.json lists",
+        )
 
     def test_results_of_versions_without_shapes(self):
         """What a program here reads has to be there; other columns need not be."""
@@ -144,10 +305,15 @@ class Tables(unittest.TestCase):
         summary = json.loads((copy / "summary.json").read_text())
         del summary["tables"]
         (copy / "summary.json").write_text(json.dumps(summary))
-        for column, message in (("verdict", "there is no column verdict"), ("backward_error", None)):
+        for column, message in (
+            ("verdict", "there is no column verdict"),
+            ("backward_error", None),
+        ):
             rows = cells_of((self.place / "chain/eigenvalues.csv").read_text())
             at = rows[0].index(column)
-            (copy / "eigenvalues.csv").write_text(text_of([row[:at] + row[at + 1 :] for row in rows]))
+            (copy / "eigenvalues.csv").write_text(
+                text_of([row[:at] + row[at + 1 :] for row in rows])
+            )
             if message is None:
                 self.assertEqual(len(squeal.open(copy).eigenvalues), len(rows) - 1)
             else:
@@ -158,19 +324,37 @@ class Tables(unittest.TestCase):
         """Links, pipes and folders are named, and nothing waits; in every file that is read."""
         foreign = self.place / "foreign"
         for name in ("summary.json", "eigenvalues.csv", "stability_map.csv"):
-            for kind, plant in (("a link", lambda path: path.symlink_to(foreign)), ("a named pipe", os.mkfifo), ("a folder", os.mkdir)):
+            for kind, plant in (
+                ("a link", lambda path: path.symlink_to(foreign)),
+                ("a named pipe", os.mkfifo),
+                ("a folder", os.mkdir),
+            ):
                 with self.subTest(name=name, kind=kind):
                     copy = self.place / "planted"
                     shutil.copytree(self.place / "chain", copy)
                     self.addCleanup(shutil.rmtree, copy, ignore_errors=True)
                     (copy / name).rename(foreign)
                     plant(copy / name)
-                    with self.assertRaisesRegex(squeal.ResultsError, f"{name} is {kind}, not a regular file"):
+                    with self.assertRaisesRegex(
+                        squeal.ResultsError, f"{name} is {kind}, not a regular file"
+                    ):
                         squeal.open(copy)
-                    commands = {("summary.json", "a link"): ["squeal-merge", self.place / "out"], ("eigenvalues.csv", "a named pipe"): ["squeal-plot"]}
+                    commands = {
+                        ("summary.json", "a link"): ["squeal-merge", self.place / "out"],
+                        ("eigenvalues.csv", "a named pipe"): ["squeal-plot"],
+                    }
                     for command in (commands[key] for key in [(name, kind)] if key in commands):
-                        failed = subprocess.run([repository / "scripts" / command[0], *command[1:], copy], capture_output=True, text=True, timeout=60)
-                        self.assertEqual((failed.returncode, len(failed.stderr.splitlines())), (1, 1), failed.stderr)
+                        failed = subprocess.run(
+                            [repository / "scripts" / command[0], *command[1:], copy],
+                            capture_output=True,
+                            text=True,
+                            timeout=60,
+                        )
+                        self.assertEqual(
+                            (failed.returncode, len(failed.stderr.splitlines())),
+                            (1, 1),
+                            failed.stderr,
+                        )
                         self.assertIn(f"{name} is {kind}, not a regular file", failed.stderr)
                     shutil.rmtree(copy)
 
@@ -178,7 +362,12 @@ class Tables(unittest.TestCase):
         copy = self.place / "fields"
         shutil.copytree(self.place / "belt", copy)
         whole = (copy / "results.h5").read_bytes()
-        for damaged in (whole[: len(whole) // 2], whole[:100], b"", whole.replace(b"eigenvalues", b"eigenvolues")):
+        for damaged in (
+            whole[: len(whole) // 2],
+            whole[:100],
+            b"",
+            whole.replace(b"eigenvalues", b"eigenvolues"),
+        ):
             (copy / "results.h5").write_bytes(damaged)
             with self.assertRaisesRegex(squeal.ResultsError, "results.h5 is damaged: "):
                 squeal.open(copy).fastest_mode(friction=1.2)
@@ -186,9 +375,12 @@ class Tables(unittest.TestCase):
     # --- damage at random ---
 
     def damaged(self, text, table, generator):
-        """A damaged text and whether it has to be refused; other damage may be the table of another run."""
+        """A damaged text and whether it has to be refused; other damage may be the table of another
+        run."""
         rows = cells_of(text)
-        kind = generator.choice(["column", "row", "double", "end", "cell", "cell", "cell", "cell", "name", "byte"])
+        kind = generator.choice(
+            ["column", "row", "double", "end", "cell", "cell", "cell", "cell", "name", "byte"]
+        )
         line, at = generator.randrange(1, len(rows)), generator.randrange(len(rows[0]))
         if kind == "column":
             return text_of([row[:at] + row[at + 1 :] for row in rows]), True
@@ -203,9 +395,24 @@ class Tables(unittest.TestCase):
             return text_of(rows), True
         if kind == "byte":
             place = generator.randrange(len(text))
-            return text[:place] + generator.choice("\0\"\n,x-.9é\r") + text[place + 1 :], False
+            return text[:place] + generator.choice('\0"\n,x-.9é\r') + text[place + 1 :], False
         column = table.column(rows[0][at])
-        value = generator.choice(["nan", "inf", "1.2.3", "text", "", "0x10", "1e999", "é", " ", "1 2", "−1", *column.words])
+        value = generator.choice(
+            [
+                "nan",
+                "inf",
+                "1.2.3",
+                "text",
+                "",
+                "0x10",
+                "1e999",
+                "é",
+                " ",
+                "1 2",
+                "−1",
+                *column.words,
+            ]
+        )
         rows[line][at] = value
         allowed = (value == "" and column.empty) or (value in ("nan", "inf") and column.open)
         free = column.kind == "word" and (not column.words or value in column.words)
@@ -214,10 +421,16 @@ class Tables(unittest.TestCase):
         return text_of(rows), known or not (allowed or free)
 
     def test_thousands_of_damaged_tables(self):
-        """Each is refused by a ResultsError; and damage that no reader can know of ends in no other exception."""
+        """Each is refused by a ResultsError; and damage that no reader can know of ends in no other
+        exception."""
         seed = random.randrange(10**6)
         generator = random.Random(seed)
-        tables = [(run, name) for run, results in self.runs.items() for name in results.texts if len(results.texts[name])]
+        tables = [
+            (run, name)
+            for run, results in self.runs.items()
+            for name in results.texts
+            if len(results.texts[name])
+        ]
         refused = 0
         for number in range(DAMAGES):
             run, name = tables[number % len(tables)]
@@ -230,21 +443,35 @@ class Tables(unittest.TestCase):
             damaged.parent.mkdir(exist_ok=True)
             damaged.write_text(text, newline="")
             try:  # as squeal.open() does it
-                _, values = schema.read_table(damaged, results.summary["tables"][name])
-                require_agreement(damaged.parent, results.summary, {name: values})  # the others are as they were
-                self.assertFalse(must, f"seed {seed}, number {number}: {path} was accepted with\n{self.difference(whole, text)}")
+                _, values = read_table(damaged, results.summary["tables"][name])
+                # The others are as they were
+                require_agreement(damaged.parent, results.summary, {name: values})
+                self.assertFalse(
+                    must,
+                    (
+                        f"seed {seed}, number {number}: {path} was accepted"
+                        f" with\n{self.difference(whole, text)}"
+                    ),
+                )
             except squeal.ResultsError as error:
                 refused += 1
                 self.assertIn(path.name, str(error))
                 self.assertNotIn("\n", str(error))
             except (ArithmeticError, LookupError, TypeError, ValueError, OSError) as error:
-                self.fail(f"seed {seed}, number {number}: {path}: {error!r}\n{self.difference(whole, text)}")
+                self.fail(
+                    f"seed {seed}, number {number}: {path}:"
+                    f" {error!r}\n{self.difference(whole, text)}"
+                )
         print(f"{refused} of {DAMAGES} damaged tables were refused", file=sys.stderr)
         self.assertGreater(refused, 0.7 * DAMAGES)
 
     @staticmethod
     def difference(whole, text):
-        return "\n".join(f"{one!r} became {other!r}" for one, other in zip(whole.splitlines(), text.splitlines()) if one != other)[:2000]
+        return "\n".join(
+            f"{one!r} became {other!r}"
+            for one, other in zip(whole.splitlines(), text.splitlines())
+            if one != other
+        )[:2000]
 
     def test_the_commands_refuse_in_one_line(self):
         generator = random.Random(1)
@@ -261,8 +488,14 @@ class Tables(unittest.TestCase):
             (copy / f"{name}.csv").write_text(text)
             before = sorted(copy.iterdir())
             for command in commands:
-                failed = subprocess.run([repository / "scripts" / command[0], *command[1:], copy], capture_output=True, text=True)
-                self.assertEqual((failed.returncode, len(failed.stderr.splitlines())), (1, 1), failed.stderr)
+                failed = subprocess.run(
+                    [repository / "scripts" / command[0], *command[1:], copy],
+                    capture_output=True,
+                    text=True,
+                )
+                self.assertEqual(
+                    (failed.returncode, len(failed.stderr.splitlines())), (1, 1), failed.stderr
+                )
                 self.assertIn(f"{name}.csv", failed.stderr)
             self.assertEqual(sorted(copy.iterdir()), before)
             self.assertFalse((self.place / "out").exists())

@@ -192,16 +192,16 @@ TEST(CommandLine, CasesRunFromAnywhere) {
 /// scripts/run in a folder where there is nothing to build: a setup that installs and builds
 /// nothing, and the program of these tests.
 fs::path scriptsIn(const fs::path& place) {
-  fs::create_directories(place / "scripts");
+  fs::create_directories(place / "scripts/lib");
   fs::create_directories(place / "build");
-  for (const char* script : {"run", "run_case", "ranks", "report_dir"})
+  for (const char* script : {"run", "lib/run_case", "lib/ranks", "lib/report_dir"})
     fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "scripts" / script, place / "scripts" / script);
   fs::create_symlink(SQUEAL_EXECUTABLE, place / "build/squeal");
   writeText(place / "scripts/setup",
             "cd \"$(dirname \"${BASH_SOURCE[0]}\")/..\"\n"
             "mpirun() { shift; '" SQUEAL_MPIEXEC "' \"$@\"; }\n");
-  writeText(place / "scripts/plot_stability.py", "#!/bin/sh\necho plotted\n");
-  fs::permissions(place / "scripts/plot_stability.py", fs::perms::owner_all);
+  writeText(place / "scripts/squeal-plot", "#!/bin/sh\necho plotted\n");
+  fs::permissions(place / "scripts/squeal-plot", fs::perms::owner_all);
   return place / "scripts/run";
 }
 
@@ -239,7 +239,7 @@ TEST(CommandLine, ScriptSharesOutTheCores) {
   const auto holds = [](const std::string& ranks, const std::string& condition) {
     return shell("/", "env -i PATH=\"$PATH\" NP=" + ranks +
                           " bash -euc '. \"" SQUEAL_SOURCE_DIR
-                          "/scripts/ranks\"; cores=$(physical_cores); choose_ranks; [ " +
+                          "/scripts/lib/ranks\"; cores=$(physical_cores); choose_ranks; [ " +
                           condition + " ]'") == 0;
   };
   const std::string crowded =
@@ -254,8 +254,8 @@ TEST(CommandLine, ScriptSharesOutTheCores) {
 TEST(CommandLine, ScriptHelpBuildsNothing) {
   const fs::path place = placeFor("command_line/help");
   fs::remove_all(place);
-  fs::create_directories(place / "scripts");
-  for (const char* script : {"run", "run_case"})
+  fs::create_directories(place / "scripts/lib");
+  for (const char* script : {"run", "lib/run_case"})
     fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "scripts" / script, place / "scripts" / script);
   for (const char* call : {"scripts/run --help >out", "scripts/run disc_brake -h >out"}) {
     EXPECT_EQ(shell(place, call), 0) << call;

@@ -349,14 +349,14 @@ TEST(Outputs, RecipeHoldsEveryOption) {
       "outputs/recipe_solver", 1,
       layer +
           "-flutter_friction 0.4 -modes_eps_ncv 60 -steady_snes_max_it 7 -report_fields off "
-          "-report_frames 8 -modes_benchmark -quiet");
+          "-report_frames 8 -steady_full -quiet");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const std::string recipe = contentOf(run.folder / "options.txt");
   for (const char* line : {"-modes_eps_ncv 60\n", "-steady_snes_max_it 7\n", "-report_fields off\n",
                            "-report_frames 8\n", "-mesh_set nx=12,ny=4\n", "-modes_count 21\n"})
     EXPECT_NE(recipe.find(line), std::string::npos) << line;
-  EXPECT_NE(recipe.find("\n-modes_benchmark"), std::string::npos);
-  EXPECT_EQ(recipe.find("\n-modes_benchmark off"), std::string::npos);
+  EXPECT_NE(recipe.find("\n-steady_full"), std::string::npos);
+  EXPECT_EQ(recipe.find("\n-steady_full off"), std::string::npos);
   EXPECT_FALSE(fs::exists(run.folder / "vtk"));
   EXPECT_FALSE(fs::exists(run.folder / "results.h5"));
 }

@@ -1,4 +1,5 @@
-"""What scripts add to the folder of a run, and where they look for it."""
+# SPDX-License-Identifier: BSD-2-Clause
+"""Files that commands add to the folder of a run, and the folder that a benchmark reads."""
 import fcntl
 import json
 import os
@@ -10,9 +11,10 @@ import unittest
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parents[2] / "scripts"
-sys.path.insert(0, str(SCRIPTS))
+sys.path.insert(0, str(SCRIPTS.parent / "python"))
 
-from results import LOCK, MANIFEST, Results  # noqa: E402
+from squeal import ResultsError
+from squeal.folder import LOCK, MANIFEST, Folder
 
 
 class Figure:
@@ -38,51 +40,82 @@ class ResultsOfARun(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         (self.folder / "summary.json").write_text("{}")
-        (self.folder / MANIFEST).write_text("# squeal 0.1.0: the 2 files of a run\nmanifest.txt\nsummary.json\nvtk/\n")
+        (self.folder / MANIFEST).write_text(
+            "# squeal 0.1.0: the 2 files of a run\nmanifest.txt\nsummary.json\nvtk/\n"
+        )
 
     def names(self):
         return sorted(os.listdir(self.folder))
 
     def refused(self, action):
-        with self.assertRaises(SystemExit) as end:
+        with self.assertRaises(ResultsError) as end:
             action()
         return str(end.exception)
 
     def test_enters_the_manifest_once(self):
         for text in ("first", "second"):
-            Results(self.folder).save("stability.png", Figure(text))
+            Folder(self.folder).save("stability.png", Figure(text))
             self.assertEqual((self.folder / "stability.png").read_text(), text)
         lines = (self.folder / MANIFEST).read_text().splitlines()
         # the program checks the number of files; a folder kept for the user is none
-        self.assertEqual(lines, ["# squeal 0.1.0: the 3 files of a run", "manifest.txt", "stability.png", "summary.json", "vtk/"])
+        self.assertEqual(
+            lines,
+            [
+                "# squeal 0.1.0: the 3 files of a run",
+                "manifest.txt",
+                "stability.png",
+                "summary.json",
+                "vtk/",
+            ],
+        )
         self.assertEqual(self.names(), [MANIFEST, "stability.png", "summary.json"])
 
     def test_overwrites_nothing_of_the_user(self):
         (self.folder / "stability.png").write_text("mine")
-        self.assertIn("is in the way", self.refused(lambda: Results(self.folder).save("stability.png", Figure("plot"))))
+        self.assertIn(
+            "is in the way",
+            self.refused(lambda: Folder(self.folder).save("stability.png", Figure("plot"))),
+        )
         self.assertEqual((self.folder / "stability.png").read_text(), "mine")
         self.assertNotIn("stability.png", (self.folder / MANIFEST).read_text())
         self.assertEqual(self.names(), [MANIFEST, "stability.png", "summary.json"])
 
     def test_keeps_out_of_a_run(self):
-        results = Results(self.folder)
+        results = Folder(self.folder)
         with (self.folder / LOCK).open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_SH)  # as the ranks of a run hold it
-            self.assertIn("a run is writing", self.refused(lambda: results.save("stability.png", Figure("plot"))))
-        (self.folder / MANIFEST).write_text("# squeal 0.1.0: the 1 files of a run\nmanifest.txt\n")  # another run's results
-        self.assertIn("replaced meanwhile", self.refused(lambda: results.save("stability.png", Figure("plot"))))
+            self.assertIn(
+                "a run is writing",
+                self.refused(lambda: results.save("stability.png", Figure("plot"))),
+            )
+        # Another run's results
+        (self.folder / MANIFEST).write_text("# squeal 0.1.0: the 1 files of a run\nmanifest.txt\n")
+        self.assertIn(
+            "replaced meanwhile",
+            self.refused(lambda: results.save("stability.png", Figure("plot"))),
+        )
         self.assertFalse((self.folder / "stability.png").exists())
 
     def test_disc_full(self):
-        Results(self.folder).save("stability.png", Figure("before"))
-        message = self.refused(lambda: Results(self.folder).save("stability.png", Full("half of it")))
+        Folder(self.folder).save("stability.png", Figure("before"))
+        message = self.refused(
+            lambda: Folder(self.folder).save("stability.png", Full("half of it"))
+        )
         self.assertIn("stability.png: No space left on device", message)
         self.assertEqual((self.folder / "stability.png").read_text(), "before")
         self.assertEqual(self.names(), [MANIFEST, "stability.png", "summary.json"])
 
 
-SUMMARY = {"dofs": 1, "ranks": 1, "frictions": [], "modes_floor_s": 1.0, "active_sets": [],
-           "stages": {name: {"wall_s": 1.0, "peak_memory_bytes": 1} for name in ("floor", "factor", "modes", "flutter", "elasticity")}}
+SUMMARY = {
+    "dofs": 1,
+    "ranks": 1,
+    "frictions": [],
+    "active_sets": [],
+    "stages": {
+        name: {"wall_s": 1.0, "peak_memory_bytes": 1}
+        for name in ("factor", "modes", "flutter", "elasticity")
+    },
+}
 RUN = """#!/usr/bin/python3
 import json, os, sys
 words = sys.argv[1:]
@@ -98,17 +131,32 @@ class Benchmark(unittest.TestCase):
         with tempfile.TemporaryDirectory() as place:
             place = Path(place)
             scripts = place / "scripts"
-            scripts.mkdir()
-            for name in ("benchmark", "report_dir"):
-                shutil.copy(SCRIPTS / name, scripts)
+            for name in ("bench/stages", "bench/stages.py", "lib/report_dir"):
+                (scripts / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(SCRIPTS / name, scripts / name)
             (scripts / "run").write_text(RUN % SUMMARY)  # in the place of a run of minutes
             (scripts / "run").chmod(0o755)
+            (scripts / "bench" / "floor").write_text("#!/bin/sh\necho 1.0\n")
+            (scripts / "bench" / "floor").chmod(0o755)
             earlier = place / "results" / "benchmark_disc_brake"
             earlier.mkdir(parents=True)
             (earlier / "summary.json").write_text(json.dumps({**SUMMARY, "case": "an earlier run"}))
-            elsewhere = ["-report_dir", "first", "-flutter_friction", "0.2", "-report_dir", str(place / "two words")]
+            elsewhere = [
+                "-report_dir",
+                "first",
+                "-flutter_friction",
+                "0.2",
+                "-report_dir",
+                str(place / "two words"),
+            ]
             for options in (elsewhere, []):
-                run = subprocess.run([scripts / "benchmark", *options], capture_output=True, text=True, check=True, cwd=place)
+                run = subprocess.run(
+                    [scripts / "bench/stages", *options],
+                    capture_output=True,
+                    text=True,
+                    check=True,
+                    cwd=place,
+                )
                 self.assertIn("this run", run.stdout)
                 self.assertNotIn("an earlier run", run.stdout)
             self.assertFalse((place / "first").exists())

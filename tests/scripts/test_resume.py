@@ -1,7 +1,9 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """Runs that are cut off and continued, and the log of events: test_resume.py PROGRAM MPIEXEC.
 
-With SQUEAL_LONG in the environment, five random moments of several kinds of runs instead of one moment of one.
+With SQUEAL_LONG in the environment, five random moments of several kinds of runs instead of one
+moment of one.
 """
 import json
 import os
@@ -20,23 +22,57 @@ import numpy as np
 repository = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(repository / "python"))
 sys.dont_write_bytecode = True
-import squeal  # noqa: E402
+import squeal
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 MPIEXEC = sys.argv.pop(1) if len(sys.argv) > 1 else "mpirun -n"
 LONG = bool(os.environ.get("SQUEAL_LONG"))
-# A run that is continued takes the steps of the one that was not cut off, but for rounding: eigenvalues differ by that
-# times their condition numbers, some thousand at most here.
+# A run that is continued takes the steps of the one that was not cut off, except for round-off:
+# eigenvalues differ by that times their condition numbers, some thousand at most here.
 SAME = 1e-10
 
 SIZE = "n_pad_theta=6,n_free_theta=8,n_mount=1,n_plate=1,n_inside=1,n_pad_r=3,n_hat=1,n_h_ring=1"
-BRAKE = ["-options_file", repository / "options/disc_brake.yaml", "-modes_count", "40", "-flutter_band", "9000", "-report_fields", "off",
-         "-mesh_set", SIZE,
-         "-flutter_friction", "0:0.6:0.03"]  # fmt: skip
+BRAKE = [
+    "-options_file",
+    repository / "options/disc_brake.yaml",
+    "-modes_count",
+    "40",
+    "-flutter_band",
+    "9000",
+    "-report_fields",
+    "off",
+    "-mesh_set",
+    SIZE,
+    "-flutter_friction",
+    "0:0.6:0.03",
+]
 # A block that a sliding plate presses from above: friction lifts its nodes one after the other.
-BLOCK = ["-mesh_file", repository / "meshes/layer.geo", "-mesh_set", "Lx=0.5,nx=12,ny=24", "-material_layer_young", "1e9", "-material_layer_poisson", "0.3",
-         "-material_layer_density", "1000", "-constraint_bottom_clamped", "xy", "-contact_plate_pad", "top", "-contact_plate_obstacle_velocity", "1,0,0",
-         "-contact_plate_obstacle_displacement", "0,-0.001,0", "-report_fields", "off", "-modes_count", "60", "-flutter_friction", "0:0.5:0.02"]  # fmt: skip
+BLOCK = [
+    "-mesh_file",
+    repository / "meshes/layer.geo",
+    "-mesh_set",
+    "Lx=0.5,nx=12,ny=24",
+    "-material_layer_young",
+    "1e9",
+    "-material_layer_poisson",
+    "0.3",
+    "-material_layer_density",
+    "1000",
+    "-constraint_bottom_clamped",
+    "xy",
+    "-contact_plate_pad",
+    "top",
+    "-contact_plate_obstacle_velocity",
+    "1,0,0",
+    "-contact_plate_obstacle_displacement",
+    "0,-0.001,0",
+    "-report_fields",
+    "off",
+    "-modes_count",
+    "60",
+    "-flutter_friction",
+    "0:0.5:0.02",
+]
 BELT = ["-options_file", repository / "options/external.yaml", "-report_fields", "off"]
 
 
@@ -47,9 +83,20 @@ class Run:
         self.folder, self.log = Path(folder), Path(f"{folder}.jsonl")
         self.output = Path(f"{folder}.log")
         self.log.unlink(missing_ok=True)
-        words = [*MPIEXEC.split(), str(ranks), PROGRAM, *options, "-report_dir", folder, "-log_json", self.log]
+        words = [
+            *MPIEXEC.split(),
+            str(ranks),
+            PROGRAM,
+            *options,
+            "-report_dir",
+            folder,
+            "-log_json",
+            self.log,
+        ]
         with open(self.output, "w") as output:
-            self.process = subprocess.Popen([str(word) for word in words], stdout=output, stderr=subprocess.STDOUT)
+            self.process = subprocess.Popen(
+                [str(word) for word in words], stdout=output, stderr=subprocess.STDOUT
+            )
 
     def events(self):
         lines = self.log.read_text().split("\n")[:-1] if self.log.exists() else []
@@ -66,7 +113,9 @@ class Run:
 
     def kill_ranks(self):
         """Kills the ranks outright, as a machine does that has no memory left."""
-        children = subprocess.run(["pgrep", "-P", str(self.process.pid)], capture_output=True, text=True).stdout.split()
+        children = subprocess.run(
+            ["pgrep", "-P", str(self.process.pid)], capture_output=True, text=True
+        ).stdout.split()
         for child in children:
             try:
                 os.kill(int(child), signal.SIGKILL)
@@ -92,9 +141,15 @@ def done(folder, options, ranks=2):
 
 
 def files_of(folder):
-    """All files but the lock, which a killed run leaves and which hinders nobody."""
-    return {str(path.relative_to(folder)): path.read_bytes() for path in Path(folder).rglob("*")
-            if path.is_file() and path.name != ".squeal.lock"}  # fmt: skip
+    """All files except the lock and the options that a killed run leaves: the next run removes
+    them, even if it is refused."""
+    left = {".squeal.lock", ".partial/options.txt"}
+    files = {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in Path(folder).rglob("*")
+        if path.is_file()
+    }
+    return {name: content for name, content in files.items() if name not in left}
 
 
 class Resumed(unittest.TestCase):
@@ -104,11 +159,14 @@ class Resumed(unittest.TestCase):
         cls.addClassCleanup(temporary.cleanup)
         cls.place = Path(temporary.name)
         cls.whole = done(cls.place / "whole", BRAKE)
-        # A run that is killed once an entry of its checkpoint is written, over results of an earlier run.
+        # A run that is killed once an entry of its checkpoint is written, over results of an
+        # earlier run.
         cls.cut_off = cls.place / "cut_off"
         shutil.copytree(cls.whole.folder, cls.cut_off)
         run = Run(cls.cut_off, [*BRAKE, "-checkpoint_interval", "0"])
-        run.wait_for(lambda event: event["event"] == "checkpoint" and "_points_0003" in event["file"])
+        run.wait_for(
+            lambda event: event["event"] == "checkpoint" and "_points_0003" in event["file"]
+        )
         run.kill_ranks()
         assert run.finish() != 0, run.text()
 
@@ -116,17 +174,32 @@ class Resumed(unittest.TestCase):
         self.folder = self.place / self.id().split(".")[-1]
 
     def expect_same(self, folder, whole):
-        """The results of two runs agree, and the first has solved for as many right-hand sides in all."""
+        """The results of two runs agree, and the first has solved for as many right-hand sides in
+        all."""
         ours, theirs = squeal.open(folder), squeal.open(whole)
         self.assertEqual(len(ours.eigenvalues), len(theirs.eigenvalues))
-        error = np.abs(ours.eigenvalues["s"] - theirs.eigenvalues["s"]) / np.abs(theirs.eigenvalues["s"])
+        error = np.abs(ours.eigenvalues["s"] - theirs.eigenvalues["s"]) / np.abs(
+            theirs.eigenvalues["s"]
+        )
         self.assertLess(error.max(), SAME)
         self.assertEqual(list(ours.eigenvalues["verdict"]), list(theirs.eigenvalues["verdict"]))
         if theirs.critical is not None:
             self.assertEqual(len(ours.critical), len(theirs.critical))
-            self.assertLess(np.abs(ours.critical["friction"] - theirs.critical["friction"]).to_numpy().max(initial=0), SAME)
-        solves = [[part["solves"] for part in json.loads((Path(one) / "summary.json").read_text())["active_sets"]] for one in (folder, whole)]
-        # Rounding may decide on directions that are all but dependent on others; a batch that is solved again costs more.
+            self.assertLess(
+                np.abs(ours.critical["friction"] - theirs.critical["friction"])
+                .to_numpy()
+                .max(initial=0),
+                SAME,
+            )
+        solves = [
+            [
+                part["solves"]
+                for part in json.loads((Path(one) / "summary.json").read_text())["active_sets"]
+            ]
+            for one in (folder, whole)
+        ]
+        # Rounding may decide on directions that are all but dependent on others; a batch that is
+        # solved again costs more.
         for here, there in zip(*solves, strict=True):
             self.assertLessEqual(abs(here - there), 0.02 * there)
         self.assertFalse((Path(folder) / "interrupted").exists())
@@ -145,7 +218,8 @@ class Resumed(unittest.TestCase):
     def test_a_run_that_is_asked_to_stop(self):
         shutil.copytree(self.whole.folder, self.folder)
         before = files_of(self.folder)
-        run = Run(self.folder, BRAKE)  # a minute to the first entry: what is asked to stop writes it at once
+        # A minute to the first entry: what is asked to stop writes it at once
+        run = Run(self.folder, BRAKE)
         run.wait_for(lambda event: event["event"] == "points" and event["done"] >= 5)
         run.process.send_signal(signal.SIGUSR1)
         self.assertEqual(run.finish(), 3, run.text())
@@ -158,7 +232,13 @@ class Resumed(unittest.TestCase):
         self.assertGreaterEqual(len(points), 5)
         # Those points are done: their eigenvalues are those of the whole run.
         there = whole.eigenvalues[whole.eigenvalues["friction"].isin(points)]
-        self.assertLess((np.abs(part.eigenvalues["s"].to_numpy() - there["s"].to_numpy()) / np.abs(there["s"])).max(), SAME)
+        self.assertLess(
+            (
+                np.abs(part.eigenvalues["s"].to_numpy() - there["s"].to_numpy())
+                / np.abs(there["s"])
+            ).max(),
+            SAME,
+        )
         again = done(self.folder, [*BRAKE, "-resume"])
         self.assertNotIn("modes", again.stages())
         self.assertIs(squeal.open(self.folder).summary["complete"], True)
@@ -169,7 +249,10 @@ class Resumed(unittest.TestCase):
         for stage, kept in (("mesh", False), ("track", True)):
             folder = self.place / f"stop_in_{stage}"
             run = Run(folder, BRAKE)
-            run.wait_for(lambda event, stage=stage: event["event"] == "stage_begin" and event["stage"] == stage)
+            run.wait_for(
+                lambda event, stage=stage: event["event"] == "stage_begin"
+                and event["stage"] == stage
+            )
             run.process.send_signal(signal.SIGUSR1)
             self.assertEqual(run.finish(), 3, run.text())
             self.assertEqual((folder / "interrupted/checkpoint/identity.json").exists(), kept)
@@ -179,13 +262,27 @@ class Resumed(unittest.TestCase):
         before = files_of(self.folder)
         entry = self.folder / "interrupted/checkpoint/sets_1_modes_0000.entry"
         for ranks, words, message in (
-            (2, ["-flutter_friction", "0:0.6:0.02"], "option -flutter_friction was '0:0.6:0.03' and is '0:0.6:0.02'"),
+            (
+                2,
+                ["-flutter_friction", "0:0.6:0.02"],
+                "option -flutter_friction was '0:0.6:0.03' and is '0:0.6:0.02'",
+            ),
             (1, [], "the number of ranks was '2' and is '1'"),
-            (2, ["-mesh_scale", "1.0000001"], "option -mesh_scale was not given and is '1.0000001'"),
+            (
+                2,
+                ["-mesh_scale", "1.0000001"],
+                "option -mesh_scale was not given and is '1.0000001'",
+            ),
         ):
             run = Run(self.folder, [*BRAKE, "-resume", *words], ranks)
             self.assertEqual(run.finish(), 1)
-            self.assertIn(f"squeal: error: option -resume: the checkpoint in {entry.parent} is of another run: {message}", run.text())
+            self.assertIn(
+                (
+                    f"squeal: error: option -resume: the checkpoint in {entry.parent} is of another"
+                    f" run: {message}"
+                ),
+                run.text(),
+            )
             self.expect_kept(before)
         damaged = bytearray(entry.read_bytes())
         damaged[-100] ^= 1
@@ -206,7 +303,10 @@ class Resumed(unittest.TestCase):
         times = [event["elapsed_s"] for event in events]
         self.assertEqual(times, sorted(times))
         counted = [event["done"] for event in events if event["event"] == "points"]
-        self.assertEqual((counted, {event["total"] for event in events if event["event"] == "points"}), ([5, 21], {21}))
+        self.assertEqual(
+            (counted, {event["total"] for event in events if event["event"] == "points"}),
+            ([5, 21], {21}),
+        )
         open_stages = []
         for event in events:  # every stage that begins ends, in order
             if event["event"] == "stage_begin":
@@ -214,24 +314,48 @@ class Resumed(unittest.TestCase):
             elif event["event"] == "stage_end":
                 self.assertEqual(open_stages.pop(), event["stage"])
         self.assertEqual(open_stages, [])
-        self.assertLessEqual({"mesh", "elasticity", "contact", "steady", "modes", "flutter", "track", "report"}, self.whole.stages())
+        self.assertLessEqual(
+            {"mesh", "elasticity", "contact", "steady", "modes", "flutter", "track", "report"},
+            self.whole.stages(),
+        )
 
     def test_line(self):
-        shown = {how: done(self.place / f"line_{how}", [*BELT, *words], 1).text().split("\r\033[K")
-                 for how, words in (("line", ["-progress", "line"]), ("auto", []), ("quiet", ["-progress", "line", "-quiet"]))}  # fmt: skip
+        shown = {
+            how: done(self.place / f"line_{how}", [*BELT, *words], 1).text().split("\r\033[K")
+            for how, words in (
+                ("line", ["-progress", "line"]),
+                ("auto", []),
+                ("quiet", ["-progress", "line", "-quiet"]),
+            )
+        }
         self.assertRegex("|".join(shown["line"]), r"point \d+ of \d+ · \d\d:\d\d")
-        self.assertNotRegex("".join(shown["line"][1:]).split("\n")[-1], "point")  # it is gone at the end
+        # It is gone at the end
+        self.assertNotRegex("".join(shown["line"][1:]).split("\n")[-1], "point")
         self.assertEqual((len(shown["auto"]), len(shown["quiet"])), (1, 1))
 
     def test_a_log_that_cannot_be_written(self):
-        run = subprocess.run([PROGRAM, *map(str, BRAKE), "-report_dir", self.folder, "-log_json", self.place / "no/such.jsonl"],
-                             capture_output=True, text=True)  # fmt: skip
+        run = subprocess.run(
+            [
+                PROGRAM,
+                *map(str, BRAKE),
+                "-report_dir",
+                self.folder,
+                "-log_json",
+                self.place / "no/such.jsonl",
+            ],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(run.returncode, 1)
         self.assertIn("squeal: error: option -log_json: cannot write", run.stderr)
         self.assertFalse(self.folder.exists())
         mine = self.place / "mine.txt"
         mine.write_text("mine")
-        run = subprocess.run([PROGRAM, *map(str, BRAKE), "-report_dir", self.folder, "-log_json", mine], capture_output=True, text=True)
+        run = subprocess.run(
+            [PROGRAM, *map(str, BRAKE), "-report_dir", self.folder, "-log_json", mine],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual((run.returncode, mine.read_text()), (1, "mine"))
         self.assertIn("is there already and is no log of events", run.stderr)
 
@@ -241,12 +365,27 @@ class Resumed(unittest.TestCase):
         random.seed(seed)
         kinds = {
             "plain": (2, BRAKE),
-            "damped": (3, [*BRAKE, "-flutter_modal_damping", "0.01", "-flutter_friction", "0:0.6:0.1", "-flutter_damping", "1,2", "-flutter_sensitivities"]),
+            "damped": (
+                3,
+                [
+                    *BRAKE,
+                    "-flutter_modal_damping",
+                    "0.01",
+                    "-flutter_friction",
+                    "0:0.6:0.1",
+                    "-flutter_damping",
+                    "1,2",
+                    "-flutter_sensitivities",
+                ],
+            ),
             "opening": (2, BLOCK),
             "sets by themselves": (2, [*BLOCK, "-reduction_released", "0"]),
             "in all unknowns": (2, [*BLOCK, "-steady_full", "on", "-report_fields", "on"]),
             "speeds": (2, ["-options_file", repository / "options/two_layers_moving.yaml"]),
-            "direct": (1, ["-options_file", repository / "options/layer.yaml", "-flutter_method", "direct"]),
+            "direct": (
+                1,
+                ["-options_file", repository / "options/layer.yaml", "-flutter_method", "direct"],
+            ),
             "matrices": (2, ["-options_file", repository / "options/external_chain.yaml"]),
         }
         for name, (ranks, options) in kinds.items():

@@ -1,5 +1,6 @@
-"""Signals sent to squeal-run, not to the program: the run stops in order, or at once, and the exit code tells which. To be called with the
-program as argument."""
+# SPDX-License-Identifier: BSD-2-Clause
+"""Signals sent to squeal-run, not to the program: the run stops in order or at once, and
+returns another exit code for each. Call: test_run_signals.py PROGRAM."""
 import json
 import os
 import shutil
@@ -11,8 +12,14 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-COARSE = ["-mesh_set", "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2", "-modes_count", "60",
-          "-flutter_band", "7000"]
+COARSE = [
+    "-mesh_set",
+    "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2",
+    "-modes_count",
+    "60",
+    "-flutter_band",
+    "7000",
+]
 
 
 class Signals(unittest.TestCase):
@@ -22,8 +29,20 @@ class Signals(unittest.TestCase):
 
     def started(self, *words):
         environment = dict(os.environ, NP="2")
-        return subprocess.Popen([ROOT / "scripts" / "squeal-run", "disc_brake", "-report_dir", self.folder / "results", *words],
-                                env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+        return subprocess.Popen(
+            [
+                ROOT / "scripts" / "squeal-run",
+                "disc_brake",
+                "-report_dir",
+                self.folder / "results",
+                *words,
+            ],
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
 
     def stopped(self, sent):
         """Its exit code and error output after a signal at the free modes."""
@@ -53,11 +72,23 @@ class Signals(unittest.TestCase):
         self.assertEqual(run.returncode, 0, error)
         self.assertIn("there is no report, since no fields were written", out)
         self.assertNotIn("could not be made", error)
-        self.assertTrue(json.loads((self.folder / "results" / "summary.json").read_text())["complete"])
+        self.assertTrue(
+            json.loads((self.folder / "results" / "summary.json").read_text())["complete"]
+        )
 
     def test_the_recipe_does_not_resume_or_log(self):
         log = self.folder / "log.json"
-        run = self.started("-report_fields", "off", "-flutter_friction", "0.4", "-log_json", log, "-progress", "plain", *COARSE)
+        run = self.started(
+            "-report_fields",
+            "off",
+            "-flutter_friction",
+            "0.4",
+            "-log_json",
+            log,
+            "-progress",
+            "plain",
+            *COARSE,
+        )
         _, error = run.communicate(timeout=120)
         self.assertEqual(run.returncode, 0, error)
         recipe = (self.folder / "results" / "options.txt").read_text()
@@ -66,7 +97,9 @@ class Signals(unittest.TestCase):
             self.assertNotIn(f"{name} ", recipe)
 
     def test_mistakes_have_exit_code_1(self):
-        run = subprocess.run([ROOT / "scripts" / "squeal-run", "nonsense"], capture_output=True, text=True)
+        run = subprocess.run(
+            [ROOT / "scripts" / "squeal-run", "nonsense"], capture_output=True, text=True
+        )
         self.assertEqual(run.returncode, 1)
         self.assertIn("there is no case 'nonsense'", run.stderr)
 
@@ -74,10 +107,12 @@ class Signals(unittest.TestCase):
 class Lists(unittest.TestCase):
     def test_merge_and_checkpoint_agree_on_what_changes_no_number(self):
         import re
-        source = (ROOT / "src" / "checkpoint" / "identity.cpp").read_text()
+
+        source = (ROOT / "src/base/checkpoint/identity.cpp").read_text()
         exact = re.search(r"exact\{(.*?)\};", source, re.S).group(1)
         sys.path.insert(0, str(ROOT / "python"))
         from squeal import parts
+
         names = set(re.findall(r'"(\w+)"', exact))
         self.assertGreater(len(names), 4)
         for name in names:

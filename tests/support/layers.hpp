@@ -21,7 +21,7 @@ struct Layers {
     system = std::make_unique<contact::CoupledSystem>(
         model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
   }
-  modes::Modes modes() const { return modes::compute(*system); }
+  modes::Modes modes() const { return modes::compute(*system, modes::Settings::given()); }
 };
 
 }  // namespace squeal::test

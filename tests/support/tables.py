@@ -5,7 +5,8 @@ from pathlib import Path
 
 
 def reshape(folder, without=()):
-    """Makes summary.json tell the rows and columns that the tables have now, as if a run had written them; tables `without` it wrote not."""
+    """Makes summary.json tell the rows and columns that the tables have now, as if a run had
+    written them; tables `without` it wrote not."""
     path = Path(folder) / "summary.json"
     summary = json.loads(path.read_text())
     for name in list(summary["tables"]):

@@ -130,7 +130,9 @@ double error(int cell, const Cells& cells, const std::string& tie) {
              (isPlane(cell) ? "-constraint_disc_low_clamped xy -modes_count 16 " : solid));
   const Model model = buildModel();
   const contact::CoupledSystem system(model.bodies, model.contact, {});
-  const auto found = errors(exactFrequencies(10), eigenvaluesOf(modes::compute(system))).relative;
+  const auto found =
+      errors(exactFrequencies(10), eigenvaluesOf(modes::compute(system, modes::Settings::given())))
+          .relative;
   print("cell %d, %d:%d around: errors up to %.1e; moved %.1e\n", cell, cells.inner, cells.outer,
         worst(found), model.contact.reports.at(0).largestAdjustment);
   return rootMeanSquare(found);

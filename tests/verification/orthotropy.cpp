@@ -30,7 +30,7 @@ double worstError(int cells, int order) {
       "-modes_count 5");
   const auto model = test::buildModel();
   const contact::CoupledSystem system(model.bodies, model.contact, {});
-  const auto modes = modes::compute(system);
+  const auto modes = modes::compute(system, modes::Settings::given());
   const auto exact = exact::orthotropic::layerFrequencies(angle, density, 5);
   double worst = 0;
   for (std::size_t i = 0; i < exact.size(); ++i)

@@ -54,7 +54,7 @@ Families families(const std::string& set, double poisson, const std::string& inc
       incompatible);
   const auto model = test::buildModel();
   const contact::CoupledSystem system(model.bodies, model.contact, {});
-  const auto modes = modes::compute(system);
+  const auto modes = modes::compute(system, modes::Settings::given());
   const auto& mesh = *model.mesh;
   Families families;
   for (std::size_t i = 0; i < modes.angularFrequency.size(); ++i) {

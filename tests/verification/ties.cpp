@@ -29,7 +29,7 @@ std::vector<Complex> frequencies(const std::string& options) {
   const Model model = buildModel();
   const contact::CoupledSystem system(model.bodies, model.contact,
                                       std::vector<unsigned char>(model.contact.nodes.size(), 1));
-  return eigenvaluesOf(modes::compute(system));
+  return eigenvaluesOf(modes::compute(system, modes::Settings::given()));
 }
 
 /// One body, finely meshed: the layers share their nodes.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The motion after flutter in the report, opened in Chromium: test_regime.py PROGRAM."""
 import csv
 import json
@@ -14,12 +15,12 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / folder) for folder in ("python", "scripts", "tests/support")]
+sys.path[:0] = [str(repository / folder) for folder in ("python", "scripts/dev", "tests/support")]
 sys.dont_write_bytecode = True
-import squeal  # noqa: E402
-from report_picture import browser  # noqa: E402
-from squeal import regime, report  # noqa: E402
-from tables import reshape  # noqa: E402
+import squeal
+from report_picture import browser
+from squeal import regime, report
+from tables import reshape
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 COARSE = "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"
@@ -36,11 +37,45 @@ class AfterFlutter(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = Path(cls.temporary.name) / "coarse"
-        subprocess.run([PROGRAM, "-options_file", repository / "options/disc_brake_regime.yaml", "-modes_count", "60", "-flutter_band", "9000", "-mesh_set", COARSE,
-                        "-flutter_friction", "0.4", "-regime_time", "0.016", "-regime_start_factor", "1", "-regime_cycle", "on", "-regime_cycle_steps", "128",
-                        "-regime_cycle_range", "0.39,0.41", "-regime_cycles_kept", "0", "-regime_spectrum_points",
-                        "0.15,0,0;-0.15,0,0", "-report_dir", cls.folder, "-quiet"], check=True, stdout=subprocess.DEVNULL)  # fmt: skip
-        subprocess.run([repository / "scripts/squeal-report", cls.folder], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [
+                PROGRAM,
+                "-options_file",
+                repository / "options/disc_brake_regime.yaml",
+                "-modes_count",
+                "60",
+                "-flutter_band",
+                "9000",
+                "-mesh_set",
+                COARSE,
+                "-flutter_friction",
+                "0.4",
+                "-regime_time",
+                "0.016",
+                "-regime_start_factor",
+                "1",
+                "-regime_cycle",
+                "on",
+                "-regime_cycle_steps",
+                "128",
+                "-regime_cycle_range",
+                "0.39,0.41",
+                "-regime_cycles_kept",
+                "0",
+                "-regime_spectrum_points",
+                "0.15,0,0;-0.15,0,0",
+                "-report_dir",
+                cls.folder,
+                "-quiet",
+            ],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
+        subprocess.run(
+            [repository / "scripts/squeal-report", cls.folder],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
         cls.run_row = rows(cls.folder / "regime.csv")[0]
         cls.driver = browser(browser="ALL", performance="ALL")
         cls.addClassCleanup(cls.driver.quit)
@@ -50,54 +85,107 @@ class AfterFlutter(unittest.TestCase):
     @classmethod
     def open_page(cls, path):
         cls.driver.get(path.as_uri())
-        WebDriverWait(cls.driver, 60).until(lambda driver: driver.execute_script("return document.documentElement.dataset.ready"))
+        WebDriverWait(cls.driver, 60).until(
+            lambda driver: driver.execute_script("return document.documentElement.dataset.ready")
+        )
 
     def element(self, name):
         return self.driver.find_element(By.ID, name)
 
     def drawn(self, name):
         """The first line, or the points, of a diagram as Chart.js has them."""
-        return self.driver.execute_script("return regime.charts[arguments[0]].data.datasets[0].data", name)
+        return self.driver.execute_script(
+            "return regime.charts[arguments[0]].data.datasets[0].data", name
+        )
 
     def test_the_sentence_is_that_of_the_table(self):
         said, row = self.element("regimesentence").text, self.run_row
-        self.assertTrue(said.startswith(f"At friction 0.4 the motion from mode {row['start']} becomes {row['class']}, not settled"), said)
-        self.assertIn(f"carrier {float(row['carrier_hz']):.6g} Hz (flutter {float(row['flutter_frequency_hz']):.6g} Hz)", said)
-        self.assertIn(f"{float(row['sound_power_estimate_w']):.2g} W, {float(row['sound_power_level_db']):.0f} dB", said)
+        self.assertTrue(
+            said.startswith(
+                f"At friction 0.4 the motion from mode {row['start']} becomes {row['class']}, not"
+                " settled"
+            ),
+            said,
+        )
+        self.assertIn(
+            (
+                f"carrier {float(row['carrier_hz']):.6g} Hz (flutter"
+                f" {float(row['flutter_frequency_hz']):.6g} Hz)"
+            ),
+            said,
+        )
+        self.assertIn(
+            (
+                f"{float(row['sound_power_estimate_w']):.2g} W,"
+                f" {float(row['sound_power_level_db']):.0f} dB"
+            ),
+            said,
+        )
         self.assertTrue(self.element("regime").is_displayed())
 
     def test_diagrams_are_those_of_the_tables(self):
         cycles = rows(self.folder / "regime_cycles.csv")
-        self.assertEqual(self.drawn("cycles"), [{"x": 1e3 * float(row["time_s"]), "y": float(row["largest_kinetic_energy_j"])} for row in cycles])
-        spectrum = [row for row in rows(self.folder / "regime_spectrum.csv")
-                    if 0 < float(row["frequency_hz"]) < 4 * float(self.run_row["flutter_frequency_hz"])]  # fmt: skip
+        self.assertEqual(
+            self.drawn("cycles"),
+            [
+                {"x": 1e3 * float(row["time_s"]), "y": float(row["largest_kinetic_energy_j"])}
+                for row in cycles
+            ],
+        )
+        spectrum = [
+            row
+            for row in rows(self.folder / "regime_spectrum.csv")
+            if 0 < float(row["frequency_hz"]) < 4 * float(self.run_row["flutter_frequency_hz"])
+        ]
         menu = Select(self.element("regimeline"))
         self.assertEqual(len(menu.options), 3)
-        for place, column in enumerate(("velocity_sqrt_kg_m_per_s", "velocity_1_normal_m_per_s", "velocity_2_normal_m_per_s")):
+        for place, column in enumerate(
+            ("velocity_sqrt_kg_m_per_s", "velocity_1_normal_m_per_s", "velocity_2_normal_m_per_s")
+        ):
             menu.select_by_index(place)
-            self.assertEqual([point["y"] for point in self.drawn("spectrum")], [float(row[column]) for row in spectrum])
+            self.assertEqual(
+                [point["y"] for point in self.drawn("spectrum")],
+                [float(row[column]) for row in spectrum],
+            )
 
     def test_periodic_motions_are_those_of_the_table(self):
         motions = rows(self.folder / "periodic.csv")
         self.assertGreater(len(motions), 1)
-        self.assertEqual([(point["x"], point["y"]) for point in self.drawn("periodic")],
-                         [(float(row["motion_friction"]), float(row["largest_kinetic_energy_j"])) for row in motions])  # fmt: skip
-        filled = self.driver.execute_script("return regime.charts.periodic.data.datasets[0].backgroundColor.map((colour) => colour !== 'transparent')")
+        self.assertEqual(
+            [(point["x"], point["y"]) for point in self.drawn("periodic")],
+            [
+                (float(row["motion_friction"]), float(row["largest_kinetic_energy_j"]))
+                for row in motions
+            ],
+        )
+        filled = self.driver.execute_script(
+            "return regime.charts.periodic.data.datasets[0].backgroundColor.map((colour) => colour"
+            " !== 'transparent')"
+        )
         self.assertEqual(filled, [row["stable"] == "1" for row in motions])
         said = self.element("regimesentence").text
-        self.assertIn(f"A periodic motion of {float(motions[0]['frequency_hz']):.6g} Hz is unstable", said)
+        self.assertIn(
+            f"A periodic motion of {float(motions[0]['frequency_hz']):.6g} Hz is unstable", said
+        )
         self.assertTrue(self.element("branch").is_displayed())
 
     def test_nodes_are_coloured_by_what_is_chosen(self):
         nodes = rows(self.folder / "regime_nodes.csv")
         menu = Select(self.element("regimefield"))
         brightest = self.driver.execute_script("return `rgb(${data.colours[31].join(',')})`")
-        for place, column in enumerate(("open", "stick", "slip", "mean_pressure_pa", "largest_gap_m", "friction_power_w")):
+        for place, column in enumerate(
+            ("open", "stick", "slip", "mean_pressure_pa", "largest_gap_m", "friction_power_w")
+        ):
             menu.select_by_index(place)
             points = self.drawn("nodes")
-            self.assertEqual([(point["x"], point["y"]) for point in points], [(1e3 * float(row["x_m"]), 1e3 * float(row["y_m"])) for row in nodes])
+            self.assertEqual(
+                [(point["x"], point["y"]) for point in points],
+                [(1e3 * float(row["x_m"]), 1e3 * float(row["y_m"])) for row in nodes],
+            )
             values = [float(row[column]) for row in nodes]
-            colours = self.driver.execute_script("return regime.charts.nodes.data.datasets[0].backgroundColor")
+            colours = self.driver.execute_script(
+                "return regime.charts.nodes.data.datasets[0].backgroundColor"
+            )
             self.assertEqual(colours[values.index(max(values))], brightest)
         self.assertIn("W", self.element("nodescale").text)
 
@@ -105,12 +193,24 @@ class AfterFlutter(unittest.TestCase):
         frames = []
         for dark in (False, True):
             self.driver.execute_script("setScheme(arguments[0])", dark)
-            frames.append(self.driver.execute_script("return [css('--ink'), regime.charts.cycles.options.scales.x.title.color]"))
+            frames.append(
+                self.driver.execute_script(
+                    "return [css('--ink'), regime.charts.cycles.options.scales.x.title.color]"
+                )
+            )
         self.assertEqual([ink for ink, _ in frames], [title for _, title in frames])
         self.assertNotEqual(*frames)
-        events = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
-        asked = [event["params"]["request"]["url"] for event in events if event["method"] == "Network.requestWillBeSent"]
-        self.assertEqual([url for url in asked if not url.startswith(("file:", "data:", "blob:"))], [])
+        events = [
+            json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")
+        ]
+        asked = [
+            event["params"]["request"]["url"]
+            for event in events
+            if event["method"] == "Network.requestWillBeSent"
+        ]
+        self.assertEqual(
+            [url for url in asked if not url.startswith(("file:", "data:", "blob:"))], []
+        )
         self.assertEqual(self.driver.get_log("browser"), [])
 
     def test_words_are_text_and_nothing_is_shown_where_nothing_was_followed(self):
@@ -121,7 +221,11 @@ class AfterFlutter(unittest.TestCase):
         for followed in (True, False):
             if followed:  # a word of a later version; squeal.open() refuses it
                 results = squeal.open(copy)
-                with mock.patch.object(results, "_tables", {**results._tables, "regime": results.table("regime").assign(**{"class": bad})}):
+                with mock.patch.object(
+                    results,
+                    "_tables",
+                    {**results._tables, "regime": results.table("regime").assign(**{"class": bad})},
+                ):
                     text = report.build(results)
             else:
                 (copy / "regime.csv").unlink()
@@ -142,7 +246,9 @@ class AfterFlutter(unittest.TestCase):
             path.write_text(path.read_text().splitlines()[0] + "\n")
         reshape(copy)
         (run,) = regime.diagrams(squeal.open(copy))
-        self.assertEqual((run["cycles"], run["nodes"], set(map(len, run["spectrum"].values()))), ([], None, {0}))
+        self.assertEqual(
+            (run["cycles"], run["nodes"], set(map(len, run["spectrum"].values()))), ([], None, {0})
+        )
         (copy / "report.html").write_text(report.build(squeal.open(copy)))
         self.addCleanup(self.open_page, self.folder / "report.html")
         self.open_page(copy / "report.html")

@@ -8,126 +8,13 @@
 #include <cmath>
 #include <optional>
 
-#include "algebra/linalg/lapack.hpp"
 #include "algebra/linalg/lu.hpp"
+#include "algebra/linalg/unsymmetric.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/log_events.hpp"
 
-extern "C" void dgebal_(const char* job, const PetscBLASInt* n, double* a, const PetscBLASInt* lda,
-                        PetscBLASInt* low, PetscBLASInt* high, double* scale, PetscBLASInt* info);
-
 namespace squeal::linalg {
 namespace {
-
-struct EigenPair {
-  Complex value;
-  std::vector<Complex> right, left;  // left: empty unless asked for
-};
-
-/// Returns column j of LAPACK's real storage of conjugate pairs; empty for an empty matrix.
-std::vector<Complex> complexColumn(const DenseMatrix& vectors, PetscInt j, bool conjugates) {
-  std::vector<Complex> column(vectors.empty() ? 0 : vectors.rows());
-  for (std::size_t i = 0; i < column.size(); ++i)
-    column[i] = {vectors(i, j), conjugates ? vectors(i, j + 1) : 0.0};
-  return column;
-}
-
-std::vector<Complex> conjugated(std::vector<Complex> vector) {
-  for (auto& entry : vector) entry = std::conj(entry);
-  return vector;
-}
-
-/// Returns the wanted eigenvalues from LAPACK's real storage of conjugate pairs as complex numbers.
-/// Each number of a conjugate pair is tested, and listed if it is wanted.
-std::vector<EigenPair> unpacked(const std::vector<double>& real,
-                                const std::vector<double>& imaginary,
-                                const std::vector<double>& beta, const DenseMatrix& right,
-                                const DenseMatrix& left, const Wanted& wanted) {
-  std::vector<EigenPair> pairs;
-  for (std::size_t j = 0; j < real.size(); ++j) {
-    if (beta[j] == 0 && real[j] == 0)
-      throw Error(
-          "the reduced eigenproblem is singular: mass and stiffness have a common null vector");
-    if (beta[j] == 0) continue;  // infinite: a motion without mass
-    const Complex value = Complex(real[j], imaginary[j]) / beta[j];
-    const bool conjugates = imaginary[j] != 0, first = wanted(value),
-               second = conjugates && wanted(std::conj(value));
-    if (first || second) {
-      EigenPair pair{value, complexColumn(right, j, conjugates),
-                     complexColumn(left, j, conjugates)};
-      if (second)
-        pairs.push_back({std::conj(value), conjugated(pair.right), conjugated(pair.left)});
-      if (first) pairs.push_back(std::move(pair));
-    }
-    if (conjugates) ++j;
-  }
-  return pairs;
-}
-
-/// Throws Error if a routine of LAPACK has failed.
-void requireSuccess(const char* routine, PetscBLASInt info) {
-  if (info != 0)
-    throw Error(std::string("LAPACK ") + routine + " failed on the reduced eigenproblem (info " +
-                std::to_string(info) + ")");
-}
-
-/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ B x, by QZ.
-std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, Vectors sides,
-                                   const Wanted& wanted) {
-  PetscBLASInt n = a.rows(), info = 0;
-  std::vector<double> real(n), imaginary(n), beta(n);
-  DenseMatrix right(n, n), left(n, sides == Vectors::both ? n : 0);
-  callWithWork([&](double* work, PetscBLASInt length) {
-    LAPACKggev_(left.empty() ? "N" : "V", "V", &n, a.data(), &n, b.data(), &n, real.data(),
-                imaginary.data(), beta.data(), left.data(), &n, right.data(), &n, work, &length,
-                &info);
-  });
-  requireSuccess("dggev", info);
-  return unpacked(real, imaginary, beta, right, left, wanted);
-}
-
-/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ x, from its Schur form. Only the
-/// wanted eigenvectors are computed: computing all of them would take most of the time.
-std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const Wanted& wanted) {
-  PetscBLASInt n = a.rows(), info = 0, sorted = 0, low = 0, high = 0;
-  std::vector<double> real(n), imaginary(n), scale(n);
-  DenseMatrix schur(n, n);
-  dgebal_("S", &n, a.data(), &n, &low, &high, scale.data(),
-          &info);  // D⁻¹ A D: matrices of mixed units
-  requireSuccess("dgebal", info);
-  callWithWork([&](double* work, PetscBLASInt length) {
-    LAPACKgees_("V", "N", nullptr, &n, a.data(), &n, &sorted, real.data(), imaginary.data(),
-                schur.data(), &n, work, &length, nullptr, &info);
-  });
-  requireSuccess("dgees", info);
-  std::vector<PetscBLASInt> chosen(n, 0);
-  std::vector<double> realParts, imaginaryParts;  // of the chosen eigenvalues
-  for (PetscInt j = 0; j < n; ++j) {
-    const PetscInt width = imaginary[j] != 0 ? 2 : 1;
-    const Complex value(real[j], imaginary[j]);
-    for (PetscInt k = j; k < j + width && (wanted(value) || wanted(std::conj(value))); ++k) {
-      chosen[k] = 1;
-      realParts.push_back(real[k]);
-      imaginaryParts.push_back(imaginary[k]);
-    }
-    j += width - 1;
-  }
-  PetscBLASInt count = realParts.size(), found = 0;
-  if (count == 0) return {};
-  DenseMatrix right(n, count), left(n, sides == Vectors::both ? count : 0);
-  std::vector<double> work(3 * n);
-  LAPACKtrevc_(left.empty() ? "R" : "B", "S", chosen.data(), &n, a.data(), &n, left.data(), &n,
-               right.data(), &n, &count, &found, work.data(), &info);
-  requireSuccess("dtrevc", info);
-  const auto turned = [&](const DenseMatrix& vectors, bool inverse) {
-    DenseMatrix result = product(schur, vectors);
-    for (PetscInt j = 0; j < result.columns(); ++j)
-      for (PetscInt i = 0; i < n; ++i) result(i, j) *= inverse ? 1 / scale[i] : scale[i];
-    return result;
-  };
-  return unpacked(realParts, imaginaryParts, std::vector<double>(count, 1.0), turned(right, false),
-                  turned(left, true), wanted);
-}
 
 /// Throws Error if an entry is inf or nan: LAPACK would return eigenvalues all the same.
 void requireFinite(const DenseMatrix& a) {
@@ -365,59 +252,6 @@ ComplexMatrix transposedTimesLeft(const DenseView& a, const std::vector<DensePai
   const DenseMatrix parts = partsOf(pairs, &DensePair::left);
   if (a.empty() || parts.empty()) return ComplexMatrix(parts.rows(), parts.columns() / 2);
   return fromParts(transposedProduct(a, parts));
-}
-
-void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors) {
-  PetscInt count = pairs.size(), m = 0;
-  for (const auto& pair : pairs)
-    m = std::max<PetscInt>(m, std::max(pair.q.size(), pair.left.size()));
-  check(MPI_Bcast(&count, 1, MPIU_INT, root, comm));
-  check(MPI_Bcast(&m, 1, MPIU_INT, root, comm));
-  const PetscInt length = 1 + m * (vectors == Vectors::both ? 2 : 1);
-  ComplexMatrix packed(length, count);  // s, the right vector, the left vector
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  for (PetscInt j = 0; j < count && rank == root; ++j) {
-    const auto column = packed.column(j);
-    column[0] = pairs[j].s;
-    std::ranges::copy(pairs[j].q, column.begin() + 1);
-    if (vectors == Vectors::both) std::ranges::copy(pairs[j].left, column.begin() + 1 + m);
-  }
-  check(MPI_Bcast(packed.data(), packed.size(), MPI_C_DOUBLE_COMPLEX, root, comm));
-  pairs.clear();
-  for (PetscInt j = 0; j < count; ++j) {
-    const auto column = packed.column(j), q = column.subspan(1, m), left = column.subspan(1 + m);
-    pairs.push_back({column[0], {q.begin(), q.end()}, {left.begin(), left.end()}});
-  }
-}
-
-std::vector<std::vector<DensePair>> spread(
-    MPI_Comm comm, std::size_t count, Vectors vectors,
-    const std::function<std::vector<DensePair>(std::size_t)>& solve) {
-  int rank = 0, ranks = 1;
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Comm_size(comm, &ranks));
-  std::vector<std::vector<DensePair>> solved(count);
-  std::string failure;
-  for (std::size_t i = rank; i < count && failure.empty(); i += ranks) try {
-      solved[i] = solve(i);
-    } catch (const Error& error) {
-      failure = error.what();
-    }
-  failTogether(comm, failure);
-  for (std::size_t i = 0; i < count; ++i) shareFrom(i % ranks, comm, solved[i], vectors);
-  return solved;
-}
-
-std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
-                                                const std::vector<DenseProblem>& problems,
-                                                Vectors vectors, const Wanted& wanted) {
-  return spread(comm, problems.size(), vectors,
-                [&](std::size_t i) { return solveQuadratic(problems[i], vectors, wanted); });
-}
-
-std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseProblem& problem, Vectors vectors) {
-  return solveSpread(comm, {problem}, vectors)[0];
 }
 
 }  // namespace squeal::linalg

@@ -7,6 +7,7 @@
 
 #include "algebra/linalg/gathered.hpp"
 #include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/spread.hpp"
 #include "base/options/options.hpp"
 #include "base/system/text.hpp"
 #include "eigen/direct/direct.hpp"
@@ -314,11 +315,11 @@ NearestPairs NearestSolver::whole() const {
   return found;
 }
 
-void rejectIdleSolverOptions() {
+void rejectIdleSolverOptions(pencil::Method method) {
   for (const auto* prefix : {&epsPrefix, &pepPrefix, &stPrefix})
-    if (prefix->given() && !directWanted())
+    if (prefix->given() && method != pencil::Method::direct)
       throw Error("options -" + prefix->prefix + "* (" + joined(prefix->names()) +
-                  ") are used by -flutter_method direct alone");
+                  ") are used only by -flutter_method direct");
 }
 
 std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,

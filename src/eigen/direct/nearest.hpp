@@ -6,6 +6,7 @@
 
 #include "algebra/linalg/complexvector.hpp"
 #include "eigen/pencil/pencil.hpp"
+#include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 
 namespace squeal::direct {
@@ -71,8 +72,8 @@ std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,
 /// is not in the span of those already known with nearly the same s.
 void addMissed(NearestSolver& solver, PetscInt count, NearestPairs& found);
 
-/// Throws Error for -flutter_eps_*, -flutter_pep_* and -flutter_st_* options if the direct method,
-/// which alone uses them, is not asked for.
-void rejectIdleSolverOptions();
+/// Throws Error if -flutter_eps_*, -flutter_pep_* or -flutter_st_* options are given and the method
+/// is not the direct one, which is the only one that uses them.
+void rejectIdleSolverOptions(pencil::Method method);
 
 }  // namespace squeal::direct

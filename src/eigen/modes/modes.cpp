@@ -17,20 +17,6 @@
 namespace squeal::modes {
 namespace {
 
-const IntegerOption countOption("modes", "modes_count", 200, 1, 1'000'000,
-                                "number of free-vibration modes, the basis of the reduced problem");
-const ChoiceOption solverOption("modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
-                                "block_lanczos: the EPS type blocklanczos of this program; eps: "
-                                "krylovschur, or what -modes_eps_type names; auto: block_lanczos, "
-                                "or eps if a type is given or the problem is small");
-const IntegerOption blockOption("modes", "modes_block_size", 8, 1, 1000,
-                                "right-hand sides that block_lanczos solves for together");
-const RealOption toleranceOption(
-    "modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false},
-    "relative error of the eigenvalues of S = inverse(K) M (of eps: -modes_eps_tol)");
-const FlagOption sturmOption(
-    "modes", "modes_sturm", true,
-    "confirm by the inertia of K - sigma M that no mode is missing (one more factorisation)");
 const SolverPrefix solverPrefix("modes", "modes_eps_",
                                 "SLEPc EPS of the free vibrations: tol, ncv, mpd, type, …");
 
@@ -48,7 +34,7 @@ PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*,
 }
 
 /// Collective. Returns a solver of SLEPc for the modes nearest to zero.
-OwnedEPS solver(const factor::AssociatedSystem& system, const Options& options, const char* type,
+OwnedEPS solver(const factor::AssociatedSystem& system, const Settings& settings, const char* type,
                 Stage& stage) {
   const Mat k = system.k0();
   OwnedEPS eps;
@@ -60,7 +46,7 @@ OwnedEPS solver(const factor::AssociatedSystem& system, const Options& options, 
   check(EPSSetType(eps, type));
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetTarget(eps, 0));
-  check(EPSSetTolerances(eps, options.tolerance, PETSC_DEFAULT));
+  check(EPSSetTolerances(eps, settings.tolerance, PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));
   check(EPSMonitorSet(eps, report, &stage, nullptr));
   ST st = nullptr;
@@ -115,11 +101,11 @@ void confirmCount(Mat k, Mat m, Modes& modes) {
   modes.countConfirmed = modes.inertiaCount == below;
 }
 
-void requireConverged(int converged, int count, const char* options) {
+void requireConverged(int converged, int count, const char* remedy) {
   if (converged < count)
     throw Error(formatted(
         "free vibration: only %d of %d modes converged; try %s, or loosen -modes_tolerance",
-        converged, count, options));
+        converged, count, remedy));
 }
 
 /// Collective. Takes the eigenvalues, ascending, and the vectors, M-orthonormal, from a solver.
@@ -148,10 +134,10 @@ void takeModes(EPS eps, int count, Modes& modes) {
 
 /// Collective. Finds the modes by the type of EPS that -modes_eps_type names. Throws Error if too
 /// few converge.
-void solveByEps(const factor::AssociatedSystem& system, const Options& options, Stage& stage,
+void solveByEps(const factor::AssociatedSystem& system, const Settings& settings, Stage& stage,
                 Modes& modes) {
-  const int count = options.count;
-  const OwnedEPS eps = solver(system, options, EPSKRYLOVSCHUR, stage);
+  const int count = settings.count;
+  const OwnedEPS eps = solver(system, settings, EPSKRYLOVSCHUR, stage);
   // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
   const PetscInt vectors =
       std::min<PetscInt>(rowsOf(system.k0()),
@@ -170,17 +156,17 @@ void solveByEps(const factor::AssociatedSystem& system, const Options& options, 
 /// Collective. Finds the modes by block Lanczos. Returns false if fewer than wanted have converged;
 /// `modes` is then as it was. Eigenvalues that lie close together, as those of a thin ring held at
 /// its hub, need a larger basis: more restarts do not help.
-bool solveByLanczos(const factor::AssociatedSystem& system, const Options& options, int blockSize,
+bool solveByLanczos(const factor::AssociatedSystem& system, const Settings& settings, int blockSize,
                     Stage& stage, Modes& modes) {
   constexpr PetscInt restartsBeforeGrowth = 4, mostRestarts = 20;
-  const int count = options.count;
+  const int count = settings.count;
   const PetscInt size = rowsOf(system.k0());
   for (PetscInt room = lanczosVectors(count, blockSize);; room *= 2) {
     const bool largest = 4 * room > size;
-    const OwnedEPS eps = solver(system, options, blockLanczosType, stage);
+    const OwnedEPS eps = solver(system, settings, blockLanczosType, stage);
     check(EPSSetDimensions(eps, count, room, PETSC_DEFAULT));
-    check(EPSSetTolerances(eps, options.tolerance, largest ? mostRestarts : restartsBeforeGrowth));
-    setBlockLanczos(eps, blockSize, options.sturm);
+    check(EPSSetTolerances(eps, settings.tolerance, largest ? mostRestarts : restartsBeforeGrowth));
+    setBlockLanczos(eps, blockSize, settings.sturm);
     setUp(eps);
     const BlockLanczosFacts facts = solveBlockLanczos(eps);
     PetscInt converged = 0;
@@ -272,26 +258,26 @@ bool lanczosFits(int count, int blockSize, PetscInt size) {
   return 2 * lanczosVectors(count, blockSize) <= size;
 }
 
-bool lanczosWanted(const Options& options, PetscInt size) {
-  const bool fits = lanczosFits(options.count, options.blockSize, size);
-  if (options.solver == Options::Solver::blockLanczos && !fits)
+bool lanczosWanted(const Settings& settings, PetscInt size) {
+  const bool fits = lanczosFits(settings.count, settings.blockSize, size);
+  if (settings.solver == Settings::Solver::blockLanczos && !fits)
     throw Error(formatted("option -modes_solver block_lanczos: %d modes of %" PetscInt_FMT
                           " unknowns are too many for it; use eps",
-                          options.count, size));
-  return options.solver != Options::Solver::eps && fits;
+                          settings.count, size));
+  return settings.solver != Settings::Solver::eps && fits;
 }
 
 /// Returns true where most of the modes of a small problem are wanted, for which Krylov methods
 /// have no room.
-bool denseWanted(const Options& options, PetscInt size) {
-  return options.solver == Options::Solver::automatic && size <= 400 && 2 * options.count > size;
+bool denseWanted(const Settings& settings, PetscInt size) {
+  return settings.solver == Settings::Solver::automatic && size <= 400 && 2 * settings.count > size;
 }
 
 /// Measures the residuals and, if that is wanted, counts the modes by the inertia. Returns false if
 /// modes are missing.
-bool examine(const factor::AssociatedSystem& system, const Options& options, Modes& modes) {
+bool examine(const factor::AssociatedSystem& system, const Settings& settings, Modes& modes) {
   measureResiduals(system, modes);
-  if (!options.sturm) return true;
+  if (!settings.sturm) return true;
   confirmCount(system.k0(), system.m0(), modes);
   return modes.countConfirmed;
 }
@@ -299,13 +285,13 @@ bool examine(const factor::AssociatedSystem& system, const Options& options, Mod
 /// Collective. Computes the modes by block Lanczos. A block of b vectors meets b copies of a
 /// multiple eigenvalue: where some are missing, a block twice as large is taken. Returns false if
 /// there are no modes, or if some are missing still.
-bool computeByLanczos(const factor::AssociatedSystem& system, const Options& options, Stage& stage,
-                      Modes& modes) {
+bool computeByLanczos(const factor::AssociatedSystem& system, const Settings& settings,
+                      Stage& stage, Modes& modes) {
   const PetscInt size = rowsOf(system.k0());
-  for (int block = options.blockSize; lanczosFits(options.count, block, size); block *= 2) {
+  for (int block = settings.blockSize; lanczosFits(settings.count, block, size); block *= 2) {
     Modes found;
-    if (!solveByLanczos(system, options, block, stage, found)) return false;
-    const bool complete = examine(system, options, found);
+    if (!solveByLanczos(system, settings, block, stage, found)) return false;
+    const bool complete = examine(system, settings, found);
     modes = std::move(found);
     if (complete) return true;
     stage.progress(formatted("the inertia counts more modes than blocks of %d have found", block));
@@ -313,79 +299,58 @@ bool computeByLanczos(const factor::AssociatedSystem& system, const Options& opt
   return false;
 }
 
-Modes computeBy(const factor::AssociatedSystem& system, const Options& options, Stage& stage) {
+Modes computeBy(const factor::AssociatedSystem& system, const Settings& settings, Stage& stage) {
   constexpr PetscInt denseAtMost = 2000;
   const PetscInt size = rowsOf(system.k0());
-  const bool chosen = options.solver != Options::Solver::automatic || solverPrefix.given();
+  const bool chosen = settings.solver != Settings::Solver::automatic || solverPrefix.given();
   Modes modes;
-  if (denseWanted(options, size)) {
-    solveDense(system, options.count, modes);
-    examine(system, options, modes);
+  if (denseWanted(settings, size)) {
+    solveDense(system, settings.count, modes);
+    examine(system, settings, modes);
     return modes;
   }
-  if (lanczosWanted(options, size)) {
-    if (computeByLanczos(system, options, stage, modes)) return modes;
+  if (lanczosWanted(settings, size)) {
+    if (computeByLanczos(system, settings, stage, modes)) return modes;
     if (chosen) {
-      requireConverged(modes.lambda.size(), options.count,
+      requireConverged(modes.lambda.size(), settings.count,
                        "-modes_solver eps or another -modes_block_size");
       return modes;
     }
   }
   modes = {};
-  solveByEps(system, options, stage, modes);
-  if (examine(system, options, modes) || chosen || size > denseAtMost) return modes;
+  solveByEps(system, settings, stage, modes);
+  if (examine(system, settings, modes) || chosen || size > denseAtMost) return modes;
   modes = {};
-  solveDense(system, options.count, modes);
-  examine(system, options, modes);
+  solveDense(system, settings.count, modes);
+  examine(system, settings, modes);
   return modes;
 }
 
 }  // namespace
 
-int wantedCount() { return countOption.get(); }
-
-Options Options::given() {
-  const std::string name = solverOption.get();
-  const int block = blockOption.get();
-  PetscBool typeGiven = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, "modes_", "-eps_type", &typeGiven));
-  const Solver solver = name == "eps" || typeGiven ? Solver::eps
-                        : name == "block_lanczos"  ? Solver::blockLanczos
-                                                   : Solver::automatic;
-  return {wantedCount(), countOption.given(),   solver,
-          block,         toleranceOption.get(), sturmOption.get()};
-}
-
-Modes compute(const factor::AssociatedSystem& system, int count) {
-  Options options = Options::given();
-  options.count = count;
-  options.countGiven = true;
-  return compute(system, options);
-}
-
-Modes compute(const factor::AssociatedSystem& system, const Options& given) {
-  Options options = given;
+Modes compute(const factor::AssociatedSystem& system, const Settings& given) {
+  Settings settings = given;
   const PetscInt size = rowsOf(system.k0());
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
-  if (options.count > size) {
-    if (options.countGiven)
+  if (settings.count > size) {
+    if (settings.countGiven)
       throw Error(formatted("option -modes_count %d: the problem has only %" PetscInt_FMT
                             " unknowns",
-                            options.count, size));
-    options.count = size;  // the default
+                            settings.count, size));
+    settings.count = size;  // the default
   }
   Stage stage(comm, "modes");
-  Modes modes = computeBy(system, options, stage);
+  Modes modes = computeBy(system, settings, stage);
   if (modes.rounding > 1e-6)
     complain(comm, formatted("free vibration: rounding of the entries of the stiffness may change "
                              "the lowest eigenvalues by %.0e of their "
                              "size; is a body nearly loose, or a spring very stiff?",
                              modes.rounding));
   stage.finish(formatted(
-      "%d modes to %.4g Hz, worst relative residual %.1e%s", options.count,
+      "%d modes to %.4g Hz, worst relative residual %.1e%s", settings.count,
       modes.angularFrequency.back() / (2 * M_PI),
       *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
-      !options.sturm ? ""
+      !settings.sturm ? ""
       : modes.countConfirmed
           ? formatted(", the lowest %d counted exactly by inertia", modes.inertiaCount).c_str()
           : ", COUNT NOT CONFIRMED BY INERTIA"));

@@ -6,6 +6,7 @@
 
 #include "algebra/factor/associated_system.hpp"
 #include "base/petsc/owned.hpp"
+#include "eigen/modes/settings.hpp"
 
 namespace squeal::modes {
 
@@ -25,31 +26,12 @@ struct Modes {
   double rounding = 0;
 };
 
-/// Options of the free modes.
-struct Options {
-  enum class Solver { automatic, blockLanczos, eps };
-  int count;         ///< `-modes_count`
-  bool countGiven;   ///< a count that is not the default must not exceed the number of unknowns
-  Solver solver;     ///< `-modes_solver`; automatic becomes eps where a -modes_eps_* option is
-                     ///< given
-  int blockSize;     ///< `-modes_block_size`
-  double tolerance;  ///< `-modes_tolerance`
-  bool sturm;        ///< `-modes_sturm`
-  /// Reads the options.
-  static Options given();
-};
-
-/// Returns the option `-modes_count`.
-int wantedCount();
-
 /// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
 /// Unless `-modes_solver` chooses one of them, LAPACK takes their place where most of the modes of
 /// a small problem are wanted, or where EPS too has missed modes of a problem of at most 2000
 /// unknowns. A count that is not confirmed is no error. Throws Error if a count that is given
 /// exceeds the number of unknowns, if the solver does not converge, or if an eigenvalue is not
 /// positive or could have been made by rounding.
-Modes compute(const factor::AssociatedSystem& system, const Options& options = Options::given());
-/// Collective. Does the same for `count` modes, with the other options as they are given.
-Modes compute(const factor::AssociatedSystem& system, int count);
+Modes compute(const factor::AssociatedSystem& system, const Settings& settings);
 
 }  // namespace squeal::modes

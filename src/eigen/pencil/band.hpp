@@ -3,17 +3,16 @@
 #include <vector>
 
 #include "algebra/linalg/complex.hpp"
+#include "eigen/pencil/settings.hpp"
 
 namespace squeal::pencil {
 
-/// Returns the option `-flutter_band` in rad/s; 0 if it is not given.
-double bandAsked();
 /// Returns the top of the band in rad/s for the angular frequencies of the free modes, rad/s,
-/// ascending and not empty. It is `-flutter_band` if that is given, and otherwise lies at 0.55 of
-/// the list, but in both cases below the last mode, unless all modes are equal. Corrections are
-/// made for eigenvalues that have been found, so that an eigenvalue above all modes could be missed
-/// without notice.
-double bandBelow(const std::vector<double>& frequencies);
+/// ascending and not empty. It is `asked` if that is positive, and otherwise lies at 55 % of the
+/// list, but in both cases below the last mode, unless all modes are equal. Corrections are made
+/// for eigenvalues that have been found, so an eigenvalue above all modes could be missed without
+/// notice.
+double bandBelow(const std::vector<double>& frequencies, double asked = 0);
 
 /// The band, and the guard zone around it [M.43] whose eigenvalues are followed too.
 struct WatchedBand {
@@ -33,8 +32,8 @@ struct WatchedBand {
   bool lasts(Complex s) const { return -s.real() <= damping * std::abs(s); }
 };
 
-/// Returns the band for the frequencies of the free modes: its top is bandBelow(), its damping the
-/// option `-flutter_band_damping`.
-WatchedBand bandFor(const std::vector<double>& frequencies);
+/// Returns the band for the frequencies of the free modes: its top is bandBelow(), its damping that
+/// of the limits.
+WatchedBand bandFor(const std::vector<double>& frequencies, const BandLimits& limits);
 
 }  // namespace squeal::pencil

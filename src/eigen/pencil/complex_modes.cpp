@@ -3,24 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/options/options.hpp"
+#include "base/petsc/check.hpp"
 
 namespace squeal::pencil {
 namespace {
-
-const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
-                                "full-order backward error up to which an eigenvalue is certified, "
-                                "and to which it is corrected");
-const RealOption toleranceOption(
-    "flutter", "flutter_unstable_tolerance", 0, "", nonNegative,
-    "an eigenvalue is unstable if its growth rate exceeds this fraction of |s|, a negative damping "
-    "ratio, by more than the estimate of its error; critical frictions are those of growth 0");
-const IntegerOption shapesOption(
-    "flutter", "flutter_shapes", 3, 0, 100'000,
-    "number of fastest growing complex modes kept for the report at each friction");
-const RealOption shapesBelowOption(
-    "flutter", "flutter_shapes_below", 20000, "Hz", positive,
-    "complex modes of higher frequency are not kept; squeal is what can be heard");
 
 /// Without an estimate of its error, a growth rate up to this fraction of |s| is taken as rounding:
 /// it splits double eigenvalues by the square root of the machine precision, and more.
@@ -50,11 +36,6 @@ bool isolated(const ComplexModes& point, const Eigenvalue& e) {
 
 bool Sensitivity::regular() const {
   return leftBackwardError < worstLeftError && condition < worstCondition && separation > closest;
-}
-
-Criteria Criteria::given() {
-  const int shapes = shapesOption.get();
-  return {accuracyOption.get(), toleranceOption.get(), shapes, 2 * M_PI * shapesBelowOption.get()};
 }
 
 int ComplexModes::modesWithoutEigenvalue() const {

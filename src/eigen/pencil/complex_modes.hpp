@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algebra/linalg/complexvector.hpp"
+#include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 
 namespace squeal::pencil {
@@ -117,16 +118,6 @@ struct ComplexModes {
   double worstErrorEstimate() const;
   /// Returns the eigenvalue of the largest growth rate, borrowed; null if there are none.
   const Eigenvalue* fastestGrowing() const;
-};
-
-/// These options decide what is said of an eigenvalue, and which complex modes are kept.
-struct Criteria {
-  double accuracy;     ///< `-flutter_accuracy`: backward error of a certified eigenvalue at most
-  double unstable;     ///< `-flutter_unstable_tolerance`: ζ of [M.24]
-  int shapes;          ///< `-flutter_shapes`: number of complex modes kept at a point at most
-  double shapesBelow;  ///< `-flutter_shapes_below`: upper bound of their frequencies, rad/s
-  /// Reads the options.
-  static Criteria given();
 };
 
 /// Sets `verdict` and `unstable` of each eigenvalue of the point by [M.24].

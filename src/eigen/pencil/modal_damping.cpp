@@ -3,26 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/options/options.hpp"
-
 namespace squeal::pencil {
-namespace {
-
-const RealListOption modalOption("flutter", "flutter_modal_damping", "0", "", nonNegative,
-                                 "damping ratios of the free modes in order, the last one for all "
-                                 "that follow; reduced method alone");
-
-}  // namespace
-
-bool modalDampingWanted() {
-  const auto ratios = modalOption.get();
-  return std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return ratio > 0; });
-}
-
-std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass) {
+std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass,
+                               const std::vector<double>& ratios) {
   std::vector<Term> terms;
-  if (!modalDampingWanted()) return terms;
-  const auto ratios = modalOption.get();
+  if (std::ranges::none_of(ratios, [](double ratio) { return ratio > 0; })) return terms;
   PetscInt local = 0, global = 0;
   const PetscInt count = modes.angularFrequency.size();
   check(BVGetSizes(modes.vectors, &local, &global, nullptr));

@@ -9,10 +9,10 @@ namespace squeal::pencil {
 
 /// Collective. Returns the term of modal damping [M.22],
 ///   c C_m,   C_m = Σ 2 ζ_i ω_i (M0 d_i)(M0 d_i)ᵀ,
-/// with the ratios of `-flutter_modal_damping`; none if all of these are zero. `mass` is M0, and
-/// the arguments are not needed afterwards. The matrix can only be multiplied.
-std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass);
-/// Returns true if `-flutter_modal_damping` has a ratio that is positive.
-bool modalDampingWanted();
+/// with the ratio of each mode, of which the last applies to all further modes; none if all ratios
+/// are zero. `mass` is M0, and the arguments are not needed afterwards. The matrix can only be
+/// multiplied.
+std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass,
+                               const std::vector<double>& ratios);
 
 }  // namespace squeal::pencil

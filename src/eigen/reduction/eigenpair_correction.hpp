@@ -1,22 +1,14 @@
 #pragma once
-/// Known eigenpairs of dense quadratic problems are made better after their basis has grown, and it
-/// is checked that no eigenvalue has been missed. For some tens of eigenvalues of some hundred,
-/// this takes a small part of the time of finding all of them.
+/// Improvement of known eigenpairs of dense quadratic problems after their basis has grown. For
+/// some tens of eigenvalues of some hundred, this takes a small part of the time of a full solve.
 #include <mpi.h>
 
-#include <optional>
 #include <vector>
 
 #include "algebra/linalg/quadratic.hpp"
+#include "eigen/reduction/pair_group.hpp"
 
 namespace squeal::reduction {
-
-/// A pair of a list that is to be improved.
-struct UnconvergedPair {
-  std::size_t pair;
-  double right;  ///< the part of the length of its residual P(s) x that may remain
-  double left;   ///< that of P(s)ᴴ y
-};
 
 /// Pairs of one problem, all with both vectors; those of a smaller basis are extended by zeros. The
 /// pairs that are not open serve as neighbours and stay as they are.
@@ -35,13 +27,5 @@ struct CorrectionTask {
 /// Returns false, [task], with the pairs in any state, if that fails, or if two pairs have become
 /// one. Throws Error on all ranks if LAPACK fails.
 std::vector<bool> correctPairs(MPI_Comm comm, const std::vector<CorrectionTask>& tasks);
-
-/// Not collective. Looks for an eigenvalue that is wanted and not among these pairs, which have
-/// both vectors: where the known eigenvalues and their conjugates are deflated, the Arnoldi method
-/// on the same operator finds the unknown ones nearest to the shift σ. A starting vector of random
-/// entries has part in all eigenvectors, with probability one. Throws Error if LAPACK fails.
-std::optional<Complex> findMissing(const linalg::DenseProblem& problem,
-                                   const std::vector<linalg::DensePair>& pairs, Complex shift,
-                                   const linalg::Wanted& wanted);
 
 }  // namespace squeal::reduction

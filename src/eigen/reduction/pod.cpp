@@ -12,7 +12,7 @@
 namespace squeal::reduction {
 namespace {
 
-/// Returns orthonormal vectors that hold the columns but for parts of length `small`.
+/// Returns orthonormal vectors that hold the columns, except for parts of length `small`.
 linalg::DenseMatrix leadingDirections(linalg::DenseMatrix columns, double small) {
   PetscBLASInt m = columns.rows(), n = columns.columns(), few = std::min(m, n), one = 1, info = 0;
   std::vector<double> sizes(few);
@@ -36,8 +36,8 @@ std::vector<Complex> turned(const linalg::DenseMatrix& directions, const std::ve
   return result;
 }
 
-}  // namespace
-
+/// Returns orthonormal combinations of `size` basis vectors, size × count, that hold the real and
+/// imaginary parts of the right vectors of all these pairs. Entries that a vector lacks are zero.
 linalg::DenseMatrix principalDirections(const std::vector<std::vector<linalg::DensePair>>& solved,
                                         PetscInt size) {
   constexpr double left = 1e-9;  // of a unit vector
@@ -55,9 +55,29 @@ linalg::DenseMatrix principalDirections(const std::vector<std::vector<linalg::De
   return vectors.empty() ? vectors : leadingDirections(vectors, left);
 }
 
-void turn(const linalg::DenseMatrix& directions, linalg::DensePair& pair) {
-  pair.q = turned(directions, pair.q);
-  pair.left = turned(directions, pair.left);
+}  // namespace
+
+void Pod::take(std::vector<PointState>& states) {
+  for (auto& state : states) {
+    const PetscInt own = state.set->space.own();
+    auto& band = state.solution.spectrum.band;
+    for (auto& pair : band)
+      for (auto* vector : {&pair.q, &pair.left})
+        vector->erase(vector->begin(), vector->begin() + own);
+    solved_.push_back(std::move(band));
+  }
+}
+
+bool Pod::compress(ProjectedBasis& basis) {
+  const linalg::DenseMatrix directions =
+      principalDirections(solved_, basis.basis().size() - basis.basis().boundarySize());
+  if (directions.empty()) return false;
+  basis.combine(directions);
+  // The part of a vector outside of the new basis, which a left vector may have, is lost.
+  for (auto& pairs : solved_)
+    for (auto& pair : pairs)
+      for (auto* vector : {&pair.q, &pair.left}) *vector = turned(directions, *vector);
+  return true;
 }
 
 }  // namespace squeal::reduction

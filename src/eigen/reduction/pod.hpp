@@ -1,21 +1,26 @@
 #pragma once
-/// The vectors found over the sweep become a basis by proper orthogonal decomposition. Nothing here
-/// is collective.
+/// Proper orthogonal decomposition: the basis is reduced to the principal directions of the
+/// eigenvectors of the sweep. Nothing here is collective, except combinations of the basis.
 #include <vector>
 
 #include "algebra/linalg/quadratic.hpp"
+#include "eigen/reduction/point_state.hpp"
+#include "eigen/reduction/projected_basis.hpp"
 
 namespace squeal::reduction {
 
-/// Returns orthonormal combinations of `size` basis vectors, size × count, that hold the real and
-/// imaginary parts of the right vectors of all these pairs, but for parts of length 1e-9, which
-/// corrections bring back. Entries that a vector lacks are zero. The matrix has no columns if there
-/// are no pairs. Throws Error if LAPACK fails.
-linalg::DenseMatrix principalDirections(const std::vector<std::vector<linalg::DensePair>>& solved,
-                                        PetscInt size);
+/// The eigenvectors of the points solved so far.
+class Pod {
+ public:
+  /// Takes the pairs of these points, without their coordinates of constraint modes.
+  void take(std::vector<PointState>& states);
+  /// Collective. Replaces the basis, except its constraint modes, by orthonormal combinations that
+  /// hold the real and imaginary parts of all right vectors, except for parts of length 1e-9, which
+  /// corrections bring back. Returns false if there are no pairs. Throws Error if LAPACK fails.
+  bool compress(ProjectedBasis& basis);
 
-/// Replaces the vectors of the pair by their coordinates in the basis V · directions, former size ×
-/// new size. The part of a vector outside of this basis, which a left vector may have, is lost.
-void turn(const linalg::DenseMatrix& directions, linalg::DensePair& pair);
+ private:
+  std::vector<std::vector<linalg::DensePair>> solved_;  // [point]
+};
 
 }  // namespace squeal::reduction

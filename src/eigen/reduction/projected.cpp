@@ -43,6 +43,13 @@ bool Coordinates::isReal(std::size_t pair) const {
   return firstColumn[pair + 1] - firstColumn[pair] == 1;
 }
 
+std::vector<double> Coordinates::perPair(const std::vector<double>& ofColumns) const {
+  std::vector<double> sums(pairs.size(), 0.0);
+  for (std::size_t j = 0; j < sums.size(); ++j)
+    for (auto c = firstColumn[j]; c < firstColumn[j + 1]; ++c) sums[j] += ofColumns[c];
+  return sums;
+}
+
 const std::vector<Complex>& Coordinates::vectorOf(std::size_t pair, pencil::Side side) const {
   const bool right = side == pencil::Side::right;
   if (right_.empty()) return right ? pairs[pair]->q : pairs[pair]->left;

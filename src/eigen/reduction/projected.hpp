@@ -30,8 +30,10 @@ class Coordinates {
   /// Returns true if the pair takes one column.
   bool isReal(std::size_t pair) const;
   /// Returns the real and imaginary parts of c s^power q, or of c conj(s)^power y for the left
-  /// side, basis × columns. A pair of one column has the real part alone.
+  /// side, basis × columns. A pair of one column has only the real part.
   linalg::DenseMatrix times(pencil::Side side, int power, double c) const;
+  /// Returns the sums of values of columns, [column], over the columns of each pair, [pair].
+  std::vector<double> perPair(const std::vector<double>& ofColumns) const;
 
  private:
   const std::vector<Complex>& vectorOf(std::size_t pair, pencil::Side side) const;

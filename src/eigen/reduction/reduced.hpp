@@ -1,39 +1,28 @@
 #pragma once
 /// The reduced problem [4.19] is corrected until its eigenvalues are those of the full one.
 #include <functional>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "algebra/linalg/block.hpp"
-#include "algebra/linalg/complexvector.hpp"
 #include "algebra/linalg/quadratic.hpp"
 #include "base/checkpoint/archive.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/pencil/band.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/pencil.hpp"
-#include "eigen/reduction/in_hand.hpp"
-#include "eigen/reduction/projected.hpp"
-#include "eigen/subspace/basis.hpp"
+#include "eigen/reduction/corrector.hpp"
+#include "eigen/reduction/error_estimator.hpp"
+#include "eigen/reduction/pod.hpp"
+#include "eigen/reduction/point_norms.hpp"
+#include "eigen/reduction/point_state.hpp"
+#include "eigen/reduction/projected_basis.hpp"
+#include "eigen/reduction/settings.hpp"
+#include "eigen/reduction/solved_pairs.hpp"
 #include "eigen/subspace/mode_count.hpp"
-#include "eigen/subspace/substructure.hpp"
 #include "eigen/sweep/parameters.hpp"
 
 namespace squeal::reduction {
-
-using subspace::ModeCount;
-using subspace::Substructure;
-
-/// One point of a sweep.
-struct PointProblem {
-  sweep::Parameters at;
-  /// The terms that all points share, those of the points with the same boundary unknowns, and
-  /// those of this one.
-  pencil::Pencil pencil;
-  int set = 0;  ///< its boundary unknowns: the result of ReducedProblem::addSet(); 0: none
-};
 
 /// The answer of the full problem to eigenpairs of the reduced one.
 struct Improvement {
@@ -43,20 +32,9 @@ struct Improvement {
   /// The largest backward error of the pairs in the full problem, [located]; NaN where there is no
   /// problem at this friction. There are no entries if there is no larger problem.
   std::vector<double> backwardError;
-  /// What round-off adds at most to yᴴP(s)x with unit vectors x and y of the reduced problem,
+  /// Upper bound of the round-off in yᴴP(s)x with unit vectors x and y of the reduced problem,
   /// likewise.
   std::vector<double> roundOff;
-};
-
-/// Options of the reduced problem.
-struct Options {
-  bool corrected, compressed;  ///< `-reduction_basis` is not modal; it is pod
-  double tolerance;            ///< `-flutter_tolerance`: estimate of |δs|/|s| asked for
-  int rounds;                  ///< `-flutter_rounds`: most rounds of corrections at a batch
-  int growth;  ///< `-flutter_growth`: no round begins once a batch has added so many vectors
-  pencil::Criteria criteria;
-  /// Reads the options.
-  static Options given();
 };
 
 /// The reduced problem makes Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`,
@@ -71,7 +49,7 @@ class ReducedProblem {
   /// and shares the terms of `pencil`, which hold at all points and for all unknowns. `modes` are
   /// M0-orthonormal with ascending frequencies; they are copied.
   ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
-                 const modes::Modes& modes, const Options& options = Options::given(),
+                 const modes::Modes& modes, const Settings& settings,
                  Substructure substructure = {});
   /// Collective. Makes known the points that have the boundary unknowns with has[boundary unknown
   /// of all ranks] set, and returns the number of this set. Of `pencil`, the terms that follow
@@ -90,7 +68,7 @@ class ReducedProblem {
   /// displacements by `trial` (T, N×n).
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Returns true if vectors are only added to the basis, so that exchange() can be called.
-  bool grows() const { return !options_.compressed; }
+  bool grows() const { return !settings_.compressed; }
   /// Lets solve() call `action`, which is collective, whenever the basis has grown.
   void afterEachRound(std::function<void()> action) { afterRound_ = std::move(action); }
   /// Collective. Writes what has been found since the last call, and the state of the batch that
@@ -102,19 +80,21 @@ class ReducedProblem {
   /// solved: those in the band as solve() left them, those around it as exact as they were needed.
   /// Returns none where the point has not been solved, or where there was no memory to keep them.
   std::optional<std::vector<linalg::DensePair>> watchedPairs(const sweep::Parameters& at,
-                                                             int set) const;
+                                                             int set) const {
+    return solved_.at(at, set);
+  }
   /// Collective. Returns the projection of the problem at this point on the basis as it is.
   linalg::DenseProblem project(const PointProblem& point) const;
   /// Collective. Returns the same with all boundary unknowns, in coordinates that all points share.
   linalg::DenseProblem projectOnAll(const PointProblem& point) const;
   /// Returns the coordinates in the basis of a vector in those of the points of a set.
   std::vector<Complex> lifted(int set, const std::vector<Complex>& q) const {
-    return sets_[set]->space.lifted(q);
+    return basis_.set(set).space.lifted(q);
   }
-  /// Collective. Returns the projection of the terms that belong to the point alone.
+  /// Collective. Returns the projection of the terms that belong only to the point.
   linalg::DenseProblem projectOwn(const PointProblem& point) const;
-  PetscInt basisSize() const { return basis_.size(); }
-  const Basis& basis() const { return basis_; }
+  PetscInt basisSize() const { return basis().size(); }
+  const Basis& basis() const { return basis_.basis(); }
   /// Returns the band of all sets; its top is 0 if nothing is corrected, and infinite if V is the
   /// whole space.
   const pencil::WatchedBand& band() const { return band_; }
@@ -124,92 +104,33 @@ class ReducedProblem {
       const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 
  private:
-  struct PointState;
-  /// Points with the same boundary unknowns.
-  struct Set {
-    PointSpace space;
-    ProjectedTerms terms;
-    double top;       // of what is listed, rad/s
-    int modesInBand;  // free modes up to there
-  };
-  /// Pairs of a point whose residuals are to be corrected.
-  struct CorrectionRequest {
-    const PointState* state;
-    PointPairs pairs;
-    std::vector<double> weights;  // [pair]
-  };
-  /// The watched eigenpairs of a point that has been solved, on one rank.
-  struct KnownPairs {
-    sweep::Parameters at;
-    int set;  // its number
-    int owner;
-    std::vector<linalg::DensePair> pairs;
-  };
-  /// The part of the residuals that their directions may leave unresolved. A round gains a decade,
-  /// and what it need not resolve it need not solve for.
-  static constexpr double resolution = 0.03;
-  void addStaticResponses(const PointProblem& point);
-  Norms normsOf(const PointProblem& point);
-  Norms nearbyNorms(const PointProblem& point);
-  PointState newState(const PointProblem& point, const Norms& norms) const;
-  static PointPairs pairsOf(const PointState& state, std::vector<const linalg::DensePair*> pairs,
-                            bool damped);
-  linalg::DenseProblem project(const PointState& state) const;
-  linalg::DenseProblem projectOnAll(const PointState& state) const;
-  void extend(const std::vector<PointState*>& states);
-  linalg::Block residualColumns(const PointState& state, const linalg::DensePair& pair,
-                                const linalg::ComplexVector& vector, pencil::Side side) const;
-  double residualRatio(const PointState& state, const linalg::DensePair& pair,
-                       const linalg::Block& columns, pencil::Side side) const;
-  linalg::DenseMatrix residualSketch(const PointState& state, const PointPairs& pairs,
-                                     pencil::Side side) const;
-  double unitOf(Complex s) const;
-  double absoluteError(const PointState& state, std::size_t pair) const;
-  bool isExactEnough(const PointState& state, const pencil::Eigenvalue& e) const;
-  double errorOf(const PointState& state, std::size_t pair) const;
-  double errorRatio(const PointState& state, std::size_t pair) const;
-  void estimateErrors(PointState& state, const linalg::DenseProblem& problem) const;
-  bool isAccurate(const PointState& state) const;
-  CorrectionRequest requestOf(const PointState& state) const;
-  linalg::Block directions(const std::vector<CorrectionRequest>& requests) const;
+  std::vector<PointState> statesOf(const std::vector<PointProblem>& batch);
+  void correct(std::vector<PointState>& states);
   void solveDense(const std::vector<PointState*>& open);
   std::vector<PointState*> incompleteStates(std::vector<PointState>& states);
-  std::vector<PointState*> unconfirmed(std::vector<PointState>& states);
+  std::vector<PointState*> recheck(std::vector<PointState>& states);
+  bool addCorrections(const std::vector<PointState*>& open);
+  void store(const std::vector<PointState>& states, const std::vector<PointState*>& open, int round,
+             PetscInt largest);
+  PointState associatedState(const PointProblem& point);
+  void settleBand(std::vector<double> values, PointSet& set) const;
   pencil::ComplexModes result(const PointState& state) const;
   void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
                   Mat trial) const;
-  void correct(std::vector<PointState>& states);
-  PointState associatedState(const PointProblem& point);
-  void leaveBand(PointState& state) const;
-  BatchInHand inHand(const std::vector<PointState>& states, const std::vector<PointState*>& open,
-                     int round, PetscInt largest) const;
-  void settleBand(std::vector<double> values, Set& set) const;
-  void confirmCount(const std::vector<double>& values, const Set& set, modes::Modes& modes) const;
-  void keepPairs(const std::vector<PointState>& states);
-  void keepForCompression(std::vector<PointState>& states);
-  void compress();
 
-  const Options options_;
-  PetscInt unknowns_ = 0;
+  const Settings settings_;
+  std::vector<double> frequencies_;  // of the free modes that start the basis, rad/s
+  ProjectedBasis basis_;
   pencil::WatchedBand band_;
-  double lowestMode_ = 0, highestMode_ = 0;  // rad/s
-  double rightRatio_ = 1, leftRatio_ = 1;    // Basis::energyRatios of the residuals
-  double measuredRatio_ = 0;                 // that of right residuals of pairs solved for
-  double confirmed_ = 0;                     // the largest estimate that a solve has been made for
-  bool responded_ = false;                   // static responses are in the basis
-  std::vector<double> modes_;                // rad/s
-  Basis basis_;
-  ProjectedTerms terms_;
-  std::vector<std::unique_ptr<Set>> sets_;
-  std::optional<ModeCount> count_;  // with boundary unknowns
-  std::vector<std::vector<linalg::DensePair>> solved_;
-  std::vector<KnownPairs> known_;
-  double knownSize_ = 0;                                    // bytes on all ranks
-  std::vector<std::pair<sweep::Parameters, Norms>> norms_;  // norms at the points solved
+  ErrorEstimator estimator_;
+  Corrector corrector_;
+  PointNorms norms_;
+  SolvedPairs solved_;
+  Pod pod_;
+  std::optional<subspace::ModeCount> count_;  // with boundary unknowns
+  bool started_ = false;                      // static responses are in the basis
   std::function<void()> afterRound_;
-  std::optional<BatchInHand> inHand_;  // between two rounds, or taken up from a checkpoint
-  PetscInt exchanged_ = 0;             // vectors of the basis that a checkpoint has, or begins with
-  std::size_t exchangedPairs_ = 0;     // entries of `known_` that it has
+  std::optional<PendingBatch> pending_;  // between two rounds, or resumed from a checkpoint
 };
 
 }  // namespace squeal::reduction

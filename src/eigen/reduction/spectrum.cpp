@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "algebra/linalg/spread.hpp"
 #include "base/petsc/check.hpp"
 #include "eigen/reduction/eigenpair_correction.hpp"
+#include "eigen/reduction/missing.hpp"
 
 namespace squeal::reduction {
 namespace {

@@ -2,23 +2,14 @@
 
 #include <cmath>
 
-#include "base/options/options.hpp"
-
 namespace squeal::sensitivity {
 namespace {
-
-const FlagOption wantedOption("flutter", "flutter_sensitivities", false,
-                              "derivatives of the eigenvalues of the complex modes kept "
-                              "(-flutter_shapes) with respect to friction, "
-                              "speed, pressure, moduli and densities: sensitivities.csv");
 
 double massNorm(Mat mass, const linalg::ComplexVector& u) {
   return std::sqrt(std::abs(dot(u, product(mass, u))));
 }
 
 }  // namespace
-
-bool sensitivitiesWanted() { return wantedOption.get(); }
 
 Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
                   const EigenTriple& triple) {

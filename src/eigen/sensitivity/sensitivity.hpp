@@ -19,9 +19,6 @@ struct EigenTriple {
   const linalg::ComplexVector& y;  ///< left vector in the unknowns
 };
 
-/// Returns the option `-flutter_sensitivities`.
-bool sensitivitiesWanted();
-
 /// Collective. Returns yᴴ P′(s) x.
 Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
                   const EigenTriple& triple);

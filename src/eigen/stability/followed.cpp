@@ -4,30 +4,12 @@
 #include <cmath>
 #include <memory>
 
-#include "base/options/options.hpp"
 #include "base/system/text.hpp"
 #include "eigen/tracking/reducedfamily.hpp"
 #include "eigen/tracking/renumber.hpp"
 
 namespace squeal::stability {
 namespace {
-
-const FlagOption trackOption(
-    "flutter", "flutter_track", true,
-    "follow the eigenvalues of the band over the friction by left and right vectors, through "
-    "crossings and "
-    "mergers: branches.csv; reduced method alone; a single friction, from friction 0 on, and "
-    "sweeps with terms that follow the "
-    "steady state (friction damping, prestress) only if this or -flutter_critical is given");
-const FlagOption criticalOption(
-    "flutter", "flutter_critical", true,
-    "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
-const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,
-                                 "the basis is improved for a critical friction until it moves by "
-                                 "less than this part of itself");
-const IntegerOption halvingsOption(
-    "flutter", "flutter_track_halvings", 10, 0, 50,
-    "how often a step of the sweep may be halved where a continuation is not certain");
 
 /// Drops the vectors, which take much memory and are no longer needed, and the events.
 void dropVectors(Branches& branches) {
@@ -53,14 +35,8 @@ bool areFreeModes(const Station& station, const std::vector<double>& angularFreq
 
 }  // namespace
 
-bool trackWanted() { return trackOption.get(); }
-
-bool trackAsked() {
-  return trackOption.given() || (criticalOption.given() && criticalOption.get());
-}
-
-bool worthFollowing(const Line& line) {
-  return line.swept.size() > 1 || line.before || (line.swept.front() != 0 && trackAsked());
+bool worthFollowing(const Line& line, bool requested) {
+  return line.swept.size() > 1 || line.before || (line.swept.front() != 0 && requested);
 }
 
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
@@ -106,7 +82,8 @@ std::string Followed::statement() const {
 }
 
 std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
-                                  const std::vector<Line>& lines, MPI_Comm comm,
+                                  const std::vector<Line>& lines, const Settings& settings,
+                                  MPI_Comm comm,
                                   const std::function<void(const std::string&)>& progress) {
   std::vector<Followed> result;
   PetscInt unknowns = 0;
@@ -126,7 +103,7 @@ std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
     auto& first = path.front().frictions;
     if (first.front() != 0) first.insert(first.begin(), 0);
     tracking::TrackLimits limits;
-    limits.smallest = std::ldexp(1.0, -halvingsOption.get());
+    limits.smallest = settings.smallest;
     followed.branches = follow(path, reduced.band(), limits);
     auto& stations = followed.branches.stations;
     for (auto& station : stations)
@@ -142,8 +119,8 @@ std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
                             areFreeModes(stations.front(), w, below);
     }
     renumber(followed.branches);
-    if (criticalOption.get())
-      followed.criticals = criticalFrictions(path, followed.branches, toleranceOption.get());
+    if (settings.critical)
+      followed.criticals = criticalFrictions(path, followed.branches, settings.tolerance);
     if (line.before) {
       followed.from = line.swept.front();
       auto& gaps = followed.branches.gaps;

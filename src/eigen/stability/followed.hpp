@@ -8,6 +8,7 @@
 #include "eigen/modes/modes.hpp"
 #include "eigen/reduction/reduced.hpp"
 #include "eigen/stability/critical.hpp"
+#include "eigen/stability/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "eigen/tracking/reducedfamily.hpp"
 
@@ -50,25 +51,21 @@ struct Followed {
   std::string statement() const;
 };
 
-/// Returns the option `-flutter_track`.
-bool trackWanted();
-/// Returns true if `-flutter_track` is given, or `-flutter_critical` is given and on. The user is
-/// then told if there is nothing to follow.
-bool trackAsked();
-/// Returns true if there is something to follow on a line: frictions that are not part of a sweep
-/// are left out unless trackAsked().
-bool worthFollowing(const Line& line);
+/// Returns true if there is something to follow on a line: single frictions are omitted unless
+/// tracking is `requested`.
+bool worthFollowing(const Line& line, bool requested);
 /// Returns the reason why there is nothing to follow on lines that are worth it; empty if there is
 /// something. Nothing is followed in the basis of the free modes alone.
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
                             const std::vector<Line>& lines);
 
 /// Collective. Follows the eigenvalues of the lines from friction 0 on, in the present basis, and
-/// solves for the critical frictions (`-flutter_critical`), for which the basis may grow. Where the
-/// active set changes, eigenvalues jump and are joined. A line whose first friction is not 0 is
-/// followed from there with its first active set.
+/// solves for the critical frictions if the settings ask for them; the basis may grow for these.
+/// Where the active set changes, eigenvalues jump and are joined. A line whose first friction is
+/// not 0 is followed from there with its first active set.
 std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
-                                  const std::vector<Line>& lines, MPI_Comm comm,
+                                  const std::vector<Line>& lines, const Settings& settings,
+                                  MPI_Comm comm,
                                   const std::function<void(const std::string&)>& progress);
 
 }  // namespace squeal::stability

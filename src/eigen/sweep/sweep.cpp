@@ -4,48 +4,22 @@
 #include <array>
 #include <cmath>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/text.hpp"
 
 namespace squeal::sweep {
-namespace {
-
-const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative,
-                                    "friction coefficients", true);
-const RealListOption speedOption("flutter", "flutter_speed", "1", "", positive,
-                                 "factors on all -motion_* and obstacle velocities, swept", true);
-const RealListOption pressureOption(
-    "flutter", "flutter_pressure", "1", "", positive,
-    "factors on all that presses, swept: surface pressures, held displacements and those of "
-    "obstacles; not on centrifugal forces",
-    true);
-const RealListOption dampingOption(
-    "flutter", "flutter_damping", "1", "", nonNegative,
-    "factors on the damping of materials, of dashpots to the ground and of free "
-    "modes, swept; not on that of friction",
-    true);
-
-}  // namespace
-
-Sweep readSweep() {
-  const auto ascending = [](const RealListOption& option) {
-    auto list = option.get();
-    if (list.empty()) throw Error("option -" + option.fullName() + ": the list is empty");
-    std::sort(list.begin(), list.end());  // each steady solution starts from a neighbour
-    if (std::adjacent_find(list.begin(), list.end()) != list.end())
-      throw Error("option -" + option.fullName() + ": a value is given twice");
-    return list;
-  };
-  Sweep sweep{ascending(frictionOption), ascending(speedOption), ascending(pressureOption),
-              ascending(dampingOption)};
+Sweep grid(const Settings& settings) {
+  Sweep sweep{.frictions = settings.frictions,
+              .speeds = settings.speeds,
+              .pressures = settings.pressures,
+              .dampings = settings.dampings};
   const double points = sweep.pointCount();
   if (points > mostPoints)
     throw Error(
         formatted("options -flutter_friction, -flutter_speed, -flutter_pressure and "
                   "-flutter_damping: %zu x %zu x %zu x %zu = %.0f "
-                  "points; a sweep has %.0f at most",
+                  "points; a sweep has at most %.0f",
                   sweep.frictions.size(), sweep.speeds.size(), sweep.pressures.size(),
                   sweep.dampings.size(), points, mostPoints));
   return sweep;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "eigen/sweep/parameters.hpp"
+#include "eigen/sweep/settings.hpp"
 
 namespace squeal::sweep {
 
@@ -26,11 +27,11 @@ struct Sweep {
   std::optional<std::size_t> earlierNeighbour(std::size_t steadyPoint) const;
 };
 
-/// Not collective. Returns the sweep that the options ask for. Throws Error if a list is empty, if
-/// a value is out of range or given twice, or if there are more than `mostPoints` points.
-Sweep readSweep();
 /// The largest number of points of a sweep.
 inline constexpr double mostPoints = 100'000;
+/// Not collective. Returns the grid of the settings. Throws Error if it has more than `mostPoints`
+/// points.
+Sweep grid(const Settings& settings);
 /// Collective. Warns of a sweep of 1000 points or more, with an estimate of the time that its
 /// eigenvalue problems take. `modes` is the number of free modes.
 void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);

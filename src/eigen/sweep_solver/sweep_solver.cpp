@@ -7,7 +7,6 @@
 
 #include "algebra/factor/symmetric_solver.hpp"
 #include "algebra/linalg/columns.hpp"
-#include "base/options/options.hpp"
 #include "base/session/events.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
@@ -26,12 +25,9 @@
 namespace squeal::sweep_solver {
 namespace {
 
-const IntegerOption modesShown("report", "report_modes", 10, 0, 100'000,
-                               "number of free modes written as fields");
-
-std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
+std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial, int most) {
   std::vector<OwnedVec> shapes;
-  const int count = std::min<std::size_t>(modesShown.get(), modes.angularFrequency.size());
+  const int count = std::min<std::size_t>(most, modes.angularFrequency.size());
   for (int i = 0; i < count; ++i) {
     Vec d = nullptr;
     OwnedVec u;
@@ -94,16 +90,17 @@ bool hasResults(const ModalSegment& segment) {
 /// Flutter at the points of a problem, batch by batch, with one basis for all of them.
 class SegmentSweep {
  public:
-  SegmentSweep(SegmentProblem& problem, const std::vector<double>& dampings,
-               checkpoint::Checkpoint& checkpoint, const std::string& name)
+  SegmentSweep(SegmentProblem& problem, const Request& request, checkpoint::Checkpoint& checkpoint,
+               const std::string& name)
       : problem_(problem),
+        request_(request),
         pencil_(problem.pencil()),
         checkpoint_(checkpoint),
         name_(name),
         begin_(MPI_Wtime()) {
     for (auto& range : problem.ranges()) ranges_.push_back({std::move(range), pencil_.with({}), 0});
     segments_.resize(ranges_.size());
-    for (double damping : dampings)
+    for (double damping : request.dampings)
       for (std::size_t i = 0; i < problem.steadyPoints().size(); ++i) {
         points_.push_back(problem.steadyPoints()[i]);
         points_.back().damping = damping;
@@ -115,7 +112,7 @@ class SegmentSweep {
       }
     batches_ = sweep::batches(points_);
     for (const auto& batch : batches_) order_.insert(order_.end(), batch.begin(), batch.end());
-    if (direct::directWanted()) {  // one by one
+    if (request.settings.direct) {  // one by one
       batches_.clear();
       for (const std::size_t i : order_) batches_.push_back({i});
     }
@@ -168,7 +165,9 @@ class SegmentSweep {
 
   void solveAll() {
     auto modes = computeModes();
-    if (modes) pencil_.add(pencil::modalDamping(*modes, problem_.system().m0()));
+    if (modes)
+      pencil_.add(
+          pencil::modalDamping(*modes, problem_.system().m0(), request_.settings.modalDamping));
     for (auto& range : ranges_) {
       range.pencil = pencil_.with({});
       range.pencil.add(std::move(range.points.terms));
@@ -230,7 +229,8 @@ class SegmentSweep {
       archive.common(points);
       segment.points.resize(points);
       for (auto& point : segment.points) pencil::exchange(archive, point);
-      if (archive.reads()) segment.shapes = reportedShapes(segment.modes, problem_.trial());
+      if (archive.reads())
+        segment.shapes = reportedShapes(segment.modes, problem_.trial(), request_.reportedModes);
     }
   }
 
@@ -242,16 +242,16 @@ class SegmentSweep {
 
   /// Collective. Returns the free modes of the interior unknowns; none with the direct method.
   std::optional<modes::Modes> computeModes() {
-    const bool direct = direct::directWanted();
-    if (direct) directly_ = direct::Options::given();
+    const auto& settings = request_.settings;
+    const bool direct = settings.direct.has_value();
     if (direct) factor::rejectUnusedSolverOptions();
-    if (direct && !sensitivity::sensitivitiesWanted()) return {};
+    if (!settings.modes) return {};
     modes::Modes modes;
     if (auto entry = checkpoint_.next(name_ + "_modes")) {
       modes::exchange(*entry, modes, problem_.system().k0());
       modesKept_ = true;
     } else {
-      modes = modes::compute(problem_.system());
+      modes = modes::compute(problem_.system(), *settings.modes);
     }
     if (!direct) return modes;
     forLeftVectors_ = std::move(modes);
@@ -261,14 +261,14 @@ class SegmentSweep {
   void reduce(modes::Modes modes) {
     Stage stage(pencil_.comm(), "flutter");
     reduced_ = std::make_unique<reduction::ReducedProblem>(
-        pencil_, problem_.system(), modes, reduction::Options::given(), problem_.substructure());
+        pencil_, problem_.system(), modes, *request_.settings.reduction, problem_.substructure());
     reduced_->afterEachRound([this] {
       keep();
       stopIfAsked(pencil_.comm());
     });
     std::string text = formatted("basis of %zu free modes", modes.angularFrequency.size());
     if (ranges_.size() == 1) {
-      segments_[0].shapes = reportedShapes(modes, problem_.trial());
+      segments_[0].shapes = reportedShapes(modes, problem_.trial(), request_.reportedModes);
       segments_[0].modes = std::move(modes);
     } else {
       for (auto& range : ranges_) range.set = reduced_->addSet(range.pencil, range.points.has);
@@ -286,7 +286,7 @@ class SegmentSweep {
       auto& segment = segments_[k];
       if (segment.points.empty()) continue;
       if (!setModesFound_) restrictModes(k);
-      segment.shapes = reportedShapes(segment.modes, problem_.trial());
+      segment.shapes = reportedShapes(segment.modes, problem_.trial(), request_.reportedModes);
     }
     setModesFound_ = true;
   }
@@ -380,32 +380,32 @@ class SegmentSweep {
   /// Collective. Follows the eigenvalues over the friction and finds critical frictions, if that is
   /// wanted and there is something to follow.
   void followPoints() {
-    if (!stability::trackWanted()) return;
+    const stability::Settings& settings = request_.settings.stability;
+    if (!settings.track) return;
     std::vector<stability::Line> all;
     std::vector<std::size_t> begins;
     for (auto& [line, range] : lines()) {
-      if (!stability::worthFollowing(line)) continue;
+      if (!stability::worthFollowing(line, settings.requested)) continue;
       all.push_back(std::move(line));
       begins.push_back(range);
     }
     const std::string nothing =
         reduced_ ? stability::nothingToFollow(*reduced_, all) : "-flutter_method direct";
     if (!nothing.empty()) {
-      if (stability::trackAsked())
-        say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
+      if (settings.requested) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
       return;
     }
-    if (!affine_ && !stability::trackAsked())  // each friction put in between costs a steady state
-                                               // and terms of its own
+    if (!affine_ && !settings.requested)  // each friction put in between costs a steady state
+                                          // and terms of its own
       return say(
           pencil_.comm(),
           "track: not done where terms follow the steady state, unless -flutter_track is given");
     Stage stage(pencil_.comm(), "track");
-    auto followed =
-        stability::followSweep(*reduced_, all, pencil_.comm(), [&](const std::string& text) {
-          stage.progress(text);
-          stopIfAsked(pencil_.comm());
-        });
+    auto followed = stability::followSweep(*reduced_, all, settings, pencil_.comm(),
+                                           [&](const std::string& text) {
+                                             stage.progress(text);
+                                             stopIfAsked(pencil_.comm());
+                                           });
     std::size_t branches = 0, stations = 0, criticals = 0;
     for (std::size_t i = 0; i < followed.size(); ++i) {
       branches += followed[i].branches.count;
@@ -426,8 +426,8 @@ class SegmentSweep {
       points = reduced_->solve(problems, problem_.trial());
     else
       for (const auto& problem : problems)
-        points.push_back(
-            direct::solveDirect(problem.pencil, problem.at, problem_.trial(), *directly_));
+        points.push_back(direct::solveDirect(problem.pencil, problem.at, problem_.trial(),
+                                             *request_.settings.direct));
     for (const auto& point : points) requireFiniteEigenvalues(point);
     return points;
   }
@@ -478,12 +478,13 @@ class SegmentSweep {
   /// Returns where the search for the left vectors of the shapes kept begins.
   sensitivity::StartSpace startSpace(const reduction::PointProblem& problem,
                                      const pencil::ComplexModes& point) const {
-    if (!sensitivity::sensitivitiesWanted() || point.shapes.empty()) return {};
+    if (!request_.settings.sensitivity.wanted || point.shapes.empty()) return {};
     if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.system().m0(), {}};
     return {reduced_->basis().vectors(), problem_.system().k0(), reduced_->project(problem)};
   }
 
   SegmentProblem& problem_;
+  const Request& request_;
   pencil::Pencil pencil_;  // of all points
   std::vector<Range> ranges_;
   std::vector<sweep::Parameters> points_;
@@ -492,9 +493,8 @@ class SegmentSweep {
   modes::Modes forLeftVectors_;         // with the direct method, which has no modes of its own
   modes::Modes interiorModes_;          // where several active sets share the basis
   std::unique_ptr<reduction::ReducedProblem> reduced_;
-  std::optional<direct::Options> directly_;  // without a reduced problem
-  bool affine_ = true;                       // no point has terms of its own
-  std::vector<std::string> failures_;        // of points and stages
+  bool affine_ = true;                 // no point has terms of its own
+  std::vector<std::string> failures_;  // of points and stages
   checkpoint::Checkpoint& checkpoint_;
   std::string name_;        // of its logs
   double begin_;            // s
@@ -509,9 +509,9 @@ class SegmentSweep {
 
 }  // namespace
 
-SolvedSegments solveSegments(SegmentProblem& problem, const std::vector<double>& dampings,
+SolvedSegments solveSegments(SegmentProblem& problem, const Request& request,
                              checkpoint::Checkpoint& checkpoint, const std::string& name) {
-  return SegmentSweep(problem, dampings, checkpoint, name).solve();
+  return SegmentSweep(problem, request, checkpoint, name).solve();
 }
 
 }  // namespace squeal::sweep_solver

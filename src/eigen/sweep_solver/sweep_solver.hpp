@@ -14,6 +14,7 @@
 #include "eigen/stability/followed.hpp"
 #include "eigen/subspace/substructure.hpp"
 #include "eigen/sweep/parameters.hpp"
+#include "eigen/sweep_solver/settings.hpp"
 
 namespace squeal::sweep_solver {
 
@@ -23,8 +24,8 @@ struct ModalSegment {
   PetscInt unknowns = 0;   ///< n
   modes::Modes modes;      ///< empty with the direct method; those of the band where the basis is
                            ///< shared with other active sets
-  /// The first `-report_modes` modes in nodal displacements, N entries each, the largest entry 1 in
-  /// magnitude.
+  /// The first modes, Request::reportedModes of them, in nodal displacements, N entries each, with
+  /// a largest entry of magnitude 1.
   std::vector<OwnedVec> shapes;
   std::vector<pencil::ComplexModes> points;  ///< for each damping factor all steady points
   /// For each speed, pressure and damping whose first point is one of these, if eigenvalues are
@@ -106,12 +107,19 @@ struct SolvedSegments {
   std::vector<std::string> failures = {};
 };
 
+/// The sweep that is asked for.
+struct Request {
+  Settings settings;
+  std::vector<double> dampings;  ///< swept at all steady points
+  int reportedModes = 0;         ///< number of free modes whose shapes are reported
+};
+
 /// Collective. Returns for each range of points their modes, flutter at all steady points with all
-/// `dampings`, and the eigenvalues followed over the friction. What the logs of the checkpoint
+/// dampings, and the eigenvalues followed over the friction. What the logs of the checkpoint
 /// whose names begin with `name` hold is taken from there, and they are continued. A point
 /// that fails leaves the others as they are, and so does a stage behind points that have been
 /// solved: the reasons are returned. Throws Error if no point is solved.
-SolvedSegments solveSegments(SegmentProblem& problem, const std::vector<double>& dampings,
+SolvedSegments solveSegments(SegmentProblem& problem, const Request& request,
                              checkpoint::Checkpoint& checkpoint, const std::string& name);
 
 }  // namespace squeal::sweep_solver

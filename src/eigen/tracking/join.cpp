@@ -6,7 +6,8 @@
 #include <tuple>
 
 #include "algebra/linalg/quadratic.hpp"
-#include "base/petsc/check.hpp"
+#include "algebra/linalg/spread.hpp"
+#include "base/system/error.hpp"
 #include "eigen/pencil/band.hpp"
 
 namespace squeal::tracking {
@@ -131,16 +132,10 @@ std::optional<linalg::Spectrum> continuedTo(Family& family, double friction,
                                             double isolation) {
   const auto problem = family.at(friction);
   if (!problem) return {};
-  int rank = 0;
-  check(MPI_Comm_rank(family.comm(), &rank));
   std::vector<linalg::DensePair> pairs;
-  std::string failure;
-  if (rank == 0) try {
-      if (auto found = continuedIn(*problem, from, expected, isolation)) pairs = found->pairs();
-    } catch (const Error& error) {
-      failure = error.what();
-    }
-  failTogether(family.comm(), failure);
+  onFirstRank(family.comm(), "", [&] {
+    if (auto found = continuedIn(*problem, from, expected, isolation)) pairs = found->pairs();
+  });
   linalg::shareFrom(0, family.comm(), pairs, linalg::Vectors::both);
   if (pairs.empty()) return {};
   return linalg::Spectrum(*problem, std::move(pairs));

@@ -16,11 +16,11 @@ struct Station {
   double friction = 0;
   bool swept = true;                     ///< false: added in between to make a continuation certain
   std::vector<linalg::DensePair> pairs;  ///< in the band or in its guard zone, with left vectors
-  std::vector<int> branch;               ///< [pair] number of its branch
-  std::vector<double> overlap;  ///< [pair] |tr(Π Π')| with the station before; 1 where a group was
-                                ///< joined as a whole; 0 where the branch begins
-  std::vector<unsigned char> inBand;  ///< [pair] 1 if it is in the band
-  std::size_t piece = 0;              ///< of the path
+  std::vector<int> branch = {};          ///< [pair] number of its branch
+  std::vector<double> overlap = {};  ///< [pair] |tr(Π Π')| with the station before; 1 where a group
+                                     ///< was joined as a whole; 0 where the branch begins
+  std::vector<unsigned char> inBand = {};  ///< [pair] 1 if it is in the band
+  std::size_t piece = 0;                   ///< of the path
 };
 
 /// A change of stability between two frictions.
@@ -33,7 +33,7 @@ struct Event {
                              ///< as where a double eigenvalue splits at once
   /// The pairs concerned at `low` and at `high`. A crossing or divergence has two where equal
   /// eigenvalues change their stability together: then each has an event with the mean of both.
-  std::vector<linalg::DensePair> below, above;
+  std::vector<linalg::DensePair> below = {}, above = {};
   double isolation = 0;   ///< distance from other eigenvalues, rad/s
   std::size_t piece = 0;  ///< of the path; at a jump the one that begins there
 };

@@ -59,7 +59,7 @@ matrixfile::Entries readHere(matrixfile::Format format, const std::filesystem::p
                              const std::string& dataset) {
   if (!dataset.empty() &&
       (format == matrixfile::Format::matrixMarket || format == matrixfile::Format::petscBinary))
-    throw Error("the file is a single matrix, it holds no '" + dataset + "' by name");
+    throw Error("the file is a single matrix, it contains no '" + dataset + "' by name");
   matrixfile::Entries entries;
   switch (format) {
     case matrixfile::Format::matrixMarket:

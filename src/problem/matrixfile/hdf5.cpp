@@ -55,7 +55,7 @@ std::optional<bool> byColumns(hid_t group) {
     const std::string format = text.substr(0, 3);
     if (format != "csr" && format != "csc")
       throw Error("the format '" + text + "', where csr and csc are read");
-    if (!found.empty() && found != format) throw Error("the group calls itself csr as well as csc");
+    if (!found.empty() && found != format) throw Error("the group is marked csr as well as csc");
     found = format;
   }
   return found.empty() ? std::nullopt : std::optional(found == "csc");
@@ -162,7 +162,7 @@ std::vector<std::string> namesIn(hid_t group) {
     return 0;
   };
   if (H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names) < 0)
-    throw Error("HDF5 finds the file damaged" + cause());
+    throw Error("the HDF5 library reports a damaged file" + cause());
   return names;
 }
 
@@ -177,22 +177,23 @@ std::string onlyMatrix(hid_t file) {
   if (matrices.empty()) matrices = numbers;
   if (matrices.empty())
     throw Error(
-        "the HDF5 file holds no matrix: no group with data, indices and indptr (MATLAB: data, ir "
+        "the HDF5 file contains no matrix: no group with data, indices and indptr (MATLAB: data, "
+        "ir "
         "and jc), no dataset of real "
         "numbers of two "
         "dimensions");
   if (matrices.size() > 1)
-    throw Error("the HDF5 file holds several matrices, " + joined(matrices) + ": name one");
+    throw Error("the HDF5 file contains several matrices, " + joined(matrices) + ": name one");
   return matrices[0];
 }
 
 Entries readHere(const std::filesystem::path& path, const std::string& name) {
   const Silence silence;
   const FileId file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!file.valid()) throw Error("HDF5 finds the file damaged" + cause());
+  if (!file.valid()) throw Error("the HDF5 library reports a damaged file" + cause());
   const std::string wanted = name.empty() ? onlyMatrix(file) : name;
   const ObjectId object(H5Oopen(file, wanted.c_str(), H5P_DEFAULT));
-  if (!object.valid()) throw Error("the HDF5 file holds no object '" + wanted + "'" + cause());
+  if (!object.valid()) throw Error("the HDF5 file contains no object '" + wanted + "'" + cause());
   try {
     if (isCompressed(object)) return compressedGroup(object);
     if (isMatlabSparse(object)) return matlabSparse(object);

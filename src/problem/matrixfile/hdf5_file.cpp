@@ -74,7 +74,7 @@ hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width,
 void requireStored(hid_t dataset, hid_t type, const std::vector<hsize_t>& shape) {
   const PropertiesId properties(H5Dget_create_plist(dataset));
   if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) > 0)
-    throw Error("its values lie in other files: bring them into one by h5repack");
+    throw Error("its values are in other files: merge them by h5repack");
   const hsize_t wanted = wantedBytes(dataset, properties, H5Tget_size(type), shape),
                 stored = H5Dget_storage_size(dataset);
   if (wanted > mostUnpacked(properties, stored))
@@ -104,7 +104,7 @@ std::vector<Number> valuesOf(hid_t dataset, bool onlyIntegers, hid_t memory, int
   const auto kind = H5Tget_class(type);
   if (kind != H5T_INTEGER && (onlyIntegers || kind != H5T_FLOAT))
     throw Error(std::string(onlyIntegers ? "integers" : "real numbers") +
-                " are expected, it holds " + kindOf(type));
+                " are expected, it contains " + kindOf(type));
   const SpaceId space(H5Dget_space(dataset));
   if (H5Sget_simple_extent_type(space) != H5S_SIMPLE ||
       H5Sget_simple_extent_ndims(space) != dimensions)

@@ -43,11 +43,11 @@ const Variable& chosen(const std::vector<Variable>& variables, const std::string
       found.push_back(&variable), names.push_back(variable.name);
   if (found.empty())
     throw Error((name.empty()
-                     ? std::string("the MATLAB file holds no square matrix of real numbers")
-                     : "the MATLAB file holds no variable '" + name + "'") +
+                     ? std::string("the MATLAB file contains no square matrix of real numbers")
+                     : "the MATLAB file contains no variable '" + name + "'") +
                 ", but " + describedAll(variables));
   if (found.size() > 1)
-    throw Error("the MATLAB file holds several " +
+    throw Error("the MATLAB file contains several " +
                 (name.empty() ? "matrices, " + joined(names) + ": name one" : "variables " + name));
   if (!isMatrix(*found[0]))
     throw Error("variable " + described(*found[0]) + " is not a matrix of real numbers");

@@ -78,7 +78,7 @@ Variable variableAt(BinaryFile& file, std::uint64_t position) {
       width = widthOf(variable.type) * (1 + imaginary);
   if (variable.begin > file.size() || count > (file.size() - variable.begin) / width)
     throw Error(formatted("the file is cut short: the variable at byte %" PRIu64
-                          " is longer than what is left",
+                          " is longer than the rest of the file",
                           position));
   variable.end = variable.begin + count * width;
   variable.name.resize(nameLength);

@@ -131,7 +131,7 @@ Header kindOf(const Lines& lines) {
 }
 
 Header readHeader(Lines& lines) {
-  if (!lines.next()) throw Error("the file holds nothing");
+  if (!lines.next()) throw Error("the file is empty");
   Header header = kindOf(lines);
   if (!lines.next())
     throw Error("the file ends before the line with the numbers of rows and columns");

@@ -5,8 +5,7 @@
 
 #include "base/session/stages.hpp"
 #include "base/system/text.hpp"
-#include "eigen/direct/direct.hpp"
-#include "eigen/pencil/modal_damping.hpp"
+#include "eigen/pencil/settings.hpp"
 #include "problem/terms/settings.hpp"
 #include "regime/march/law.hpp"
 
@@ -19,11 +18,12 @@ void checkOptions(const Settings& settings, bool ofMesh) {
     throw Error(
         "option -regime_friction: matrices from files do not define where bodies separate and "
         "stick; the motion after flutter is followed only for meshes");
-  if (direct::directWanted())
+  const auto pencil = pencil::Settings::given();
+  if (pencil.method == pencil::Method::direct)
     throw Error(
         "option -regime_friction: the motion after flutter needs the free modes and the estimates "
         "of -flutter_method reduced");
-  if (pencil::modalDampingWanted())
+  if (pencil.isModallyDamped())
     throw Error(
         "option -regime_friction: -flutter_modal_damping is not followed in time; give the damping "
         "to the materials");

@@ -5,10 +5,8 @@
 #include "base/options/options.hpp"
 #include "base/session/events.hpp"
 #include "base/system/termination.hpp"
-#include "eigen/direct/direct.hpp"
 #include "eigen/direct/nearest.hpp"
-#include "eigen/modes/modes.hpp"
-#include "eigen/pencil/modal_damping.hpp"
+#include "eigen/pencil/settings.hpp"
 #include "problem/matrices/matrices.hpp"
 #include "run/analysis/checks.hpp"
 #include "run/analysis/matrix_route.hpp"
@@ -27,6 +25,12 @@ const pencil::ComplexModes* Analysis::pointAt(const sweep::Parameters& at) const
   return nullptr;
 }
 
+sweep_solver::Request requestOf(const Analysis& analysis) {
+  return {.settings = sweep_solver::Settings::given(),
+          .dampings = analysis.sweep.dampings,
+          .reportedModes = analysis.reportedModes};
+}
+
 void addFailure(Analysis& analysis, const std::string& reason) {
   complain(analysis.comm, reason);
   analysis.failures.push_back(reason);
@@ -34,12 +38,13 @@ void addFailure(Analysis& analysis, const std::string& reason) {
 
 void checkOptions() {
   rejectUnknownOptions();
-  direct::rejectIdleSolverOptions();
-  if (direct::directWanted() && pencil::modalDampingWanted())
+  const auto pencil = pencil::Settings::given();
+  direct::rejectIdleSolverOptions(pencil.method);
+  if (pencil.method == pencil::Method::direct && pencil.isModallyDamped())
     throw Error(
         "option -flutter_modal_damping: damping of the free modes needs the modes of "
         "-flutter_method reduced");
-  sweep::readSweep();
+  sweep::grid(sweep::Settings::given());
   const bool ofMesh = matrices::Settings::given().ofMesh();
   regime::checkOptions(regime::Settings::given(), ofMesh);
   if (ofMesh) meshRequest();
@@ -57,7 +62,7 @@ Analysis prepare(MPI_Comm comm) {
   Analysis analysis;
   analysis.comm = comm;
   const bool ofMesh = matrices::Settings::given().ofMesh();
-  analysis.sweep = sweep::readSweep();
+  analysis.sweep = sweep::grid(sweep::Settings::given());
   addFrictions(analysis.sweep, regime::Settings::given().frictions);
   if (ofMesh) {
     prepareMesh(analysis);
@@ -66,8 +71,9 @@ Analysis prepare(MPI_Comm comm) {
   return analysis;
 }
 
-Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder) {
+Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder, int reportedModes) {
   Analysis analysis = prepare(comm);
+  analysis.reportedModes = reportedModes;
   if (!checkpointFolder.empty()) {
     auto identity = checkpoint::identityOfRun(comm);
     if (analysis.mesh) identity["the mesh"] = mesh::checksum(*analysis.mesh);

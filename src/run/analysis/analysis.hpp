@@ -48,9 +48,7 @@ struct Analysis {
   /// Failures of late stages, by point and remedy: they leave all other results as they are. They
   /// have been printed.
   std::vector<std::string> failures;
-  /// Wall time of one factorisation and 400 blocked solves, s, for the last segment; 0 without
-  /// `-modes_benchmark`.
-  double modesFloorSeconds = 0;
+  int reportedModes = 0;  ///< number of free modes whose shapes are reported
   checkpoint::Checkpoint checkpoint;
   /// True if the run has been asked to stop before all was found.
   bool interrupted = false;
@@ -62,6 +60,9 @@ struct Analysis {
   /// solution.
   const pencil::ComplexModes* pointAt(const sweep::Parameters& at) const;
 };
+
+/// Returns what is asked of the sweep over the eigenvalues.
+sweep_solver::Request requestOf(const Analysis& analysis);
 
 /// Collective. Adds the reason why a stage has no result, and prints it.
 void addFailure(Analysis& analysis, const std::string& reason);
@@ -77,8 +78,9 @@ Analysis prepare(MPI_Comm comm);
 
 /// Collective. Runs all stages that the options, which have been checked, ask for, and returns the
 /// results; those that there are where the run has been asked to stop. The folder is for the
-/// checkpoint; an empty path: there is none. Throws Error as the stages and the checkpoint document
-/// it.
-Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder = {});
+/// checkpoint; an empty path: there is none. `reportedModes` is the number of free modes whose
+/// shapes are reported. Throws Error as the stages and the checkpoint document it.
+Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder = {},
+                 int reportedModes = 10);
 
 }  // namespace squeal::analysis

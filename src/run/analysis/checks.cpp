@@ -4,9 +4,8 @@
 
 #include "base/options/options.hpp"
 #include "base/petsc/finite.hpp"
-#include "eigen/direct/direct.hpp"
-#include "eigen/modes/modes.hpp"
-#include "eigen/pencil/modal_damping.hpp"
+#include "eigen/modes/settings.hpp"
+#include "eigen/pencil/settings.hpp"
 
 namespace squeal::analysis {
 
@@ -51,7 +50,7 @@ void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact&
   const auto given = [](const std::vector<double>& factors) {
     return factors != std::vector<double>{1};
   };
-  if (given(sweep.dampings) && !bodies.damping && !pencil::modalDampingWanted())
+  if (given(sweep.dampings) && !bodies.damping && !pencil::Settings::given().isModallyDamped())
     throw Error(
         "option -flutter_damping scales the damping of the bodies, and there is none: give "
         "-material_<group>_rayleigh_*, "
@@ -82,7 +81,7 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const swee
   require(sweep.frictions, "friction",
           [](const pencil::Term& term) { return term.frictionExponent; });
   require(sweep.speeds, "speed", [](const pencil::Term& term) { return term.speedExponent; });
-  if (!pencil::modalDampingWanted())
+  if (!pencil::Settings::given().isModallyDamped())
     require(sweep.dampings, "damping",
             [](const pencil::Term& term) { return term.dampingExponent; });
   if (sweep.pressures != std::vector<double>{1})
@@ -90,8 +89,8 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const swee
 }
 
 void warnOfDenseWork(MPI_Comm comm, const sweep::Sweep& sweep, PetscInt unknowns) {
-  if (direct::directWanted()) return;
-  const int modes = std::min<PetscInt>(modes::wantedCount(), unknowns);
+  if (pencil::Settings::given().method == pencil::Method::direct) return;
+  const int modes = std::min<PetscInt>(modes::Settings::given().count, unknowns);
   sweep::warnOfLongSweep(comm, sweep, modes);
 }
 

@@ -100,7 +100,7 @@ void sayMemory(MPI_Comm comm, Mat k0) {
   MatInfo info;
   check(MatGetSize(k0, &unknowns, nullptr));
   check(MatGetInfo(k0, MAT_GLOBAL_SUM, &info));
-  const int modes = std::min<PetscInt>(modes::wantedCount(), unknowns);
+  const int modes = std::min<PetscInt>(modes::Settings::given().count, unknowns);
   const double factor = factor::factorMemory(k0);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

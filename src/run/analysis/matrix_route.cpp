@@ -6,10 +6,8 @@
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
-#include "eigen/modes/benchmark.hpp"
-#include "eigen/modes/modes.hpp"
 #include "eigen/sensitivity/derive.hpp"
-#include "eigen/sensitivity/sensitivity.hpp"
+#include "eigen/sensitivity/settings.hpp"
 #include "eigen/sweep_solver/sweep_solver.hpp"
 #include "problem/matrices/associated.hpp"
 #include "problem/matrices/write.hpp"
@@ -36,7 +34,7 @@ class MatrixSegment : public sweep_solver::SegmentProblem {
   pencil::Pencil pencil() const override { return pencil_.with({}); }
   void examine(std::size_t, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override {
-    if (sensitivity::sensitivitiesWanted())
+    if (sensitivity::Settings::given().wanted)
       sensitivity::deriveParameters(point, pencil, start, system_);
   }
 
@@ -81,13 +79,11 @@ void solveMatrices(Analysis& analysis) {
   if (const auto settings = matrices::ExportSettings::given(); settings.wanted())
     matrices::exportPencil(pencil, settings, analysis.sweep, points.size());
   MatrixSegment problem(symmetric.system, pencil, points);
-  auto solved = sweep_solver::solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint,
-                                            "matrices");
+  auto solved =
+      sweep_solver::solveSegments(problem, requestOf(analysis), analysis.checkpoint, "matrices");
   analysis.segments = std::move(solved.segments);
   for (const auto& failure : solved.failures) addFailure(analysis, "flutter: " + failure);
   if (!solved.complete) throw Interrupted();
-  if (modes::benchmarkWanted())
-    analysis.modesFloorSeconds = modes::floorSeconds(symmetric.system.k0());
 }
 
 }  // namespace squeal::analysis

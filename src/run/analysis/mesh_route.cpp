@@ -12,8 +12,6 @@
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
-#include "eigen/modes/benchmark.hpp"
-#include "eigen/modes/modes.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/ground.hpp"
@@ -187,7 +185,7 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
     matrices::exportPencil(problem.pencil().with(problem.termsOf(last - first - 1)), settings,
                            analysis.sweep, last - first);
   const int before = std::ssize(analysis.segments);
-  auto solved = sweep_solver::solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint,
+  auto solved = sweep_solver::solveSegments(problem, requestOf(analysis), analysis.checkpoint,
                                             "sets_" + std::to_string(before + 1));
   for (auto& segment : solved.segments) {
     for (auto& followed : segment.followed)
@@ -206,8 +204,6 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
     for (const auto& point : segment.points)
       if (isFollowed(analysis.sweep, point.at))
         followAfterFlutter(analysis, problem, current, segment, point);
-  if (modes::benchmarkWanted())
-    analysis.modesFloorSeconds = modes::floorSeconds(problem.system().k0());
 }
 
 }  // namespace

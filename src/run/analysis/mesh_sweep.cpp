@@ -6,9 +6,8 @@
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/text.hpp"
-#include "eigen/direct/direct.hpp"
-#include "eigen/pencil/modal_damping.hpp"
-#include "eigen/sensitivity/sensitivity.hpp"
+#include "eigen/pencil/settings.hpp"
+#include "eigen/sensitivity/settings.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "problem/matrices/write.hpp"
 #include "problem/terms/friction_work.hpp"
@@ -67,7 +66,7 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
         terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction,
                             {point.at, point.eigenvalues[shape.index].s, u, prestress});
   }
-  if (!sensitivity::sensitivitiesWanted()) return;
+  if (!sensitivity::Settings::given().wanted) return;
   Stage stage(analysis.mesh->comm, "flutter");
   influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
   double error = 0;
@@ -88,9 +87,11 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
 
 std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   // Modal damping is that of the free modes of a point, which prestress changes.
-  if (pencil::modalDampingWanted() && elasticity::prestressWanted()) return first + 1;
-  const bool alone = direct::directWanted() || sensitivity::sensitivitiesWanted() ||
-                     matrices::ExportSettings::given().wanted() || pencil::modalDampingWanted();
+  const auto pencil = pencil::Settings::given();
+  if (pencil.isModallyDamped() && elasticity::prestressWanted()) return first + 1;
+  const bool alone = pencil.method == pencil::Method::direct ||
+                     sensitivity::Settings::given().wanted ||
+                     matrices::ExportSettings::given().wanted() || pencil.isModallyDamped();
   const PetscInt most = alone ? 0 : releasedOption.get();
   contact::ActiveSet anywhere = steady::activeSet(analysis.steady[first]), everywhere = anywhere;
   std::size_t last = first;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A round shoe in a drum about (x0, y0), with matching nodes on the circle between them.
 SetFactory("OpenCASCADE");
 DefineConstant[order = {2, Name "order"}, cells = {24, Name "cells"}];

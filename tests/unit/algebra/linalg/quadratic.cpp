@@ -1,6 +1,7 @@
 // Dense quadratic problems whose spectrum is known: proportional damping with multiple eigenvalues,
 // overdamped modes, gyroscopic forces.
 #include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/spread.hpp"
 
 #include <gtest/gtest.h>
 

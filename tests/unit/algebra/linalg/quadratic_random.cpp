@@ -7,6 +7,7 @@
 #include <random>
 
 #include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/spread.hpp"
 #include "support/case.hpp"
 #include "support/dense.hpp"
 #include "support/quadratic.hpp"

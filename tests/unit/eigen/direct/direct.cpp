@@ -22,7 +22,8 @@ using test::Complex;
 
 pencil::ComplexModes solve(const Chains& problem, const std::string& options) {
   test::setOptions(options);
-  return direct::solveDirect(problem.pencil(), {0.0, 1.0}, problem.tridiagonal(1, 0));
+  return direct::solveDirect(problem.pencil(), {0.0, 1.0}, problem.tridiagonal(1, 0),
+                             direct::Settings::given());
 }
 
 /// The found eigenvalues are the wanted ones, as often.
@@ -130,8 +131,9 @@ TEST(Direct, WrongOptionsAreErrors) {
   EXPECT_TRUE(test::contains(error(problem, "-flutter_pep_max_it 1 -flutter_pep_ncv 11 "),
                              "raise -flutter_pep_max_it"));
   test::setOptions("-flutter_pep_ncv 30");
-  EXPECT_TRUE(
-      test::contains(test::errorOf([] { direct::rejectIdleSolverOptions(); }), "-flutter_pep_ncv"));
+  EXPECT_TRUE(test::contains(
+      test::errorOf([] { direct::rejectIdleSolverOptions(pencil::Settings::given().method); }),
+      "-flutter_pep_ncv"));
 }
 
 }  // namespace

@@ -51,9 +51,9 @@ TEST(Modes, BlockLanczosAgreesWithEps) {
 class Layer : public testing::Test {
  protected:
   void SetUp() override {
-    check(PetscOptionsClear(nullptr));
+    clearOptions();
     insertFile(PETSC_COMM_WORLD, "options/layer.yaml");
-    check(PetscOptionsInsertString(nullptr, "-quiet"));
+    insert(settingsOfText("-quiet"));
     model_ = buildModel();
     system_ = std::make_unique<contact::CoupledSystem>(
         model_.bodies, model_.contact, std::vector<unsigned char>(model_.contact.nodes.size(), 1));
@@ -167,8 +167,8 @@ TEST_F(Layer, ASecondPoleFindsTheSameModes) {
 TEST_F(Layer, SturmCountSeesAMissingMode) {
   // The inertia of K − σ M counts 51 modes below a shift just above mode 51: the confirmation is a
   // number, not a formality.
-  check(PetscOptionsInsertString(nullptr, "-modes_count 60"));
-  const auto modes = modes::compute(*system_);
+  insert(settingsOfText("-modes_count 60"));
+  const auto modes = modes::compute(*system_, modes::Settings::given());
   ASSERT_TRUE(modes.countConfirmed);
   const auto below = std::count_if(modes.lambda.begin(), modes.lambda.end(),
                                    [&](double lambda) { return lambda < modes.inertiaShift; });
@@ -186,9 +186,9 @@ Model heldRing(const std::string& shape) {
 }
 
 modes::Modes modesOf(const Model& model, const std::string& options, int count) {
-  check(PetscOptionsInsertString(nullptr, options.c_str()));
+  insert(settingsOfText(options));
   const contact::CoupledSystem system(model.bodies, model.contact, {});
-  return modes::compute(system, count);
+  return modes::compute(system, modes::Settings::given().withCount(count));
 }
 
 // Krylov vectors of one start vector meet one vector of each eigenspace: blocks of one miss half of
@@ -232,7 +232,7 @@ TEST(Modes, EigenvaluesOfHighMultiplicity) {
     *matrix = std::move(sparse);
   }
   const factor::AssociatedSystem system(k.share(), m.share(), "stiffness");
-  const auto modes = modes::compute(system, 40);
+  const auto modes = modes::compute(system, modes::Settings::given().withCount(40));
   for (double lambda : modes.lambda) EXPECT_NEAR(lambda, 1, 1e-12);
   EXPECT_LT(departureFromOrthonormal(modes.vectors, m), 1e-12);
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "eigen/reduction/missing.hpp"
 #include "support/dense.hpp"
 #include "support/quadratic.hpp"
 #include "support/spectrum.hpp"

@@ -31,7 +31,7 @@ struct Fixture : test::Layers {
       : Layers(options),
         pencil(terms::affineTerms(model.contact, *system)),
         free(modes()),
-        reduced(pencil, *system, free) {}
+        reduced(pencil, *system, free, reduction::Settings::given()) {}
 
   std::vector<pencil::ComplexModes> solve(double friction) {
     std::vector<reduction::PointProblem> batch;
@@ -45,7 +45,7 @@ struct Fixture : test::Layers {
 TEST(Band, EndsBetweenFreeModes) {
   const auto end = [](const std::string& hertz, const std::vector<double>& w) {
     test::setOptions(hertz.empty() ? "" : "-flutter_band " + hertz);
-    return pencil::bandBelow(w);
+    return pencil::bandBelow(w, pencil::Settings::given().band.top);
   };
   const std::vector<double> single{1, 2, 3, 4, 5, 6, 7, 8, 9, 10},
       paired{1, 1, 2, 2, 3, 3, 3 + 1e-9, 4, 5, 5};

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/spread.hpp"
 #include "eigen/pencil/band.hpp"
 #include "eigen/reduction/reduced.hpp"
 #include "eigen/tracking/track.hpp"

@@ -7,6 +7,7 @@
 
 #include "algebra/linalg/quadratic.hpp"
 #include "algebra/linalg/rayleigh_ritz.hpp"
+#include "algebra/linalg/spread.hpp"
 #include "eigen/stability/critical.hpp"
 #include "eigen/tracking/join.hpp"
 #include "eigen/tracking/track.hpp"

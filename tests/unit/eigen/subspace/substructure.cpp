@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "algebra/linalg/spread.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/concatenation.hpp"
 #include "eigen/reduction/reduced.hpp"
@@ -38,7 +39,7 @@ struct Fixture : test::Layers {
     terms = std::make_unique<pencil::Pencil>(terms::affineTerms(model.contact, *all));
     substructure = analysis::substructureOf(*all, *system);
     reduced = std::make_unique<reduction::ReducedProblem>(
-        *terms, *system, free, reduction::Options::given(), substructure);
+        *terms, *system, free, reduction::Settings::given(), substructure);
   }
 
   /// The nodes outside of this range of x.

@@ -19,7 +19,7 @@ TEST(Sweep, IsTheGridOfAllParameters) {
   setOptions(
       "-flutter_friction 0.4,0.2,0.6 -flutter_speed 3,1 -flutter_pressure 1,2 -flutter_damping "
       "0:1:0.5");
-  const auto sweep = sweep::readSweep();
+  const auto sweep = sweep::grid(sweep::Settings::given());
   const auto steady = sweep.steadyPoints(), all = sweep.points();
   ASSERT_EQ(steady.size(), 12U);
   ASSERT_EQ(all.size(), 36U);
@@ -36,7 +36,7 @@ TEST(Sweep, IsTheGridOfAllParameters) {
 
 TEST(Sweep, WithoutOptionsIsOnePoint) {
   setOptions("");
-  EXPECT_EQ(sweep::readSweep().points(),
+  EXPECT_EQ(sweep::grid(sweep::Settings::given()).points(),
             std::vector<sweep::Parameters>{(sweep::Parameters{0.4, 1, 1, 1})});
 }
 
@@ -51,7 +51,7 @@ int differences(const sweep::Parameters& a, const sweep::Parameters& b) {
 TEST(Sweep, EverySteadyStateStartsFromANeighbour) {
   for (const std::string pressures : {"1", "1,2,3"}) {
     setOptions("-flutter_friction 0.2,0.4 -flutter_speed 1,2 -flutter_pressure " + pressures);
-    const auto sweep = sweep::readSweep();
+    const auto sweep = sweep::grid(sweep::Settings::given());
     const auto points = sweep.steadyPoints();
     EXPECT_FALSE(sweep.earlierNeighbour(0));
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -124,12 +124,12 @@ TEST(Sweep, SteadySlidingIsProportionalToThePressure) {
 // 1000 frictions at 1000 speeds: each list is within its limit.
 TEST(Sweep, OfTooManyPointsIsRefused) {
   test::setOptions("-flutter_friction 0:0.999:0.001 -flutter_speed 1:1000:1");
-  const auto message = test::errorOf([] { sweep::readSweep(); });
+  const auto message = test::errorOf([] { sweep::grid(sweep::Settings::given()); });
   EXPECT_TRUE(
-      test::contains(message, "1000 x 1000 x 1 x 1 = 1000000 points; a sweep has 100000 at most"))
+      test::contains(message, "1000 x 1000 x 1 x 1 = 1000000 points; a sweep has at most 100000"))
       << message;
   test::setOptions("-flutter_friction 0:0.099:0.001 -flutter_speed 1:1000:1");
-  EXPECT_EQ(sweep::readSweep().pointCount(), 100000);
+  EXPECT_EQ(sweep::grid(sweep::Settings::given()).pointCount(), 100000);
 }
 
 }  // namespace

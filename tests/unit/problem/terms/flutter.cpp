@@ -29,7 +29,7 @@ TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
   const Layers layers("-modes_count 60");
   const auto pencil = terms::affineTerms(layers.model.contact, *layers.system);
   const auto basis = layers.modes();
-  reduction::ReducedProblem reduced(pencil, *layers.system, basis);
+  reduction::ReducedProblem reduced(pencil, *layers.system, basis, reduction::Settings::given());
   for (const double f : {0.0, 0.2, 0.5}) {
     std::vector<reduction::PointProblem> problem;
     problem.push_back({{f}, pencil.with({})});
@@ -68,7 +68,7 @@ TEST(Sweep, BandEndsWithTheFreeModes) {
   const auto basis = layers.modes();
   const auto& w = basis.angularFrequency;
   for (const double f : {0.0, 0.05, 0.5}) {
-    reduction::ReducedProblem reduced(pencil, *layers.system, basis);
+    reduction::ReducedProblem reduced(pencil, *layers.system, basis, reduction::Settings::given());
     std::vector<reduction::PointProblem> problem;
     problem.push_back({{f}, pencil.with({})});
     const auto points = reduced.solve(problem, layers.system->transformation().trial);
@@ -132,7 +132,8 @@ TEST(Sweep, DirectMethodIsExact) {
   test::setOptions("-flutter_direct_count 24");
   const auto pencil = chain();
   const auto trial = identity();
-  for (const double f : {0.0, 0.12, 0.2, 0.6}) expectChain(direct::solveDirect(pencil, {f}, trial));
+  for (const double f : {0.0, 0.12, 0.2, 0.6})
+    expectChain(direct::solveDirect(pencil, {f}, trial, direct::Settings::given()));
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#pragma once
+/// Dense quadratic eigenproblems solved on several ranks, and pairs sent to all of them.
+#include <mpi.h>
+
+#include <functional>
+#include <vector>
+
+#include "algebra/linalg/quadratic.hpp"
+
+namespace squeal::linalg {
+
+/// Collective. Calls solve(i) for i below `count`, each on the rank i modulo the number of ranks,
+/// and returns the pairs on all ranks, so that rounding cannot make the ranks disagree on the order
+/// or number of eigenvalues. Throws Error on all ranks if one call does.
+std::vector<std::vector<DensePair>> spread(
+    MPI_Comm comm, std::size_t count, Vectors vectors,
+    const std::function<std::vector<DensePair>(std::size_t)>& solve);
+
+/// Collective. Solves several problems by spread(). The rank that solves a problem alone needs its
+/// matrices.
+std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
+                                                const std::vector<DenseProblem>& problems,
+                                                Vectors vectors, const Wanted& wanted = {});
+
+/// Collective. Solves one problem on rank 0 and returns the results on all ranks. Throws Error on
+/// all ranks if it fails.
+std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseProblem& problem,
+                                     Vectors vectors = Vectors::right);
+
+/// Collective. Sends the pairs of rank `root` to all ranks; all vectors travel in one message.
+/// Vectors of a smaller basis are extended by zeros to the length of the longest one. `vectors`
+/// says whether left vectors are sent too.
+void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors);
+
+}  // namespace squeal::linalg

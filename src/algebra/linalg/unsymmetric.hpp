@@ -1,0 +1,30 @@
+#pragma once
+/// Unsymmetric dense eigenproblems, linear in the eigenvalue, by LAPACK. Nothing here is
+/// collective.
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+#include "algebra/linalg/quadratic.hpp"
+
+namespace squeal::linalg {
+
+/// An eigenvalue with its vectors.
+struct EigenPair {
+  Complex value;
+  std::vector<Complex> right;
+  std::vector<Complex> left;  ///< empty unless asked for
+};
+
+/// Returns the finite wanted eigenvalues, with eigenvectors, of A x = μ B x, by QZ. Throws Error if
+/// A and B have a common null vector, or if LAPACK fails.
+std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, Vectors sides,
+                                   const Wanted& wanted);
+/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ x, from its Schur form. Only the
+/// wanted eigenvectors are computed: computing all of them would take most of the time. Throws
+/// Error if LAPACK fails.
+std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const Wanted& wanted);
+
+/// Returns the conjugate of a vector.
+std::vector<Complex> conjugated(std::vector<Complex> vector);
+
+}  // namespace squeal::linalg

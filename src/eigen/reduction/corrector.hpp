@@ -1,0 +1,42 @@
+#pragma once
+/// Corrections of the basis by static responses to friction and to residuals.
+#include <vector>
+
+#include "eigen/reduction/error_estimator.hpp"
+#include "eigen/reduction/point_state.hpp"
+#include "eigen/reduction/projected_basis.hpp"
+
+namespace squeal::reduction {
+
+/// Pairs of a point whose residuals are to be corrected.
+struct CorrectionRequest {
+  const PointState* state;
+  PointPairs pairs;
+  std::vector<double> weights;  ///< [pair] length of its residual
+};
+
+/// A Corrector adds to the basis K0⁻¹ f for static forces f, all solved for together.
+class Corrector {
+ public:
+  /// Borrows both during the life of the object.
+  Corrector(ProjectedBasis& basis, ErrorEstimator& estimator)
+      : basis_(basis), estimator_(estimator) {}
+  /// Collective. Adds the static responses to friction at this point [M.29] for the free modes of
+  /// these frequencies, rad/s.
+  void start(const PointProblem& point, const std::vector<double>& frequencies);
+  /// Not collective. Returns the unconverged pairs of a point with the residual reduction each
+  /// needs: to `resolution`, or to the tolerance, whose squared budget is split evenly between
+  /// unresolved residual and correction error.
+  CorrectionRequest requestOf(const PointState& state) const;
+  /// Collective. Adds corrections of these residuals. Returns the number of vectors added; none if
+  /// the residuals are round-off.
+  PetscInt correct(const std::vector<CorrectionRequest>& requests);
+
+ private:
+  linalg::Block directions(const std::vector<CorrectionRequest>& requests) const;
+
+  ProjectedBasis& basis_;
+  ErrorEstimator& estimator_;
+};
+
+}  // namespace squeal::reduction

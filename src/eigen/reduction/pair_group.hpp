@@ -1,0 +1,62 @@
+#pragma once
+/// Groups of neighbouring eigenpairs of a dense problem that are improved together.
+#include <optional>
+#include <vector>
+
+#include "algebra/linalg/quadratic.hpp"
+#include "eigen/reduction/companion.hpp"
+
+namespace squeal::reduction {
+
+/// A pair of a list that is to be improved.
+struct UnconvergedPair {
+  std::size_t pair;
+  double right;  ///< the part of the length of its residual P(s) x that may remain
+  double left;   ///< that of P(s)ᴴ y
+};
+
+/// A PairGroup iterates the right and left vectors of its members together, by two-sided block
+/// inverse iteration with a shift amid them.
+class PairGroup {
+ public:
+  /// Borrows the companion form and the pairs, all of its order.
+  PairGroup(const Companion& companion, std::vector<linalg::DensePair>& pairs,
+            const std::vector<UnconvergedPair>& open);
+  /// Returns the indices of its pairs.
+  const std::vector<std::size_t>& members() const { return members_; }
+  enum class Outcome { untouched, done, unfinished, failed };
+  /// Iterates until the residuals are small, at least once if `forced`, and at most twice.
+  Outcome iterate(bool forced);
+
+ private:
+  /// The lengths of P(s) x and P(s)ᴴ y for vectors of length one, [member].
+  struct Residuals {
+    std::vector<double> right, left;
+  };
+  /// Right or left vectors of all pairs of a group, and of the Ritz pairs.
+  struct Subspaces {
+    ComplexMatrix right, left, ritzRight, ritzLeft;
+  };
+  bool isDone();
+  bool step();
+  Residuals residuals() const;
+  std::vector<double> residuals(std::vector<Complex> linalg::DensePair::*vector, bool left) const;
+  double roundOff() const;
+  std::vector<std::optional<std::size_t>> assigned(const Subspaces& subspaces) const;
+  bool replace(std::size_t member, Complex s, const ComplexMatrix& x, const ComplexMatrix& y);
+
+  const Companion& companion_;
+  std::vector<linalg::DensePair>& pairs_;
+  std::vector<std::size_t> members_, neighbours_;
+  Complex shift_ = 0;
+  double reach_ = 0;  // largest distance of a member from the middle
+  std::optional<ShiftInvert> inverse_;
+  Residuals wanted_, first_;  // parts of the first ones, see UnconvergedPair
+  double roundOff_ = 0;
+};
+
+/// Returns the open pairs in groups of neighbours, none wider than a part of all pairs.
+std::vector<std::vector<UnconvergedPair>> groupsOf(const std::vector<linalg::DensePair>& pairs,
+                                                   std::vector<UnconvergedPair> open);
+
+}  // namespace squeal::reduction

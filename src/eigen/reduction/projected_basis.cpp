@@ -1,0 +1,132 @@
+#include "eigen/reduction/projected_basis.hpp"
+
+#include <algorithm>
+
+#include "algebra/linalg/serialization.hpp"
+#include "base/petsc/arrays.hpp"
+
+namespace squeal::reduction {
+
+ProjectedBasis::ProjectedBasis(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
+                               const modes::Modes& modes, Substructure substructure)
+    : basis_(modes, system, std::move(substructure)),
+      terms_(basis_, pencil, 0, pencil.terms().size()) {
+  check(MatGetSize(basis_.stiffness(), &unknowns_, nullptr));
+  exchanged_ = basis_.size();
+}
+
+int ProjectedBasis::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
+  sets_.push_back(std::make_unique<PointSet>(
+      PointSet{.space = PointSpace(basis_.boundaryStiffness(), has),
+               .terms = ProjectedTerms(basis_, pencil, terms_.count(), pencil.affineCount()),
+               .top = 0,
+               .modesInBand = 0}));
+  return std::ssize(sets_) - 1;
+}
+
+PointState ProjectedBasis::state(const PointProblem& point, const Norms& norms) const {
+  const auto& pencil = point.pencil;
+  PointState state{
+      .point = &point,
+      .set = sets_[point.set].get(),
+      .ownTerms = ProjectedTerms(basis_, pencil, pencil.affineCount(), pencil.terms().size()),
+      .damped = pencil.hasPower(1)};
+  state.solution.norms = norms;
+  return state;
+}
+
+void ProjectedBasis::extend(const std::vector<PointState*>& states) {
+  terms_.extend();
+  for (auto& set : sets_) set->terms.extend();
+  for (auto* state : states) state->ownTerms.extend();
+}
+
+linalg::DenseProblem ProjectedBasis::project(const PointState& state) const {
+  return state.set->space.restricted(projectOnAll(state));
+}
+
+linalg::DenseProblem ProjectedBasis::projectOnAll(const PointState& state) const {
+  linalg::DenseProblem problem;
+  for (const auto* terms : {&terms_, &state.set->terms, &state.ownTerms})
+    terms->addTo({state.point->at, state.associated}, problem);
+  return problem;
+}
+
+linalg::DenseProblem ProjectedBasis::projectOwn(const PointState& state) const {
+  linalg::DenseProblem problem;
+  state.ownTerms.addTo({state.point->at, false}, problem);
+  return state.set->space.restricted(std::move(problem));
+}
+
+linalg::DenseMatrix ProjectedBasis::residualSketch(const PointState& state, const PointPairs& pairs,
+                                                   pencil::Side side) const {
+  linalg::DenseMatrix sketch(2 * subspace::Sketch::size, pairs.pairs.columns);
+  for (const auto* terms : {&terms_, &state.set->terms, &state.ownTerms})
+    terms->addTo(pairs, side, sketch);
+  return sketch;
+}
+
+linalg::Block ProjectedBasis::residualColumns(const PointState& state,
+                                              const linalg::DensePair& pair,
+                                              const linalg::ComplexVector& vector,
+                                              pencil::Side side) const {
+  const linalg::ComplexVector residual =
+      pencil::residual(state.point->pencil, state.point->at, pair.s, vector, side);
+  const bool real = Coordinates({&pair}, state.damped, state.set->space).isReal(0);
+  linalg::Block result(basis_.localRows());
+  for (const Vec part : {residual.real.get(), residual.imaginary.get()}) {
+    if (real && result.columns() == 1) break;
+    const ReadArray entries(part);
+    result.append(std::span(entries.begin(), entries.end()));
+  }
+  basis_.clearBoundary(result);
+  return result;
+}
+
+linalg::Block ProjectedBasis::residuals(const std::vector<PairsOfPoint>& points,
+                                        const linalg::DenseMatrix& combinations) const {
+  linalg::Block columns(basis_.localRows(), combinations.columns());
+  if (combinations.empty()) return columns;
+  std::vector<const PointPairs*> all;
+  for (const auto& point : points) all.push_back(point.pairs);
+  terms_.addTo(all, combinations, columns);
+  PetscInt first = 0;
+  for (const auto& [state, pairs] : points) {
+    const PetscInt last = first + pairs->pairs.columns;
+    const linalg::DenseMatrix some = linalg::rowRange(combinations, first, last);
+    for (const auto* terms : {&state->set->terms, &state->ownTerms})
+      terms->addTo({pairs}, some, columns);
+    first = last;
+  }
+  basis_.clearBoundary(columns);
+  return columns;
+}
+
+void ProjectedBasis::combine(const linalg::DenseMatrix& directions) {
+  const PetscInt boundary = basis_.boundarySize();
+  linalg::DenseMatrix all(basis_.size(), boundary + directions.columns());
+  for (PetscInt j = 0; j < boundary; ++j) all(j, j) = 1;
+  for (PetscInt j = 0; j < directions.columns(); ++j)
+    std::ranges::copy(directions.column(j), all.column(boundary + j).begin() + boundary);
+  basis_.combine(all);
+  terms_.combine(all);
+  for (auto& set : sets_) set->terms.combine(all);
+}
+
+void ProjectedBasis::exchange(checkpoint::Archive& archive) {
+  for (auto& set : sets_) archive.common(set->top, set->modesInBand);
+  double ratio = basis_.lastEnergyRatio();
+  long solves = basis_.solves();
+  archive.common(ratio, solves);
+  if (archive.reads()) {
+    linalg::DenseMatrix columns;
+    archive.own(columns);
+    basis_.restore(columns, ratio, solves);
+    extend({});
+  } else {
+    linalg::borrow(archive.own, basis_.columns().columnRange(exchanged_, basis_.size()));
+  }
+  exchanged_ = basis_.size();
+}
+
+}  // namespace squeal::reduction

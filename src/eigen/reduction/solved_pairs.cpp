@@ -1,0 +1,47 @@
+#include "eigen/reduction/solved_pairs.hpp"
+
+#include "algebra/linalg/serialization.hpp"
+#include "algebra/linalg/spread.hpp"
+
+namespace squeal::reduction {
+
+void SolvedPairs::store(const std::vector<PointState>& states, PetscInt basisSize) {
+  constexpr double most = 1e9;  // bytes on all ranks
+  const int rank = mpi::rank(comm_), ranks = mpi::size(comm_);
+  for (const auto& state : states) {
+    const auto& [band, guard, improved] = state.solution.spectrum;
+    bytes_ += 2.0 * sizeof(Complex) * basisSize * (band.size() + guard.size());
+    if (bytes_ > most) return;
+    Entry& entry = entries_.emplace_back(Entry{.at = state.point->at,
+                                               .set = state.point->set,
+                                               .owner = int(entries_.size()) % ranks,
+                                               .pairs = {}});
+    if (rank != entry.owner) continue;
+    entry.pairs = band;
+    entry.pairs.insert(entry.pairs.end(), guard.begin(), guard.end());
+  }
+}
+
+std::optional<std::vector<linalg::DensePair>> SolvedPairs::at(const sweep::Parameters& at,
+                                                              int set) const {
+  for (const auto& entry : entries_)
+    if (entry.at == at && entry.set == set) {
+      auto pairs = entry.pairs;
+      linalg::shareFrom(entry.owner, comm_, pairs, linalg::Vectors::both);
+      return pairs;
+    }
+  return {};
+}
+
+void SolvedPairs::exchange(checkpoint::Archive& archive) {
+  std::size_t count = entries_.size();
+  archive.common(bytes_, count);
+  entries_.resize(count);
+  for (; exchanged_ < count; ++exchanged_) {
+    auto& entry = entries_[exchanged_];
+    archive.common(entry.at, entry.set, entry.owner);
+    archive.own(entry.pairs);
+  }
+}
+
+}  // namespace squeal::reduction

@@ -1,0 +1,40 @@
+#pragma once
+/// The eigenpairs of the points of a sweep, for tracking.
+#include <mpi.h>
+
+#include <optional>
+#include <vector>
+
+#include "algebra/linalg/quadratic.hpp"
+#include "base/checkpoint/archive.hpp"
+#include "eigen/reduction/point_state.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::reduction {
+
+/// SolvedPairs stores the watched eigenpairs of solved points, each on one rank, as long as there
+/// is memory for them.
+class SolvedPairs {
+ public:
+  explicit SolvedPairs(MPI_Comm comm) : comm_(comm) {}
+  /// Not collective. Stores the pairs of these points in a basis of this size.
+  void store(const std::vector<PointState>& states, PetscInt basisSize);
+  /// Collective. Returns the pairs of a point with both vectors; none if they are not stored.
+  std::optional<std::vector<linalg::DensePair>> at(const sweep::Parameters& at, int set) const;
+  /// Not collective. Writes the pairs that are new since the last call, or adds them.
+  void exchange(checkpoint::Archive& archive);
+
+ private:
+  struct Entry {
+    sweep::Parameters at;
+    int set;  // its number
+    int owner;
+    std::vector<linalg::DensePair> pairs;  // on the owner
+  };
+  MPI_Comm comm_;
+  std::vector<Entry> entries_;
+  double bytes_ = 0;           // on all ranks
+  std::size_t exchanged_ = 0;  // entries that a checkpoint has
+};
+
+}  // namespace squeal::reduction

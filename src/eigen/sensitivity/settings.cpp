@@ -1,0 +1,17 @@
+#include "eigen/sensitivity/settings.hpp"
+
+#include "base/options/options.hpp"
+
+namespace squeal::sensitivity {
+namespace {
+
+const FlagOption wantedOption(
+    "flutter", "flutter_sensitivities", false,
+    "derivatives of the eigenvalues of the stored complex modes (-flutter_shapes) with respect to "
+    "friction, speed, pressure, moduli and densities: sensitivities.csv");
+
+}  // namespace
+
+Settings Settings::given() { return {.wanted = wantedOption.get()}; }
+
+}  // namespace squeal::sensitivity

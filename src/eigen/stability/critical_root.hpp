@@ -1,0 +1,72 @@
+#pragma once
+/// The search for the critical friction of one event.
+#include <cmath>
+#include <vector>
+
+#include "algebra/linalg/rayleigh_ritz.hpp"
+#include "eigen/stability/critical.hpp"
+#include "eigen/tracking/family.hpp"
+#include "eigen/tracking/join.hpp"
+
+namespace squeal::stability {
+
+/// A CriticalRoot locates the critical friction of an event in a basis that is improved between the
+/// calls. Nothing here is collective.
+class CriticalRoot {
+ public:
+  /// Borrows the event.
+  CriticalRoot(const Event& event, double tolerance)
+      : event_(event),
+        tolerance_(tolerance),
+        throughZero_(tracking::real(event.below[0].s) && tracking::real(event.above[0].s)) {}
+
+  /// Locates the critical friction in the present basis. `changed` is true if that differs from the
+  /// basis of the last call.
+  void locate(Family& family, bool changed);
+  /// Returns true if the friction no longer moves.
+  bool settled() const { return settled_; }
+  /// Returns the friction with one pair, which has the mean of the eigenvalues: where two
+  /// eigenvalues meet, so do their vectors.
+  tracking::PairsAtFriction located() const;
+  /// Stores the backward error, NaN if there is no problem at the located friction, and the bound
+  /// on the round-off in yᴴP(s)x of unit vectors.
+  void setErrors(double backwardError, double roundOff);
+
+  /// Returns the critical friction as far as it is known.
+  Critical result() const;
+
+ private:
+  /// The eigenvalues at a friction, and the function of the event there.
+  struct Sample {
+    double friction, value;
+    linalg::Spectrum spectrum;
+    const std::vector<linalg::DensePair>& pairs() const { return spectrum.pairs(); }
+  };
+
+  double measure(const linalg::Spectrum& spectrum) const;
+  const Sample& nearest(double friction) const;
+  Complex expected(double friction) const;
+  double valueAt(Family& family, double friction);
+  std::vector<const Sample*> starts(double friction) const;
+  bool reach(Family& family, double friction);
+  double rootTolerance() const;
+  double roundOffError() const;
+  double width() const { return event_.high - event_.low; }
+  /// Returns the tolerance of a root in a basis that is still to be improved. It is small enough
+  /// not to hide how far the root moves with the basis.
+  double roughly() const { return 1e-7 * width(); }
+
+  double searchFromEnds(Family& family);
+  double searchAgain(Family& family);
+  double search(Family& family, double low, double high, double tolerance);
+  double refined(Family& family);
+
+  const Event& event_;
+  double tolerance_;
+  bool throughZero_;  // s is real at both ends; in a problem in s², only s² is analytic there
+  double friction_ = NAN, moved_ = 0, backwardError_ = 0, roundOff_ = 0, slope_ = 0;
+  bool settled_ = false, lost_ = false;
+  std::vector<Sample> known_;  // the two ends of the bracket first
+};
+
+}  // namespace squeal::stability

@@ -1,0 +1,41 @@
+#include "eigen/stability/settings.hpp"
+
+#include <cmath>
+
+#include "base/options/options.hpp"
+#include "eigen/pencil/settings.hpp"
+
+namespace squeal::stability {
+namespace {
+
+const FlagOption trackOption(
+    "flutter", "flutter_track", true,
+    "tracking of the eigenvalues in the band over the friction, through crossings and mergers: "
+    "branches.csv; reduced method only; if it or -flutter_critical is given, also for a single "
+    "friction (from friction 0) and for terms that follow the steady state (friction damping, "
+    "prestress)");
+const FlagOption criticalOption(
+    "flutter", "flutter_critical", true,
+    "search for the frictions at which stability changes: critical.csv; needs -flutter_track");
+const RealOption toleranceOption(
+    "flutter", "flutter_critical_tolerance", 1e-8, "", positive,
+    "relative change of a critical friction below which its basis is no longer improved");
+const IntegerOption halvingsOption(
+    "flutter", "flutter_track_halvings", 10, 0, 50,
+    "largest number of halvings of a step of the sweep where a continuation is uncertain");
+
+}  // namespace
+
+Settings Settings::given() {
+  Settings settings;
+  settings.track = trackOption.get();
+  if (!settings.track) return settings;
+  settings.requested = trackOption.given() || (criticalOption.given() && criticalOption.get());
+  if (pencil::Settings::given().method == pencil::Method::direct) return settings;
+  settings.smallest = std::ldexp(1.0, -halvingsOption.get());
+  settings.critical = criticalOption.get();
+  if (settings.critical) settings.tolerance = toleranceOption.get();
+  return settings;
+}
+
+}  // namespace squeal::stability

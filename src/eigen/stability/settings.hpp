@@ -1,0 +1,18 @@
+#pragma once
+/// The choices of tracking and of the search for critical frictions.
+
+namespace squeal::stability {
+
+/// Options of tracking.
+struct Settings {
+  bool track = true;            ///< `-flutter_track`
+  bool requested = false;       ///< the user asks for it: `-flutter_track` is given, or
+                                ///< `-flutter_critical` is given and on
+  bool critical = true;         ///< `-flutter_critical`
+  double tolerance = 1e-8;      ///< `-flutter_critical_tolerance`: relative change of a friction
+  double smallest = 1. / 1024;  ///< 2^-h for h = `-flutter_track_halvings`: smallest part of a step
+  /// Not collective. Reads the options, those of the reduced method only with it.
+  static Settings given();
+};
+
+}  // namespace squeal::stability

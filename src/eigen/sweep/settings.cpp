@@ -1,0 +1,45 @@
+#include "eigen/sweep/settings.hpp"
+
+#include <algorithm>
+
+#include "base/options/options.hpp"
+#include "base/system/error.hpp"
+
+namespace squeal::sweep {
+namespace {
+
+const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative,
+                                    "friction coefficients of the sweep", true);
+const RealListOption speedOption(
+    "flutter", "flutter_speed", "1", "", positive,
+    "swept factors on the velocities of all -motion_* options and of obstacles", true);
+const RealListOption pressureOption(
+    "flutter", "flutter_pressure", "1", "", positive,
+    "swept factors on surface pressures and on the prescribed displacements of supports and "
+    "obstacles, but not on centrifugal forces",
+    true);
+const RealListOption dampingOption(
+    "flutter", "flutter_damping", "1", "", nonNegative,
+    "swept factors on the damping of materials, of dashpots to the ground and of free modes, but "
+    "not on friction damping",
+    true);
+
+std::vector<double> ascending(const RealListOption& option) {
+  auto list = option.get();
+  if (list.empty()) throw Error("option -" + option.fullName() + ": the list is empty");
+  std::sort(list.begin(), list.end());  // each steady solution starts from a neighbour
+  if (std::adjacent_find(list.begin(), list.end()) != list.end())
+    throw Error("option -" + option.fullName() + ": a value is given twice");
+  return list;
+}
+
+}  // namespace
+
+Settings Settings::given() {
+  return {.frictions = ascending(frictionOption),
+          .speeds = ascending(speedOption),
+          .pressures = ascending(pressureOption),
+          .dampings = ascending(dampingOption)};
+}
+
+}  // namespace squeal::sweep

@@ -1,0 +1,26 @@
+#pragma once
+/// The choices of all rooms that solve a sweep.
+#include <optional>
+#include <vector>
+
+#include "eigen/direct/settings.hpp"
+#include "eigen/modes/settings.hpp"
+#include "eigen/reduction/settings.hpp"
+#include "eigen/sensitivity/settings.hpp"
+#include "eigen/stability/settings.hpp"
+
+namespace squeal::sweep_solver {
+
+/// Options of a sweep. Either `reduction` or `direct` has a value.
+struct Settings {
+  std::optional<modes::Settings> modes;  ///< none where no free modes are needed
+  std::optional<reduction::Settings> reduction;
+  std::optional<direct::Settings> direct;
+  std::vector<double> modalDamping{0};  ///< ratios of the free modes
+  stability::Settings stability;
+  sensitivity::Settings sensitivity;
+  /// Not collective. Reads the options, those of a method only if it is chosen.
+  static Settings given();
+};
+
+}  // namespace squeal::sweep_solver

@@ -1,0 +1,212 @@
+#include "eigen/tracking/pair_tracer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/system/text.hpp"
+#include "eigen/tracking/growth.hpp"
+#include "eigen/tracking/join.hpp"
+#include "eigen/tracking/step.hpp"
+
+namespace squeal::tracking {
+namespace {
+
+constexpr double least = 1. / 65536;  // of `smallest`, to look for a change of stability
+
+double width(const TraceRequest& request) { return request.high.friction - request.low.friction; }
+
+/// Returns true if the eigenvalues have different stability at both ends.
+bool changesStability(const TraceRequest& request) {
+  const bool damped = request.low.spectrum.damped();
+  return unstable(request.low.pairs(), damped) != unstable(request.high.pairs(), damped);
+}
+
+/// Returns true if each eigenvalue has nearly the subspace of its mate, and little of the other.
+bool isClear(const TraceRequest& request, const std::vector<std::size_t>& mate) {
+  const linalg::Spectrum &low = request.low.spectrum, &high = request.high.spectrum;
+  bool clear = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    clear = clear && std::abs(low.overlap(i, high, mate[i]) - 1.0) < 0.25;
+    clear = clear && std::abs(low.overlap(i, high, mate[1 - i])) < 0.25;
+  }
+  return clear;
+}
+
+}  // namespace
+
+/// The way from an end where two eigenvalues are equal.
+struct PairTracer::Approach {
+  bool isLost = false;            // they are not found on the way
+  std::optional<PairAt> between;  // where they have not split yet; none: they split at the end
+};
+
+std::optional<Trace> PairTracer::trace(const TraceRequest& request) const {
+  const auto& [low, high, ids, isolation, smallest] = request;
+  const auto &a = low.pairs(), &b = high.pairs();
+  if (coincide(a) || coincide(b)) return traceFromEqual(request);
+  const bool damped = low.spectrum.damped();
+  const bool merging = neutralPair(a, damped) && splitPair(b, damped),
+             parting = splitPair(a, damped) && neutralPair(b, damped);
+  if (merging || parting) return coalesced(request, merging);
+  auto mate = assigned(low.spectrum, high.spectrum, {{0, 1}, {0, 1}, 0});
+  const bool clear = isClear(request, mate);
+  // A change of stability is sought on still smaller steps.
+  if (clear || width(request) < (changesStability(request) ? least * smallest : smallest))
+    return separate(request, std::move(mate), clear);
+  const double middle = 0.5 * (low.friction + high.friction);
+  auto found = continuedTo(family_, middle, low.spectrum, 0.5 * (mean(a) + mean(b)), isolation);
+  if (!found) return {};
+  return traceBy({middle, std::move(*found)}, request);
+}
+
+/// Returns the continuation of neutral eigenvalues that merge, or of a growing and a decaying one
+/// that become neutral.
+Trace PairTracer::coalesced(const TraceRequest& request, bool merging) const {
+  const auto& [low, high, ids, isolation, smallest] = request;
+  const auto &a = low.pairs(), &b = high.pairs();
+  Trace trace{.mate = ordered(a, b)};
+  const auto& split = merging ? b : a;
+  const auto& whole = merging ? a : b;
+  const std::size_t grown = split[0].s.real() > 0 ? 0 : 1,
+                    grownLow = merging ? (trace.mate[0] == grown ? 0 : 1) : grown;
+  // Where two neutral eigenvalues merge, the growing one loses its stability. Where two real ones
+  // merge, the decaying one regains it.
+  const bool divergent = real(whole[0].s);
+  const std::size_t own = divergent ? 1 - grownLow : grownLow;
+  trace.events.push_back({.kind = Event::Kind::coalescence,
+                          .branch = ids[own],
+                          .partner = ids[1 - own],
+                          .loss = merging != divergent,
+                          .low = low.friction,
+                          .high = high.friction,
+                          .below = a,
+                          .above = b,
+                          .isolation = isolation});
+  return trace;
+}
+
+/// Returns the continuation of eigenvalues that do not meet in the step; if they are not clearly
+/// apart, their identity is a gap.
+Trace PairTracer::separate(const TraceRequest& request, std::vector<std::size_t> mate,
+                           bool clear) const {
+  const auto& [low, high, ids, isolation, smallest] = request;
+  const auto &a = low.pairs(), &b = high.pairs();
+  const bool damped = low.spectrum.damped();
+  Trace trace{.mate = std::move(mate)};
+  for (std::size_t i = 0; i < 2 && (clear || changesStability(request)); ++i) {
+    const auto& end = b[trace.mate[i]];  // whichever is which, as many change
+    if (auto event = crossing({.branch = ids[i],
+                               .low = low.friction,
+                               .high = high.friction,
+                               .below = {a[i]},
+                               .above = {end},
+                               .isolation = std::min(isolation, 2 * std::abs(a[0].s - mean(a)))},
+                              sign(a[i].s, damped), sign(end.s, damped)))
+      trace.events.push_back(std::move(*event));
+  }
+  if (!clear)
+    trace.gaps.push_back(
+        {low.friction, high.friction,
+         formatted("two eigenvalues near %.6g Hz are too close to distinguish: both are there, but "
+                   "which is which is uncertain",
+                   mean(a).imag() / (2 * M_PI)),
+         true});
+  return trace;
+}
+
+/// Follows two eigenvalues over a friction in between.
+std::optional<Trace> PairTracer::traceBy(const PairAt& between, const TraceRequest& request) const {
+  const auto& [low, high, ids, isolation, smallest] = request;
+  auto first = trace({low, between, ids, isolation, smallest});
+  if (!first) return {};
+  std::vector<int> idsBetween(2);
+  for (std::size_t i = 0; i < 2; ++i) idsBetween[first->mate[i]] = ids[i];
+  const auto second = trace({between, high, idsBetween, isolation, smallest});
+  if (!second) return {};
+  first->mate = {second->mate[first->mate[0]], second->mate[first->mate[1]]};
+  first->events.insert(first->events.end(), second->events.begin(), second->events.end());
+  first->gaps.insert(first->gaps.end(), second->gaps.begin(), second->gaps.end());
+  return first;
+}
+
+/// Returns the two eigenvalues at a part of the way from where they are equal to `apart`.
+std::optional<PairAt> PairTracer::within(const PairAt& equal, const PairAt& apart, double part,
+                                         double isolation) const {
+  const double friction = equal.friction + part * (apart.friction - equal.friction);
+  const Complex expected = (1 - part) * mean(equal.pairs()) + part * mean(apart.pairs());
+  auto found = continuedTo(family_, friction, apart.spectrum, expected, isolation);
+  if (!found) return {};
+  return PairAt{friction, std::move(*found)};
+}
+
+/// Finds whether two eigenvalues split right where they are equal, into those at `apart`.
+PairTracer::Approach PairTracer::approach(const PairAt& equal, const PairAt& apart,
+                                          const TraceRequest& request) const {
+  const bool damped = apart.spectrum.damped();
+  Approach way;
+  PairAt last = apart;
+  while (!way.between && std::abs(last.friction - equal.friction) > request.smallest) {
+    auto found = within(equal, last, closer, request.isolation);
+    if (!found) return {.isLost = true, .between = {}};
+    if (coincide(found->pairs())) break;
+    // In a problem in s² the growth may be too small here to count as such.
+    if (damped ? unstable(found->pairs(), true) != unstable(apart.pairs(), true)
+               : discriminant(found->pairs(), false) > 0)
+      way.between = found;
+    last = std::move(*found);
+  }
+  return way;
+}
+
+/// Does the same as trace() for two eigenvalues that are equal at an end. If one of them changes
+/// its stability, the step is cut ever closer to that end, since the change may lie anywhere near
+/// it.
+std::optional<Trace> PairTracer::traceFromEqual(const TraceRequest& request) const {
+  const auto& [low, high, ids, isolation, smallest] = request;
+  const auto &a = low.pairs(), &b = high.pairs();
+  const bool damped = low.spectrum.damped(), equalBelow = coincide(a),
+             equalTwice = equalBelow && coincide(b);
+  Trace trace{.mate = ordered(a, b)};
+  std::array<int, 2> before{}, after{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    before[k] = growthOf(a, k, damped);
+    after[k] = growthOf(b, trace.mate[k], damped);
+  }
+  if (!changes(before[0], after[0]) && !changes(before[1], after[1])) return trace;
+  const PairAt &equal = equalBelow ? low : high, &apart = equalBelow ? high : low;
+  if (!equalTwice && meetingPoint(mean(equal.pairs()), damped) &&
+      (damped || splitPair(apart.pairs(), damped))) {
+    const Approach way = approach(equal, apart, request);
+    if (way.isLost) return {};
+    if (way.between) return traceBy(*way.between, request);
+    for (std::size_t k = 0; k < 2; ++k)
+      if (changes(before[k], after[k]))
+        trace.events.push_back(
+            splitting({.branch = ids[k], .below = {a[k]}, .above = {b[trace.mate[k]]}},
+                      after[k] > before[k], equal.friction));
+    return trace;
+  }
+  const bool last = width(request) < least * smallest;
+  if (!last) {
+    const auto found = within(equal, apart, equalTwice ? 0.5 : closer, isolation);
+    if (!found) return {};
+    if (!equalTwice || !coincide(found->pairs())) return traceBy(*found, request);
+  }
+  const bool together = equalTwice && !last;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double distance =
+        together ? isolation : std::abs(apart.pairs()[0].s - apart.pairs()[1].s);
+    if (auto event = crossing({.branch = ids[k],
+                               .low = low.friction,
+                               .high = high.friction,
+                               .below = together ? a : chosen(a, {k}),
+                               .above = together ? b : chosen(b, {trace.mate[k]}),
+                               .isolation = distance},
+                              before[k], after[k]))
+      trace.events.push_back(std::move(*event));
+  }
+  return trace;
+}
+
+}  // namespace squeal::tracking

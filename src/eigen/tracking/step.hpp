@@ -1,0 +1,47 @@
+#pragma once
+/// One step of the continuation of eigenvalues, between two stations.
+#include <optional>
+#include <vector>
+
+#include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/rayleigh_ritz.hpp"
+#include "eigen/tracking/screen.hpp"
+#include "eigen/tracking/track.hpp"
+
+namespace squeal::tracking {
+
+/// Two joined eigenvalues: their indices at both ends of the step, and |tr(Π Π')|.
+struct Link {
+  std::size_t here, there;
+  double overlap;
+};
+
+/// The result of one step, discarded if the step is halved. Its branches are indices of pairs at
+/// the lower end until all earlier steps are finished.
+struct StepResult {
+  std::vector<Link> links;
+  std::vector<Event> events;
+  std::vector<Gap> gaps;
+  std::vector<ContinuedPair> singles;  ///< to be screened
+  bool sure = true;
+};
+
+/// A station with its problem.
+struct SolvedStation {
+  Station station;
+  linalg::DenseProblem problem;
+  linalg::Spectrum spectrum;
+  std::optional<StepResult> step = {};  ///< from the station before
+  bool whole = false;                   ///< the step from the station before is not to be halved
+  double smallest = 0;                  ///< smallest step here
+};
+
+/// Returns the event of an eigenvalue that changes its stability by itself, or of two equal ones
+/// that do so together. `event` has the pairs and frictions at both ends; `before` and `after` are
+/// the signs of the growth there. Returns none if the stability does not change.
+std::optional<Event> crossing(Event event, int before, int after);
+/// Returns the event of equal eigenvalues that split at a friction, for one of them. `event` has
+/// its branch and its pairs; it loses its stability if `loss`, otherwise it regains it.
+Event splitting(Event event, bool loss, double friction);
+
+}  // namespace squeal::tracking
