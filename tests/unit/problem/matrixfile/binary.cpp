@@ -347,7 +347,7 @@ TEST(Hdf5, WhatWasNeverWritten) {
       {"elsewhere", around([](const auto& file) {
          file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {}, "/dev/null");
        }),
-       "its values lie in other files"},
+       "its values are in other files"},
   });
 }
 
