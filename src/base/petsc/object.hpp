@@ -5,14 +5,14 @@
 namespace squeal {
 
 /// Returns a Mat, Vec, KSP, … as an object, for the functions of PETSc that take any object.
-template <class Pointee>
-PetscObject object(Pointee* handle) {
+template <class Handle>
+PetscObject object(Handle* handle) {
   return reinterpret_cast<PetscObject>(handle);
 }
 
-/// Returns the communicator of a Mat, Vec, KSP, …
-template <class Pointee>
-MPI_Comm comm(Pointee* handle) {
+/// Not collective. Returns the communicator of a Mat, Vec, KSP, …
+template <class Handle>
+MPI_Comm commOf(Handle* handle) {
   return PetscObjectComm(object(handle));
 }
 

@@ -4,6 +4,8 @@
 
 #include "algebra/factor/symmetric_solver.hpp"
 #include "base/petsc/arrays.hpp"
+#include "base/petsc/object.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "eigen/pencil/pencil.hpp"
 
@@ -67,18 +69,17 @@ std::string badDiagonal(Mat matrix) {
   PetscInt count = 0, lowest = size;
   for (PetscInt i = first; i < end; ++i)
     if (!(values[i - first] > 0)) ++count, lowest = std::min(lowest, i);
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
-  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPIU_INT, MPI_MIN, comm));
+  count = mpi::sum(commOf(matrix), count);
+  lowest = mpi::min(commOf(matrix), lowest);
   if (count == 0) return "";
   return formatted(" (diagonal entries that are not positive: %" PetscInt_FMT
                    ", the first in row %" PetscInt_FMT ")",
                    count, lowest + 1);
 }
 
-/// Collective. Throws Error if the matrix is not positive definite. A pivot of 1e-13 of the scaled
-/// matrix is what cancellation leaves of a zero one in a large model; stiff springs do not come
-/// near it, since the rows are scaled.
+/// Collective. Throws Error if the matrix is not positive definite. In a large model cancellation
+/// leaves a pivot of 1e-13 of the scaled matrix instead of zero. The rows are scaled, so stiff
+/// springs do not cause such small pivots.
 void requirePositiveDefinite(Mat matrix, const std::string& what, const std::string& advice) {
   PetscReal norm = 0;
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));

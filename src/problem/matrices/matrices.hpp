@@ -1,7 +1,7 @@
 #pragma once
-/// The friction-perturbed problem is read from files: each matrix has a role M, Z or K, a factor,
-/// and exponents of friction, speed and damping [M.23]. Exports of other programs and published
-/// models run through the same reduction and certification as the models of meshes.
+/// The friction-perturbed problem from files: each matrix has a role M, Z or K, a factor, and
+/// exponents of friction, speed and damping [M.23]. Exports of other programs and published models
+/// are reduced and certified like the models of meshes.
 #include <string>
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace squeal::matrices {
 
-/// A term of the pencil and where it comes from.
+/// A term of the pencil and its name.
 struct NamedTerm {
   std::string name;  ///< <name> of its options
   pencil::Term term;

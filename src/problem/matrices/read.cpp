@@ -1,7 +1,9 @@
 #include "problem/matrices/read.hpp"
 
+#include <array>
 #include <cmath>
 
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "problem/matrixfile/formats.hpp"
 #include "problem/matrixfile/hdf5.hpp"
@@ -12,8 +14,8 @@
 namespace squeal::matrices {
 namespace {
 
-/// Collective. Reads a file in PETSc's binary format; each rank reads its rows. PETSc would take
-/// options from a file NAME.info beside it, and is told not to.
+/// Collective. Reads a file in PETSc's binary format; each rank reads its rows. A file NAME.info
+/// next to it, from which PETSc would take options, is ignored.
 OwnedMat load(MPI_Comm comm, const std::filesystem::path& path) {
   OwnedViewer viewer;
   OwnedMat matrix;
@@ -29,11 +31,10 @@ OwnedMat load(MPI_Comm comm, const std::filesystem::path& path) {
 }
 
 /// Collective. Returns the matrix of the entries that rank 0 has. PETSc sums those of equal row and
-/// column, whatever the insert mode, which tells only whether they are added to what the matrix had
-/// before or replace it.
+/// column. The insert mode only decides whether they are added to earlier values or replace them.
 OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
-  PetscInt sizes[2] = {entries.rows, entries.columns};
-  check(MPI_Bcast(sizes, 2, MPIU_INT, 0, comm));
+  std::array<PetscInt, 2> sizes{entries.rows, entries.columns};
+  mpi::broadcast(comm, sizes);
   OwnedMat matrix;
   check(MatCreate(comm, matrix.out()));
   check(MatSetSizes(matrix, PETSC_DECIDE, PETSC_DECIDE, sizes[0], sizes[1]));
@@ -44,9 +45,9 @@ OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
   return matrix;
 }
 
-/// Throws Error if there are far too few entries for the rows. The header alone asks for the memory
-/// of empty rows. Up to ten million, that of a gigabyte, it may; beyond, one row in a thousand at
-/// the least has an entry, or the header is damaged.
+/// Throws Error if there are far too few entries for the rows. A damaged header can request memory
+/// for empty rows. Up to ten million rows, a gigabyte, are accepted; beyond, at least one row in a
+/// thousand must have an entry.
 void requireFilled(const matrixfile::Entries& entries) {
   const double count = entries.value.size();
   if (entries.rows > 1e7 + 1e3 * count)
@@ -58,7 +59,7 @@ matrixfile::Entries readHere(matrixfile::Format format, const std::filesystem::p
                              const std::string& dataset) {
   if (!dataset.empty() &&
       (format == matrixfile::Format::matrixMarket || format == matrixfile::Format::petscBinary))
-    throw Error("the file is a single matrix, it holds no '" + dataset + "' by name");
+    throw Error("the file is a single matrix, it contains no '" + dataset + "' by name");
   matrixfile::Entries entries;
   switch (format) {
     case matrixfile::Format::matrixMarket:
@@ -83,13 +84,13 @@ matrixfile::Entries readHere(matrixfile::Format format, const std::filesystem::p
 
 OwnedMat read(MPI_Comm comm, const std::filesystem::path& path, const std::string& dataset) {
   matrixfile::Entries entries;
-  int isBinary = 0;
+  bool isBinary = false;
   onFirstRank(comm, path.string() + ": ", [&] {
     const matrixfile::Format format = matrixfile::formatOf(path);
     isBinary = format == matrixfile::Format::petscBinary;
     entries = readHere(format, path, dataset);
   });
-  check(MPI_Bcast(&isBinary, 1, MPI_INT, 0, comm));
+  mpi::broadcast(comm, isBinary);
   OwnedMat matrix = isBinary ? load(comm, path) : distribute(comm, entries);
   PetscReal norm = 0;
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));

@@ -1,5 +1,5 @@
 #pragma once
-/// This function reads one matrix from a file and distributes it over the ranks.
+/// A matrix from a file, distributed over the ranks.
 #include <filesystem>
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace squeal::matrices {
 
-/// Collective. Returns a square matrix from a file of any known format, which its content tells. It
-/// is distributed by rows, AIJ. `dataset` names a variable or object within the file; an empty name
-/// stands for the only matrix there. Rank 0 reads the whole file, except for PETSc's binary format,
-/// of which each rank reads its rows. Throws Error on all ranks, naming file and cause, for what
+/// Collective. Returns a square matrix from a file of any known format, recognised by its content.
+/// It is distributed by rows, AIJ. `dataset` names a variable or object within the file; an empty
+/// name means the only matrix there. Rank 0 reads the whole file; of a file in PETSc's binary
+/// format each rank reads its rows. Throws Error on all ranks, with file and cause, for files that
 /// the readers of `matrixfile` reject, for a name in a file of a single matrix, for a matrix that
 /// is not square or has far more rows than entries, and for entries that are not finite or whose
 /// squares overflow.

@@ -11,6 +11,7 @@
 #include "base/options/settings.hpp"
 #include "base/output/file.hpp"
 #include "base/output/folder.hpp"
+#include "base/petsc/object.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/regular_file.hpp"
 #include "base/system/text.hpp"
@@ -78,14 +79,14 @@ matrixfile::Entries entriesOf(Mat matrix) {
 /// Collective. Writes a matrix: in Matrix Market format if the name ends with .mtx, and otherwise
 /// in that of PETSc.
 void writeMatrix(Mat matrix, const fs::path& path, const std::string& blame) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  const MPI_Comm comm = commOf(matrix);
   if (path.extension() == ".mtx") {
     const OwnedMat whole = linalg::onRankZero(matrix);
     onFirstRank(comm, blame, [&] { matrixfile::writeMatrixMarket(path, entriesOf(whole)); });
     return;
   }
   // The bytes are those of header, length and columns of the rows, and values. On a full disc PETSc
-  // would end the run with its own words, or not at all on other ranks than the first.
+  // would abort the run with a message of its own, or hang on other ranks than the first.
   MatInfo info;
   PetscInt rows = 0;
   check(MatGetInfo(matrix, MAT_GLOBAL_SUM, &info));
@@ -96,14 +97,14 @@ void writeMatrix(Mat matrix, const fs::path& path, const std::string& blame) {
   OwnedViewer viewer;
   check(PetscViewerCreate(comm, viewer.out()));
   check(PetscViewerSetType(viewer, PETSCVIEWERBINARY));
-  check(
-      PetscViewerFileSetMode(viewer, FILE_MODE_APPEND));  // to the empty file, which keeps its room
+  check(PetscViewerFileSetMode(viewer,
+                               FILE_MODE_APPEND));  // to the empty file with its reserved space
   check(PetscViewerBinarySkipInfo(viewer));
   check(PetscViewerFileSetName(viewer, path.c_str()));
   check(MatView(matrix, viewer));
 }
 
-/// Returns the options given to the stages that matrices go through, a line each.
+/// Returns the given options of the stages of a run from matrices, a line each.
 std::string carriedOptions() {
   const std::set<std::string> stages{"modes", "flutter"},
       ofMesh{"flutter_pressure", "flutter_friction_damping"};

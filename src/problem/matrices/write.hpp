@@ -1,6 +1,6 @@
 #pragma once
-/// These functions write the matrices of a pencil to the folder of `-report_matrices`, from which
-/// another run can read them.
+/// Export of the matrices of a pencil to the folder of `-report_matrices`, from which another run
+/// can read them.
 #include <cstddef>
 #include <filesystem>
 
@@ -11,7 +11,7 @@
 namespace squeal::matrices {
 
 /// Collective. Call it before work begins. Throws Error if the folder of `-report_matrices` is that
-/// of the results or cannot be written, or if something in it is in the way.
+/// of the results or cannot be written, or if a file in it prevents the export.
 void requireExportFolder(MPI_Comm comm, const ExportSettings& settings,
                          const std::filesystem::path& results);
 

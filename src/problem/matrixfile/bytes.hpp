@@ -1,5 +1,5 @@
 #pragma once
-/// This file reads numbers in binary files, of either byte order.
+/// Numbers in binary files, of either byte order.
 #include <algorithm>
 #include <bit>
 #include <cstdint>

@@ -1,8 +1,7 @@
 #pragma once
-/// This file holds what all readers of matrix files share. A reader accepts what its format allows
-/// and rejects all else: nothing in a file is ignored, and nothing that its header announces may be
-/// missing. No function of the room is collective; they are for rank 0. Every Error gives the
-/// reason, and none names the file.
+/// Common parts of the readers of matrix files. A reader accepts only files that its format allows:
+/// it ignores nothing in a file, and requires all that the header announces. No function of the
+/// room is collective; they are for rank 0. Every Error gives the reason, and none names the file.
 #include <petscsys.h>
 
 #include <filesystem>
@@ -10,8 +9,8 @@
 
 namespace squeal::matrixfile {
 
-/// An Entries holds the entries of a sparse matrix, with rows and columns counted from 0. Entries
-/// of equal row and column are summed.
+/// The entries of a sparse matrix, with rows and columns counted from 0. Entries of equal row and
+/// column are summed.
 struct Entries {
   Entries() = default;
   /// Throws Error if a size is negative or exceeds PetscInt.
@@ -38,7 +37,7 @@ struct Compressed {
   std::vector<double> value;
   const char *beginName = "indptr", *indexName = "indices";  ///< names in the format, for messages
 
-  /// Shortens lists that go on after the last entry: MATLAB keeps places free, one at the least.
+  /// Removes free places after the last entry, which MATLAB stores, at least one.
   void dropFree();
   /// Returns the entries. Throws Error if the lists do not fit together.
   Entries entries() const;
@@ -47,8 +46,8 @@ struct Compressed {
 enum class Format { matrixMarket, petscBinary, hdf5, matlab };
 
 /// Returns the format, from the first bytes of the file. Throws Error for a file that cannot be
-/// read, is empty, or has none of the formats; the message then says what it is, where that is
-/// known.
+/// read, is empty, or has none of the formats; the message names the actual
+/// format if it is known.
 Format formatOf(const std::filesystem::path& path);
 
 }  // namespace squeal::matrixfile

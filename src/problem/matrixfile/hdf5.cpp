@@ -39,14 +39,14 @@ bool isMatrix(hid_t object) {
   return isCompressed(object) || isMatlabSparse(object) || isTable(object);
 }
 
-/// Returns true for a number alone. MATLAB saves every number so, and none can be meant if a matrix
-/// is there.
+/// Returns true for a single number. MATLAB saves every number as a matrix; next to a real matrix
+/// none of them can be meant.
 bool isNumber(hid_t object) {
   return isTable(object) && shapeOf(object) == std::vector<hsize_t>{1, 1};
 }
 
-/// Returns true for lists by columns and false for lists by rows; none if the group does not say
-/// it. scipy.sparse.save_npz keeps the format as a dataset; a copy of it in HDF5 does too.
+/// Returns true for lists by columns and false for lists by rows; none if the group does not
+/// define it. scipy.sparse.save_npz stores the format as a dataset; so does a copy of it in HDF5.
 std::optional<bool> byColumns(hid_t group) {
   std::string found;
   for (const std::string& text :
@@ -56,7 +56,7 @@ std::optional<bool> byColumns(hid_t group) {
     const std::string format = text.substr(0, 3);
     if (format != "csr" && format != "csc")
       throw Error("the format '" + text + "', where csr and csc are read");
-    if (!found.empty() && found != format) throw Error("the group calls itself csr as well as csc");
+    if (!found.empty() && found != format) throw Error("the group is marked csr as well as csc");
     found = format;
   }
   return found.empty() ? std::nullopt : std::optional(found == "csc");
@@ -84,7 +84,7 @@ bool isSymmetric(const Entries& entries) {
   return sums(entries.row, entries.column) == sums(entries.column, entries.row);
 }
 
-/// Throws Error unless rows and columns are as many as `size`, where they are written: in the
+/// Throws Error unless rows and columns are as many as `size`, if they are stored: in the
 /// attribute of anndata or h5sparse, or in the dataset of scipy.sparse.save_npz.
 void checkShape(hid_t group, long long size) {
   std::vector<long long> shape;
@@ -163,7 +163,7 @@ std::vector<std::string> namesIn(hid_t group) {
     return 0;
   };
   if (H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names) < 0)
-    throw Error("HDF5 finds the file damaged" + cause());
+    throw Error("the HDF5 library reports a damaged file" + cause());
   return names;
 }
 
@@ -178,22 +178,23 @@ std::string onlyMatrix(hid_t file) {
   if (matrices.empty()) matrices = numbers;
   if (matrices.empty())
     throw Error(
-        "the HDF5 file holds no matrix: no group with data, indices and indptr (MATLAB: data, ir "
+        "the HDF5 file contains no matrix: no group with data, indices and indptr (MATLAB: data, "
+        "ir "
         "and jc), no dataset of real "
         "numbers of two "
         "dimensions");
   if (matrices.size() > 1)
-    throw Error("the HDF5 file holds several matrices, " + joined(matrices) + ": name one");
+    throw Error("the HDF5 file contains several matrices, " + joined(matrices) + ": name one");
   return matrices[0];
 }
 
 Entries readHere(const std::filesystem::path& path, const std::string& name) {
   const Silence silence;
   const FileId file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!file.valid()) throw Error("HDF5 finds the file damaged" + cause());
+  if (!file.valid()) throw Error("the HDF5 library reports a damaged file" + cause());
   const std::string wanted = name.empty() ? onlyMatrix(file) : name;
   const ObjectId object(H5Oopen(file, wanted.c_str(), H5P_DEFAULT));
-  if (!object.valid()) throw Error("the HDF5 file holds no object '" + wanted + "'" + cause());
+  if (!object.valid()) throw Error("the HDF5 file contains no object '" + wanted + "'" + cause());
   try {
     if (isCompressed(object)) return compressedGroup(object);
     if (isMatlabSparse(object)) return matlabSparse(object);

@@ -1,5 +1,5 @@
 #pragma once
-/// This function reads a matrix from an HDF5 file, which MATLAB files of version 7.3 are too.
+/// A matrix from an HDF5 file, or from a MATLAB file of version 7.3, which is one.
 #include <filesystem>
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace squeal::matrixfile {
 
-/// Reads the object `name` of an HDF5 file. An empty name stands for the only matrix among the
-/// objects of the root, or the root itself; a 1 × 1 dataset counts only where there is no other.
+/// Reads the object `name` of an HDF5 file. An empty name means the only matrix among the
+/// objects of the root, or the root itself; a 1 × 1 dataset counts only if there is no other.
 /// The object is a dataset of two dimensions, or a group with the datasets data, indices and indptr
 /// of a compressed matrix, as users of SciPy and anndata write it. The attribute "format",
 /// "h5sparse_format" or "encoding-type" of the group, or its dataset "format", begins with csr or

@@ -25,9 +25,8 @@ hsize_t product(const std::vector<hsize_t>& shape, hsize_t size) {
   return size;
 }
 
-/// Returns the largest number of bytes that `stored` bytes can stand for; HSIZE_UNDEF with an
-/// unknown filter. All known filters keep something of each byte: deflate, the best at it, a
-/// thousandth.
+/// Returns the largest number of bytes that `stored` bytes can expand to; HSIZE_UNDEF with an
+/// unknown filter. Of the known filters, deflate has the highest ratio, about a thousand.
 hsize_t mostUnpacked(hid_t properties, hsize_t stored) {
   const int filters = H5Pget_nfilters(properties);
   for (int k = 0; k < filters; ++k) {
@@ -70,12 +69,12 @@ hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width,
   return product(chunk, product({chunks}, width));
 }
 
-/// Throws Error unless the file holds the values: HDF5 reads zeros where nothing was written, and
-/// takes the memory that a header asks for.
+/// Throws Error unless the values are in the file: HDF5 reads zeros if nothing was written, and
+/// allocates the memory that a header requests.
 void requireStored(hid_t dataset, hid_t type, const std::vector<hsize_t>& shape) {
   const PropertiesId properties(H5Dget_create_plist(dataset));
   if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) > 0)
-    throw Error("its values lie in other files: bring them into one by h5repack");
+    throw Error("its values are in other files: merge them by h5repack");
   const hsize_t wanted = wantedBytes(dataset, properties, H5Tget_size(type), shape),
                 stored = H5Dget_storage_size(dataset);
   if (wanted > mostUnpacked(properties, stored))
@@ -105,7 +104,7 @@ std::vector<Number> valuesOf(hid_t dataset, bool onlyIntegers, hid_t memory, int
   const auto kind = H5Tget_class(type);
   if (kind != H5T_INTEGER && (onlyIntegers || kind != H5T_FLOAT))
     throw Error(std::string(onlyIntegers ? "integers" : "real numbers") +
-                " are expected, it holds " + kindOf(type));
+                " are expected, it contains " + kindOf(type));
   const SpaceId space(H5Dget_space(dataset));
   if (H5Sget_simple_extent_type(space) != H5S_SIMPLE ||
       H5Sget_simple_extent_ndims(space) != dimensions)

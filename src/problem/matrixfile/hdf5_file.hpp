@@ -1,6 +1,5 @@
 #pragma once
-/// These functions read the contents of HDF5 files, with the checks that the HDF5 library leaves to
-/// its users.
+/// The contents of HDF5 files, with the checks that the HDF5 library leaves to its users.
 #include <string>
 #include <vector>
 
@@ -27,12 +26,12 @@ bool hasAttribute(hid_t object, const std::string& name);
 std::vector<hsize_t> shapeOf(hid_t dataset);
 
 /// These functions return the values of a dataset. They throw Error if it has another type or
-/// number of dimensions, or if the file does not hold its values, since they were never written or
-/// lie in other files.
+/// number of dimensions, or if its values are not in the file, because they were never written or
+/// are in other files.
 std::vector<long long> integers(hid_t group, const std::string& name);
 std::vector<double> reals(hid_t group, const std::string& name, int dimensions = 1);
 
-/// These functions return the text of an attribute or of a dataset that holds a single one. A text
+/// These functions return the text of an attribute or of a dataset with a single one. A text
 /// of fixed length may have up to 64 characters; one of variable length is cut to as many.
 /// Otherwise the result is empty.
 std::string textOfAttribute(hid_t object, const std::string& name);

@@ -1,5 +1,5 @@
-// MATLAB files are read by hand: matio 1.5 fills up with zeros what a file cut short no longer
-// holds, and leaves out what follows.
+// MATLAB files are read by hand: in a truncated file, matio 1.5 replaces missing values by zeros
+// and omits the variables after them.
 #include "problem/matrixfile/matlab.hpp"
 
 #include "base/petsc/check.hpp"
@@ -43,11 +43,11 @@ const Variable& chosen(const std::vector<Variable>& variables, const std::string
       found.push_back(&variable), names.push_back(variable.name);
   if (found.empty())
     throw Error((name.empty()
-                     ? std::string("the MATLAB file holds no square matrix of real numbers")
-                     : "the MATLAB file holds no variable '" + name + "'") +
+                     ? std::string("the MATLAB file contains no square matrix of real numbers")
+                     : "the MATLAB file contains no variable '" + name + "'") +
                 ", but " + describedAll(variables));
   if (found.size() > 1)
-    throw Error("the MATLAB file holds several " +
+    throw Error("the MATLAB file contains several " +
                 (name.empty() ? "matrices, " + joined(names) + ": name one" : "variables " + name));
   if (!isMatrix(*found[0]))
     throw Error("variable " + described(*found[0]) + " is not a matrix of real numbers");

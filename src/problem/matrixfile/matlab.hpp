@@ -1,5 +1,5 @@
 #pragma once
-/// This function reads a matrix from a MATLAB file of version 4 or 5.
+/// A matrix from a MATLAB file of version 4 or 5.
 #include <filesystem>
 #include <string>
 
@@ -8,7 +8,7 @@
 namespace squeal::matrixfile {
 
 /// Reads a MATLAB file of version 4 or 5 (as `save -v4`, `-v6` and `-v7` write): the variable
-/// `name`, sparse or full. An empty name stands for the only square matrix of more than one row.
+/// `name`, sparse or full. An empty name means the only square matrix of more than one row.
 /// Throws Error if there is none or several of them, and for complex or damaged content, including
 /// damaged sizes of other variables.
 Entries readMatlab(const std::filesystem::path& path, const std::string& name);

@@ -1,4 +1,4 @@
-// A file of MATLAB's version 4 holds variables one after the other, each with a header of five
+// A file of MATLAB's version 4 consists of consecutive variables, each with a header of five
 // integers, its name and its values by columns.
 #include "problem/matrixfile/matlab4.hpp"
 
@@ -78,7 +78,7 @@ Variable variableAt(BinaryFile& file, std::uint64_t position) {
       width = widthOf(variable.type) * (1 + imaginary);
   if (variable.begin > file.size() || count > (file.size() - variable.begin) / width)
     throw Error(formatted("the file is cut short: the variable at byte %" PRIu64
-                          " is longer than what is left",
+                          " is longer than the rest of the file",
                           position));
   variable.end = variable.begin + count * width;
   variable.name.resize(nameLength);
@@ -100,7 +100,7 @@ long long sizeFrom(double value) {
   return value;
 }
 
-/// Reads the size of a sparse matrix, which stands in its last row.
+/// Reads the size of a sparse matrix, which is in its last row.
 void completeSparse(BinaryFile& file, Variable& variable) {
   const std::size_t rows = variable.shape[0];
   if (!variable.real) return;

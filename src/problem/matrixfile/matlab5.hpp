@@ -1,5 +1,5 @@
 #pragma once
-/// These functions read the variables of MATLAB files of version 5.
+/// The variables of MATLAB files of version 5.
 #include <vector>
 
 #include "problem/matrixfile/bytes.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// This file describes one variable of a MATLAB file of version 4 or 5.
+/// A variable of a MATLAB file of version 4 or 5.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ struct Variable {
   bool real = false;                 ///< a table of real numbers, in version 5 doubles or singles
   bool sparse = false;               ///< full otherwise
   std::vector<long long> shape;      ///< one number per dimension
-  std::uint64_t begin = 0, end = 0;  ///< the bytes that hold it
+  std::uint64_t begin = 0, end = 0;  ///< its bytes in the file
   bool swapped = false, packed = false;
   int type = 0;  ///< type of the values in version 4
 };

@@ -131,7 +131,7 @@ Header kindOf(const Lines& lines) {
 }
 
 Header readHeader(Lines& lines) {
-  if (!lines.next()) throw Error("the file holds nothing");
+  if (!lines.next()) throw Error("the file is empty");
   Header header = kindOf(lines);
   if (!lines.next())
     throw Error("the file ends before the line with the numbers of rows and columns");
@@ -140,8 +140,7 @@ Header readHeader(Lines& lines) {
   header.rows = lines.integer(0, "the number of rows");
   header.columns = lines.integer(1, "the number of columns");
   if (header.rows < 0 || header.columns < 0) lines.fail("a negative number of rows or columns");
-  const Entries checked(header.rows,
-                        header.columns);  // so that their product is no more than 64 bits hold
+  const Entries checked(header.rows, header.columns);  // so that their product fits into 64 bits
   if (header.oneTriangle() && header.rows != header.columns)
     lines.fail(
         formatted("a symmetric matrix of %lld rows and %lld columns", header.rows, header.columns));
@@ -156,7 +155,7 @@ Header readHeader(Lines& lines) {
   return header;
 }
 
-/// A Filler adds entries to a matrix, and puts those of one triangle on both sides.
+/// A Filler adds entries to a matrix, those of one triangle on both sides.
 class Filler {
  public:
   Filler(const Lines& lines, const Header& header)
@@ -172,14 +171,14 @@ class Filler {
   Entries take() { return std::move(entries_); }
 
  private:
-  /// Throws Error if entries stand on both sides of the diagonal. The standard asks for the lower
-  /// triangle. Files of the upper one alone can mean but one thing; both would be counted twice.
+  /// Throws Error for entries on both sides of the diagonal, which would be counted twice. The
+  /// standard requires the lower triangle, but a file with only the upper one is unambiguous.
   void requireTriangle(long long i, long long j) {
     const bool lower = i > j;
     if (lower ? upper_ : lower_)
       lines_.fail(
           formatted("the entry in row %lld and column %lld is %s the diagonal, earlier ones are %s "
-                    "it: the format stores the lower triangle of a %s matrix alone",
+                    "it: the format stores only the lower triangle of a %s matrix",
                     i + 1, j + 1, lower ? "below" : "above", lower ? "above" : "below",
                     header_.skew ? "skew-symmetric" : "symmetric"));
     (lower ? lower_ : upper_) = true;
@@ -214,7 +213,7 @@ void addCoordinate(const Lines& lines, const Header& header, Filler& filler) {
   filler.add(i, j, header.pattern ? 1 : valueOf(lines, header, 2));
 }
 
-/// A Place is where the next value of an array belongs. Values go column by column, of a symmetric
+/// The place of the next value of an array. Values go column by column, of a symmetric
 /// matrix from the diagonal on, of a skew one from below it.
 class Place {
  public:
@@ -252,7 +251,7 @@ Entries readMatrixMarket(const std::filesystem::path& path) {
       addCoordinate(lines, header, filler);
       continue;
     }
-    lines.requireWords(1, "the next value alone");
+    lines.requireWords(1, "only the next value");
     filler.add(place.row(), place.column(), valueOf(lines, header, 0));
     place.advance();
   }
@@ -263,7 +262,7 @@ Entries readMatrixMarket(const std::filesystem::path& path) {
 }
 
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries) {
-  output::reserve(path, 0);  // it is no link and no pipe
+  output::reserve(path, 0);  // rejects links and pipes
   errno = 0;
   std::ofstream file(path);
   file << "%%MatrixMarket matrix coordinate real general\n"

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions read and write files in Matrix Market format.
+/// Files in Matrix Market format.
 #include <filesystem>
 
 #include "problem/matrixfile/formats.hpp"
@@ -7,7 +7,7 @@
 namespace squeal::matrixfile {
 
 /// Reads Matrix Market: coordinate or array; general, symmetric or skew-symmetric; real, integer or
-/// pattern (ones). Exponents may begin with D. A symmetric or skew-symmetric file holds one
+/// pattern (ones). Exponents may begin with D. A symmetric or skew-symmetric file contains one
 /// triangle. Throws Error, with the number of the line, for anything else.
 Entries readMatrixMarket(const std::filesystem::path& path);
 

@@ -70,7 +70,7 @@ void checkPattern(const std::filesystem::path& path, const Header& header) {
     std::sort(list.begin(), list.end());
     const auto twice = std::adjacent_find(list.begin(), list.end());
     if (twice != list.end())
-      fail(formatted("has two entries in column %" PetscInt_FMT "; this format holds each once",
+      fail(formatted("has two entries in column %" PetscInt_FMT "; this format stores each once",
                      *twice));
   }
   if (left != 0)

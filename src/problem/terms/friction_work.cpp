@@ -6,8 +6,9 @@
 #include "problem/terms/terms.hpp"
 
 namespace squeal::terms {
-MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s,
-                          const linalg::ComplexVector& u, Mat prestress) {
+
+MotionForces motionForces(const elasticity::Bodies& bodies, const Motion& motion) {
+  const auto& [at, s, u, prestress] = motion;
   MotionForces result{product(bodies.stiffness, u), 0};
   auto& r = result.forces;
   if (prestress) add(r, 1, product(prestress, u));
@@ -87,14 +88,13 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
 
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
                                  const std::vector<unsigned char>& closed,
-                                 const FrictionState& friction, const sweep::Parameters& at,
-                                 Complex s, const linalg::ComplexVector& u, Mat prestress) {
-  const MotionForces forces = motionForces(bodies, at, s, u, prestress);
-  const ContactMotion motion = contactMotion(contact, closed, u, forces.forces);
+                                 const FrictionState& friction, const Motion& mode) {
+  const MotionForces forces = motionForces(bodies, mode);
+  const ContactMotion motion = contactMotion(contact, closed, mode.u, forces.forces);
   std::vector<double> work;
   for (const auto& form :
-       frictionForms(contact, friction, s, atPadNodes(contact, motion.jump), motion))
-    work.push_back(-(std::conj(s) * (form.pressing + form.turning)).real() / forces.energy);
+       frictionForms(contact, friction, mode.s, atPadNodes(contact, motion.jump), motion))
+    work.push_back(-(std::conj(mode.s) * (form.pressing + form.turning)).real() / forces.energy);
   return work;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The motion of a mode at the contact does the work of friction, which shows the part of the
-/// contact that feeds the mode.
+/// The work of friction on the motion of a mode, by contact node. It shows where friction
+/// destabilises the mode.
 #include <array>
 #include <vector>
 
@@ -24,16 +24,21 @@ struct MotionForces {
   double energy = 0;
 };
 
-/// Collective. Returns the forces and the energy of the motion u, N entries. `prestress` is K_σ of
-/// the steady state; it may be null.
-MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s,
-                          const linalg::ComplexVector& u, Mat prestress);
+/// A motion u e^{st} at a point of the sweep; all of it is borrowed.
+struct Motion {
+  const sweep::Parameters& at;
+  Complex s;
+  const linalg::ComplexVector& u;  ///< N entries
+  Mat prestress = nullptr;         ///< K_σ of the steady state; null: none
+};
+/// Collective. Returns the forces and the energy of a motion.
+MotionForces motionForces(const elasticity::Bodies& bodies, const Motion& motion);
 
 /// The amplitudes of a motion at the contact.
 struct ContactMotion {
   linalg::ComplexVector jump;       ///< [u] in the rows of the pad nodes, N entries
   linalg::ComplexVector convected;  ///< D u_D in the same rows; null without convective terms
-  /// The normal components of the nodal forces, E⁻ᵀ N r*, with that of open gaps left out, [owned
+  /// The normal components of the nodal forces, E⁻ᵀ N r*, without those of open gaps, [owned
   /// contact node].
   std::vector<Complex> nodalForce;
 };
@@ -74,9 +79,9 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
                                         const ContactMotion& motion);
 
 /// Collective. Returns the contribution of friction at each contact node to the growth rate of the
-/// mode u e^{st}, 1/s, [owned contact node]; closed[k] is set for the closed gaps. Where it is
-/// positive, friction feeds the mode. At open nodes it is zero, but for tri6 and quad8 faces that
-/// are closed in part.
+/// mode, 1/s, [owned contact node]; closed[k] is set for the closed gaps. If it is positive,
+/// friction destabilises the mode. At open nodes it is zero, except on tri6 and quad8 faces that
+/// are partly closed.
 ///
 /// The mode u = T x satisfies Tᵀ r* = (J T)ᵀ R_T*. The real part of its product with (s x)ᴴ is,
 /// with σ = Re s and E of MotionForces [M.51],
@@ -87,7 +92,6 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
 /// (π / Im s) E times the value.
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
                                  const std::vector<unsigned char>& closed,
-                                 const FrictionState& friction, const sweep::Parameters& at,
-                                 Complex s, const linalg::ComplexVector& u, Mat prestress);
+                                 const FrictionState& friction, const Motion& mode);
 
 }  // namespace squeal::terms

@@ -2,14 +2,15 @@
 
 #include "algebra/linalg/complexvector.hpp"
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "problem/terms/terms.hpp"
 #include "steady/steady/change.hpp"
 
 namespace squeal::terms {
 namespace {
 
-/// The step of central differences along the change of the steady state. It balances an error of
-/// its square against rounding divided by it.
+/// The step of central differences along the change of the steady state. It balances a truncation
+/// error of its square against round-off divided by it.
 constexpr double step = 1e-4;
 
 /// Returns true if the steady state enters the terms of the point by the direction and law of slip,
@@ -30,9 +31,9 @@ struct Influences::Influence {
   int body = -1;
   bool density = false;  // θ is a factor on the density of the body; otherwise on its moduli
   double size = 1;       // θ, for the step of differences
-  steady::Change change;
-  std::vector<double> responseForce;  // its change
-  OwnedMat prestress;                 // its change
+  steady::Change change = {};
+  std::vector<double> responseForce = {};  // its change
+  OwnedMat prestress = {};                 // its change
 };
 
 /// A triple is given on all nodal displacements, so that
@@ -68,17 +69,16 @@ std::vector<Influences::Influence> Influences::influences(const BodyPoint& state
     parts_.push_back(elasticity::bodyPart(mesh_, bodies_, body));
   std::vector<Influence> list;
   for (const auto& parameter : sweep::allParameters) {
-    list.emplace_back();
-    list.back().name = parameter.name, list.back().member = parameter.value;
-    if (parameter.value != &sweep::Parameters::friction)
-      list.back().size = state.at.*parameter.value;
+    const bool isFriction = parameter.value == &sweep::Parameters::friction;
+    list.push_back({.name = parameter.name,
+                    .member = parameter.value,
+                    .size = isFriction ? 1 : state.at.*parameter.value});
   }
   for (int body = 0; body < std::ssize(mesh_.bodies); ++body)
-    for (const bool density : {false, true}) {
-      list.emplace_back();
-      list.back().name = (density ? "density_" : "young_") + mesh_.bodies[body];
-      list.back().body = body, list.back().density = density;
-    }
+    for (const bool density : {false, true})
+      list.push_back({.name = (density ? "density_" : "young_") + mesh_.bodies[body],
+                      .body = body,
+                      .density = density});
   if (!followsSteadyState(contact_, state.at, state.prestress, settings_)) return list;
   const steady::Problem problem(mesh_, bodies_, contact_);
   for (auto& influence : list)
@@ -130,7 +130,7 @@ Influences::Projected Influences::project(const BodyPoint& state,
   Projected pair{triple.s, product(trial, triple.x), product(trial, triple.y), {}, {}};
   pair.motion =
       contactMotion(contact_, state.solution.closed, pair.u,
-                    motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
+                    motionForces(bodies_, {state.at, triple.s, pair.u, state.prestress}).forces);
   pair.test = atPadNodes(contact_, product(contact_.sliding.jump, pair.z));
   //   L(f) y = T y + f Nᵀ S y
   std::vector<double> alongReal, alongImaginary;
@@ -197,14 +197,13 @@ Complex Influences::steadyForm(const Influence& influence, const BodyPoint& stat
     for (std::size_t k = 0; k < force.size(); ++k)
       force[k] += sign * h * influence.responseForce[k];
     FrictionState moved = frictionState(contact_, at, contact_.slip(at.speed, u), force);
-    // The f that multiplies the change of the normal force is held: it is a coefficient of the
+    // The f that multiplies the change of the normal force is constant: it is a coefficient of the
     // pencil.
     moved.at.friction = state.at.friction;
     for (const auto& form : frictionForms(contact_, moved, pair.s, pair.test, pair.motion))
       friction += sign / (2 * h) * (form.pressing + form.turning);
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, &friction, 1, MPI_C_DOUBLE_COMPLEX, MPI_SUM, mesh_.comm));
-  return sum + friction;
+  return sum + mpi::sum(mesh_.comm, friction);
 }
 
 }  // namespace squeal::terms

@@ -1,6 +1,6 @@
 #pragma once
 /// Derivatives of the eigenvalues with respect to the parameters of the point, and to the moduli
-/// and the density of each body, are made from the matrices of which the pencil is made.
+/// and the density of each body, from the matrices of the pencil.
 #include <vector>
 
 #include "algebra/linalg/complex.hpp"
@@ -35,11 +35,11 @@ class Influences {
       : mesh_(mesh), bodies_(bodies), contact_(contact), settings_(settings) {}
 
   /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point, whose
-  /// terms the pencil holds. The derivatives [M.46] include the terms that follow the steady state;
-  /// the active set and the matrix of modal damping are held. The parameters are friction, speed,
-  /// pressure and damping as in Parameters, a factor young_BODY on all moduli of a body (ds/d ln
-  /// E), and a factor density_BODY on its density (ds/d ln ρ). Left vectors are looked for from
-  /// `start`. Throws Error if the change of the steady state is not found.
+  /// terms are in the pencil. The derivatives [M.46] include the terms that follow the steady
+  /// state; the active set and the matrix of modal damping are constant. The parameters are
+  /// friction, speed, pressure and damping as in Parameters, a factor young_BODY on all moduli of a
+  /// body (ds/d ln E), and a factor density_BODY on its density (ds/d ln ρ). Left vectors are
+  /// computed from `start`. Throws Error if the change of the steady state is not found.
   void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
 

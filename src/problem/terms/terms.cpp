@@ -8,15 +8,16 @@ namespace {
 /// The exponents of s, of the speed and of the damping factor for a matrix of the bodies.
 struct Role {
   const contact::Projection& projection;
-  int power, speedExponent, dampingExponent;
+  int power = 0, speedExponent = 0, dampingExponent = 0;
 };
 
 std::vector<Role> roles(const contact::CoupledSystem& system) {
-  return {{system.projections().stiffness, 0, 0, 0},
-          {system.projections().mass, 2, 0, 0},
-          {system.projections().damping, 1, 0, 1},
-          {system.projections().gyroscopic, 1, 1, 0},
-          {system.projections().rotationStiffness, 0, 2, 0}};
+  const auto& projections = system.projections();
+  return {{.projection = projections.stiffness},
+          {.projection = projections.mass, .power = 2},
+          {.projection = projections.damping, .power = 1, .dampingExponent = 1},
+          {.projection = projections.gyroscopic, .power = 1, .speedExponent = 1},
+          {.projection = projections.rotationStiffness, .speedExponent = 2}};
 }
 
 /// Appends the terms f^a S_aᵀ N X T of one matrix X for all powers a, at the nodes that slide.
@@ -25,8 +26,12 @@ void addFriction(std::vector<pencil::Term>& terms, const Role& role,
                  const std::vector<contact::Slip>& slip, const std::vector<unsigned char>& slides) {
   for (const int exponent : contact.frictionExponents()) {
     const OwnedMat rows = contact.slipRows(system.transformation(), slip, slides, exponent);
-    terms.push_back({role.projection.friction(rows), role.power, exponent, 1.0, role.speedExponent,
-                     role.dampingExponent, true});
+    terms.push_back({.matrix = role.projection.friction(rows),
+                     .power = role.power,
+                     .frictionExponent = exponent,
+                     .speedExponent = role.speedExponent,
+                     .dampingExponent = role.dampingExponent,
+                     .ofFriction = true});
   }
 }
 
@@ -48,21 +53,22 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
   check(MatMatMult(contact.sliding.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
   check(MatMatMult(friction.response, jumps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, answered.out()));
   check(MatTransposeMatMult(jumps, answered, MAT_INITIAL_MATRIX, PETSC_DEFAULT, damping.out()));
-  // With a constant law only rounding is left in the plane, and where motion across the sliding
-  // direction is held.
+  // With a constant law only round-off is left in the plane, and if supports hold the motion across
+  // the sliding direction.
   PetscReal size = 0, scale = 0;
   check(MatNorm(damping, NORM_FROBENIUS, &size));
   check(MatNorm(friction.response, NORM_FROBENIUS, &scale));
   if (size <= 1e-14 * scale) return;
   check(MatSetOption(damping, MAT_SYMMETRIC, PETSC_TRUE));
-  terms.push_back({std::move(damping), 1, 0, 1.0, 0, 0, true});
+  terms.push_back({.matrix = std::move(damping), .power = 1, .ofFriction = true});
   if (!contact.sliding.convected) return;
   OwnedMat convected, turned, stiffness;
   check(MatMatMult(contact.sliding.convected, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    convected.out()));
   check(MatMatMult(friction.response, convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turned.out()));
   check(MatTransposeMatMult(jumps, turned, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness.out()));
-  terms.push_back({std::move(stiffness), 0, 0, -solution.at.speed, 0, 0, true});
+  terms.push_back(
+      {.matrix = std::move(stiffness), .factor = -solution.at.speed, .ofFriction = true});
 }
 
 }  // namespace
@@ -71,8 +77,10 @@ pencil::Pencil affineTerms(const contact::Contact& contact, const contact::Coupl
   std::vector<pencil::Term> terms;
   for (const auto& role : roles(system))
     if (role.projection)
-      terms.push_back({role.projection.matrix.share(), role.power, 0, 1.0, role.speedExponent,
-                       role.dampingExponent});
+      terms.push_back({.matrix = role.projection.matrix.share(),
+                       .power = role.power,
+                       .speedExponent = role.speedExponent,
+                       .dampingExponent = role.dampingExponent});
   pencil::Pencil pencil(std::move(terms));
   pencil.add(slidingTerms(contact, system, system.closed()));
   return pencil;
@@ -99,8 +107,8 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
   if (prestressChange) {
     contact::Projection change =
         contact::project(contact, system.transformation(), prestressChange);
-    addFriction(terms, {change, 0, 0, 0}, contact, system, solution.slip, solution.closed);
-    terms.push_back({std::move(change.matrix), 0, 0, 1.0, 0});
+    addFriction(terms, {.projection = change}, contact, system, solution.slip, solution.closed);
+    terms.push_back({.matrix = std::move(change.matrix)});
   }
   return terms;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The terms of the friction-perturbed problem [4.15, 4.16] are made from the coupled matrices and
-/// the steady state.
+/// The terms of the friction-perturbed problem [4.15, 4.16], from the coupled matrices and the
+/// steady state.
 #include "eigen/pencil/pencil.hpp"
 #include "model/contact/coupled.hpp"
 #include "problem/terms/settings.hpp"
@@ -25,7 +25,7 @@ std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
 /// gives [M.21]
 ///   (J T)ᵀ B (J T) in Z̄, the paper's f[A],
 ///   −v (J T)ᵀ B (D T) in K̄, the paper's f[B_T] + f[B_N], with convective terms.
-/// Both are left out where there is no friction. The last is `prestressChange`, N×N, the change of
+/// Both are omitted without friction. The last is `prestressChange`, N×N, the change of
 /// the geometric stiffness from that in `system`, with the friction that it causes; null: none.
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const contact::CoupledSystem& system,

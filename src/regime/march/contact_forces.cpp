@@ -52,7 +52,7 @@ double StepSolver::sweep(const std::vector<double>& friction,
           force[c - 1] = r[row + c] - slipStep_[node] * (d[row + c] + w_(row + c, row) * change[0]);
       const double squares = force[0] * force[0] + force[1] * force[1],
                    limit = friction[node] * normal;
-      // An infinite coefficient at no normal force is no number.
+      // An infinite coefficient times a zero normal force is not a number.
       const double factor = normal == 0               ? 0
                             : squares > limit * limit ? limit / std::sqrt(squares)
                                                       : 1;
@@ -61,7 +61,7 @@ double StepSolver::sweep(const std::vector<double>& friction,
     }
     const double most = std::max({std::abs(change[0]), std::abs(change[1]), std::abs(change[2])});
     largest = std::max(largest, most);
-    if (most <= negligible) continue;  // keeps W out of the cache for nothing
+    if (most <= negligible) continue;  // loading W into the cache is not worth it
     for (int c = 0; c < dimension_; ++c) r[row + c] += change[c];
     addColumns(w_, row, dimension_, change, d);
   }
@@ -73,7 +73,7 @@ int StepSolver::solve(const std::vector<double>& friction, const std::vector<uns
                       const StopAsked& asked) const {
   for (int count = 1; count <= mostSweeps; ++count) {
     if (asked && asked()) throw Interrupted();
-    // Forces far above those of steady sliding have rounding of their own.
+    // The tolerance of forces far above those of steady sliding is their round-off.
     double largest = 0;
     for (const double force : r) largest = std::max(largest, std::abs(force));
     const double accuracy = std::max(tolerance, 1e-10 * largest);

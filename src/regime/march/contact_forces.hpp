@@ -1,6 +1,6 @@
 #pragma once
-/// This file finds the contact forces of a time step: unilateral contact and Coulomb's cone at
-/// every node, for a jump that is affine in the forces [M.72].
+/// The contact forces of a time step: unilateral contact and Coulomb's cone at every node, for a
+/// jump that is affine in the forces [M.72].
 #include <vector>
 
 #include "base/system/termination.hpp"
@@ -8,7 +8,7 @@
 
 namespace squeal::march {
 
-/// What the forces of a step must satisfy, with the jump increments
+/// Solves for the forces R of a step and the jump increments
 ///   d = b + W R
 /// in rows of gaps and slips:
 ///   0 ≤ d_N ⟂ R_N ≥ 0,   |R_T| ≤ f R_N,   R_T = −f R_N d_T / |d_T| where d_T ≠ 0.
@@ -20,10 +20,10 @@ class StepSolver {
   StepSolver(DenseMatrix w, int dimension, std::vector<unsigned char> moves);
   const DenseMatrix& w() const { return w_; }
 
-  /// Improves forces R, of which d = b + W R is given, to a `tolerance`, N, and d with them.
+  /// Improves forces R to a `tolerance`, N, and d = b + W R, given for these forces, with them.
   /// active[node] is false for a node that is known to be open, whose forces are zero. Returns the
-  /// number of sweeps of the projected Gauss–Seidel method; throws Error after `mostSweeps`, and
-  /// Interrupted, on this rank alone, once asked() is true.
+  /// number of sweeps of the projected Gauss–Seidel method. Throws Error after `mostSweeps`. Throws
+  /// Interrupted, only on this rank, once asked() is true.
   int solve(const std::vector<double>& friction, const std::vector<unsigned char>& active,
             double tolerance, std::vector<double>& r, std::vector<double>& d,
             const StopAsked& asked = {}) const;
@@ -37,9 +37,9 @@ class StepSolver {
   std::vector<double> normalStep_, slipStep_;  // [node] steps of the projections, N/m
 };
 
-/// How far forces R and jumps d are from the conditions of StepSolver: the largest of −d_N and of
-/// |d_N| where R_N > 0, in m; of −R_N, |R_T| − f R_N and of the part of R_T that is not opposite to
-/// d_T, in N. Gaps are weighted by `stiffness`, N/m, so that the result is in N.
+/// Returns the largest violation of the conditions of StepSolver by forces R and jumps d: of −d_N
+/// and of |d_N| where R_N > 0, in m; of −R_N, |R_T| − f R_N and of the part of R_T that is not
+/// opposite to d_T, in N. Gaps are weighted by `stiffness`, N/m, so that the result is in N.
 double defect(int dimension, const std::vector<unsigned char>& moves,
               const std::vector<double>& friction, const std::vector<double>& r,
               const std::vector<double>& d, const std::vector<double>& stiffness);

@@ -78,7 +78,7 @@ std::vector<ModeOnset> onsets(const elasticity::Bodies& bodies, const contact::C
     const auto& eigenvalue = point.eigenvalues[shape.index];
     if (!eigenvalue.unstable) continue;
     const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
-    const auto forces = terms::motionForces(bodies, point.at, eigenvalue.s, u, prestress);
+    const auto forces = terms::motionForces(bodies, {point.at, eigenvalue.s, u, prestress});
     ModeOnset mode{.at = point.at, .mode = shape.index, .s = eigenvalue.s};
     mode.onset = firstEvent(nodes, motionAt(contact, nodes, eigenvalue.s, u, forces.forces));
     if (mode.onset.event != OnsetEvent::none) {

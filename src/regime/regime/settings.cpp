@@ -13,14 +13,14 @@ const RealListOption frictionOption(
     "they are added to those of -flutter_friction",
     true);
 
-const RealOption timeOption(
-    "regime", "regime_time", 0, "s", nonNegative,
-    "maximum simulated time, at least 32 cycles of the mode; 0: the longer of 400 cycles and 10 "
-    "e-folding times of the mode, but no more than 4000 cycles");
+const RealOption timeOption("regime", "regime_time", 0, "s", nonNegative,
+                            "maximum simulated time, at least 32 cycles of the mode; 0 = automatic "
+                            "(the longer of 400 cycles "
+                            "and 10 e-folding times of the mode, at most 4000 cycles)");
 const RealOption stepOption(
     "regime", "regime_step", 0, "s", nonNegative,
-    "time step, at least 16 in a period of the mode and at most 1e8 in a march; 0: a 128th of the "
-    "period, but no more than 0.8 of the stable step");
+    "time step, at least 16 in a period of the mode and at most 1e8 in a march; 0 = automatic (a "
+    "128th of the period, at most 0.8 of the stable step)");
 const RealOption startOption(
     "regime", "regime_start_factor", 0.5, "", Range{0, 100, true, false},
     "initial amplitude relative to the one at which the first node separates or sticks");

@@ -59,11 +59,12 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
   if (point.shapes.empty()) return;
   const OwnedMat prestress = steady::prestressOf(*analysis.mesh, analysis.bodies, solution);
   const auto friction = terms::frictionState(analysis.contact, solution, terms::Settings::given());
-  for (auto& shape : point.shapes)
+  for (auto& shape : point.shapes) {
+    const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
     shape.frictionWork =
-        terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction, point.at,
-                            point.eigenvalues[shape.index].s,
-                            linalg::ComplexVector::copied(shape.real, shape.imaginary), prestress);
+        terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction,
+                            {point.at, point.eigenvalues[shape.index].s, u, prestress});
+  }
   if (!sensitivity::Settings::given().wanted) return;
   Stage stage(analysis.mesh->comm, "flutter");
   influences.derive(point, pencil, {point.at, system, solution, prestress}, start);

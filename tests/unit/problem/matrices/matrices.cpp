@@ -117,7 +117,7 @@ TEST(Matrices, WhatIsNoVibrationIsSaid) {
 
 TEST(Matrices, OptionsThatMakeNoProblem) {
   const std::string options = problem("options", unit, belt, drag),
-                    mass = writeRows("alone.mtx", unit);
+                    mass = writeRows("single.mtx", unit);
   const std::vector<std::pair<std::string, std::string>> cases{
       {options + "-matrices_m_role weight", "option -matrices_m_role weight"},
       {"-matrices_m_file " + mass, "option -matrices_m_role"},

@@ -268,7 +268,7 @@ TEST(Hdf5, OtherTypesAndKinds) {
          for (const std::string name : {"indptr", "indices", "data"})
            file.dataset("k/" + name, H5T_NATIVE_DOUBLE, numbers.data(), {3});
        },
-       "dataset 'indptr': integers are expected, it holds reals"},
+       "dataset 'indptr': integers are expected, it contains reals"},
       {"complex",
        [&](const Hdf5File& file) {
          file.group("k");
@@ -276,13 +276,13 @@ TEST(Hdf5, OtherTypesAndKinds) {
          file.dataset("k/indices", H5T_NATIVE_LLONG, Group{}.index.data(), {3});
          file.dataset("k/data", pair, pairs.data(), {3});
        },
-       "dataset 'data': real numbers are expected, it holds a compound type, as complex numbers "
+       "dataset 'data': real numbers are expected, it contains a compound type, as complex numbers "
        "are"},
       {"complex_table",
        [&](const Hdf5File& file) {
          file.dataset("k", pair, pairs.data(), {2, 2});
        },
-       "holds no matrix"},
+       "contains no matrix"},
       {"two_dimensions",
        [&](const Hdf5File& file) {
          file.group("k");
@@ -347,7 +347,7 @@ TEST(Hdf5, WhatWasNeverWritten) {
       {"elsewhere", around([](const auto& file) {
          file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {}, "/dev/null");
        }),
-       "its values lie in other files"},
+       "its values are in other files"},
   });
 }
 

@@ -114,10 +114,10 @@ TEST(MatrixMarket, WhatIsRefusedByLine) {
       {"outside_column", size2 + "1\n1 -1 1\n", "line 3: column -1 is outside of 1 to 2"},
       {"both", head + "real symmetric\n2 2 2\n2 1 4\n1 2 4\n",
        "line 4: the entry in row 1 and column 2 is above the diagonal, earlier ones are below it: "
-       "the format stores the lower triangle of a symmetric matrix alone"},
+       "the format stores only the lower triangle of a symmetric matrix"},
       {"both_upper", head + "real skew-symmetric\n3 3 3\n1 2 4\n1 3 4\n% c\n3 1 4\n",
        "line 6: the entry in row 3 and column 1 is below the diagonal, earlier ones are above it: "
-       "the format stores the lower triangle of a skew-symmetric matrix alone"},
+       "the format stores only the lower triangle of a skew-symmetric matrix"},
       {"skew_diagonal", head + "real skew-symmetric\n2 2 1\n1 1 4\n",
        "line 3: the diagonal of a skew-symmetric matrix is zero"},
       {"half", head + "integer general\n1 1 1\n1 1 1.5\n",
@@ -141,7 +141,7 @@ TEST(MatrixMarket, WhatIsRefusedByLine) {
       {"no_rows", real + "0 0 0\n", "a matrix without rows"},
       {"array_short", array + "2 2\n1\n2\n3\n", "the file ends after 3 of the 4 entries"},
       {"array_surplus", array + "1 1\n1\n2\n", "line 4: more than the 1 entries"},
-      {"array_words", array + "2 2\n1 2\n3 4\n", "line 3: 2 words where the next value alone"},
+      {"array_words", array + "2 2\n1 2\n3 4\n", "line 3: 2 words where only the next value"},
       // Of the number in a header no memory is taken: an error at once.
       {"long", real + "2000000000 2000000000 1\n1 1 1\n", "2000000000 rows with 1 entries"},
       {"longer", real + "3000000000 3000000000 1\n1 1 1\n",
@@ -190,7 +190,7 @@ TEST(MatrixFiles, TheFormatIsToldByTheContent) {
   EXPECT_TRUE(contains(errorReading("/dev/zero"), "not a regular file"));
   // A name within a file that has none is not passed over.
   EXPECT_TRUE(contains(errorReading(writeFile("single.mtx", size2 + "1\n1 1 1\n"), "k"),
-                       "it holds no 'k'"));
+                       "it contains no 'k'"));
 }
 
 TEST(MatrixFiles, NormsThatOverflowAreSaid) {

@@ -208,7 +208,7 @@ TEST(Matlab, WhatIsWrongIsNamed) {
       {"v4_index", version4(false, 2, 2, 3, "k", {3, 2, 1, 2, 7, 0}), "row 2 and column 0"},
       {"v4_huge", version4(false, 2, 1, 3, "k", {2e9, 2e9, 0}), "2000000000 rows with 0 entries"},
       {"v4_cut", version4(false, 0, 2000000000, 2000000000, "k", small),
-       "longer than what is left"},
+       "longer than the rest of the file"},
   };
   for (const auto& [name, bytes, message] : cases) {
     const std::string error = errorReading(writeFile(name + ".mat", bytes));

@@ -64,7 +64,7 @@ TEST(Surface, OfABox) {
                   return Point{0, x[0], 0};
                 }),
                 2 * 8 / 3.0 * 0.5, 1e-12);
-    // Shear along the faces is silent, but for the bottom and top, where v_n = x.
+    // Shear along the faces is silent, except at the bottom and top, where v_n = x.
     EXPECT_NEAR(integral([](const Point& x) {
                   return Point{0, 0, x[0]};
                 }),

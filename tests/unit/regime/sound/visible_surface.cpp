@@ -1,4 +1,4 @@
-// What is heard and seen outside of motions that are made by hand.
+// The visible surface in prescribed motions.
 #include "regime/sound/visible_surface.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ struct Box {
 constexpr int samples = 640, cycles = 20;  // whole cycles: amplitudes are exact in a line
 constexpr double atFirst = 0.3, atSecond = 0.2;
 
-/// Velocities a cos ωt of the first and b sin ωt of the second mode, of the last rank alone.
+/// Velocities a cos ωt of the first and b sin ωt of the second mode, only on the last rank.
 sound::Trace traceOf(int& root) {
   int rank = 0, size = 1;
   check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
@@ -87,7 +87,7 @@ TEST(Sound, OfNoSamplesIsUnknown) {
   EXPECT_EQ(seen.frames.time.size(), 0u);
 }
 
-// Clamped all round, a body is silent, and has no point to be looked at.
+// A body that is clamped all round is silent, and has no spectrum at a point.
 TEST(Sound, OfNothingVisible) {
   const Box made(
       "-constraint_tip_clamped xyz -constraint_right_clamped xyz -constraint_left_clamped xyz "
