@@ -14,7 +14,7 @@ Target target() {
            "-prefix_push material_\n-disc_density 7200 # one\n-prefix_pop\n-modes_count 5\r\n",
            "-options_string_yaml \"{modes: {count: 5}}\"\n-motion_disc_axis -1e3,.5,+2\n"},
           [](const std::string& path) {
-            check(PetscOptionsClear(nullptr));
+            clearOptions();
             insert(settingsOfFile(path));
             rejectUnknownOptions();
           }};

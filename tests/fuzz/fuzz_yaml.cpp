@@ -20,7 +20,7 @@ Target target() {
            "{\"modes\": {\"count\": 5}, \"flutter\": {\"band\": 1.5}}\n",
            "report:\n  dir: >\n    folded\n    text\n  fields: |\n    off\n"},
           [](const std::string& path) {
-            check(PetscOptionsClear(nullptr));
+            clearOptions();
             insert(settingsOfFile(path));
             rejectUnknownOptions();
           }};

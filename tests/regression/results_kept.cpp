@@ -58,24 +58,17 @@ TEST(ResultsKept, ReplacedByExactlyThoseOfTheNewRun) {
   EXPECT_EQ(listed(folder).size(), filesIn(folder).size() - mine.size());
 }
 
-// Version 0.1.0 kept no manifest. Its results are known by summary.json and options.txt, its files
-// by the names it documents.
-TEST(ResultsKept, OfTheVersionWithoutManifest) {
-  const std::string name = placeOf("former");
+// Without its manifest nothing shows which files are those of a run.
+TEST(ResultsKept, OfAFolderWithoutItsManifest) {
+  const std::string name = placeOf("unlisted");
   const fs::path folder = copyOfEarlier(name);
   fs::remove(folder / "manifest.txt");
-  put(folder, {{"stability.png", "plot"}, {"stability_map.png", "plot"}});
-  const Files more{{"steady_0.25.csv", "mine"},
-                   {"vtk/steady_friction_0.25.pvtu", "mine"}};  // no point of that run
-  put(folder, more);
+  const Files before = filesIn(folder);
   const ProgramRun run =
       runAgain(name, 1, commandLine(with(layer, {{"flutter_friction", "0.1"}})), 60);
-  ASSERT_EQ(run.exitCode, 0) << run.error;
-  Files all = mine;
-  all.insert(more.begin(), more.end());
-  expectOnly(folder, listed(folder), all);
-  EXPECT_FALSE(fs::exists(folder / "steady_0.2.csv"));
-  EXPECT_FALSE(fs::exists(folder / "stability.png"));
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_NE(run.error.find("option -report_dir"), std::string::npos) << run.error;
+  EXPECT_EQ(differing(before, filesIn(folder)), none);
 }
 
 // What has the name of a result and is of no run: an error before work begins, which a line of the

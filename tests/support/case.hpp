@@ -15,7 +15,7 @@ namespace squeal::test {
 
 /// Collective. Runs with these options alone.
 inline analysis::Analysis runOptions(const std::string& options) {
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insert(settingsOfText("-quiet " + options));
   analysis::checkOptions();
   return analysis::analyse(PETSC_COMM_WORLD);
@@ -23,7 +23,7 @@ inline analysis::Analysis runOptions(const std::string& options) {
 
 /// Collective. Runs a case file with a few options changed.
 inline analysis::Analysis runCase(const std::string& name, const std::string& changes = {}) {
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insertFile(PETSC_COMM_WORLD, "options/" + name + ".yaml");
   insert(settingsOfText("-quiet " + changes));
   analysis::checkOptions();

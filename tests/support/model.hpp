@@ -25,13 +25,13 @@ namespace squeal::test {
 
 /// The options database holds these alone.
 inline void setOptions(const std::string& options) {
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insert(settingsOfText("-quiet " + options));
 }
 
 /// The same for a case file with changes.
 inline void setCase(const std::string& name, const std::string& changes = {}) {
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insertFile(PETSC_COMM_WORLD, "options/" + name + ".yaml");
   insert(settingsOfText("-quiet " + changes));
 }

@@ -173,7 +173,7 @@ TEST(FixedFriction, IsExported) {
   const std::string options =
       twoPlates + "-contact_lower_friction 0.2 -flutter_friction 0,0.4 -modes_count 20 ";
   const auto written = runOptions(options + "-report_matrices " + folder);
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insertFile(PETSC_COMM_WORLD, folder + "/options.txt");
   insert(settingsOfText("-quiet"));
   analysis::checkOptions();

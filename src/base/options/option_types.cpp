@@ -1,13 +1,10 @@
 #include "base/options/option_types.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 
 #include "base/options/options.hpp"
@@ -29,19 +26,12 @@ std::map<std::string, std::string>& recipe() {
   return values;
 }
 
-/// While the options given are checked before the run, asking for one does not mean that the run
-/// uses it.
-bool validating = false;
-
 /// Returns the value of an option; none if it was not given.
 std::optional<std::string> valueGiven(const std::string& name) {
-  const char* value = nullptr;
-  PetscBool set = PETSC_FALSE;
-  check(PetscOptionsFindPair(nullptr, nullptr, ("-" + name).c_str(), &value, &set));
-  // PETSc, asked for a_1_b, also takes a_b.
-  static const std::regex numbered("_[0-9]+_");
-  if (!set || (std::regex_search(name, numbered) && !givenOptions().count(name))) return {};
-  return value ? value : "";
+  const auto& given = givenOptions();
+  const auto entry = given.find(name);
+  if (entry == given.end()) return {};
+  return entry->second;
 }
 
 }  // namespace
@@ -104,13 +94,17 @@ std::vector<std::string> Option::subjects() const {
   return {found.begin(), found.end()};
 }
 
-std::string Option::text(const std::string& subject) const {
+std::string Option::value(const std::string& subject) const {
   const std::string full = fullName(subject);
   const auto given = valueGiven(full);
   if (!given && required) throw Error("option -" + full + " is missing: " + meaning);
-  const std::string value = trimmed(given.value_or(defaultText));
-  if (!validating) recipe()[full] = value;
-  return value;
+  return trimmed(given.value_or(defaultText));
+}
+
+std::string Option::text(const std::string& subject) const {
+  const std::string text = value(subject);
+  recipe()[fullName(subject)] = text;
+  return text;
 }
 
 std::string Option::named(const std::string& subject, const std::string& value) const {
@@ -167,8 +161,7 @@ RealOption::RealOption(std::string stage, std::string name, std::optional<double
              std::move(unit), std::move(meaning), range.text(), !byDefault),
       range_(range) {}
 
-double RealOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
+double RealOption::parsed(const std::string& subject, const std::string& value) const {
   const double x = number(subject, value);
   if (!range_.holds(x)) reject(subject, value);
   return x;
@@ -180,8 +173,8 @@ WordOrRealOption::WordOrRealOption(std::string stage, std::string name, double b
              std::move(meaning), "'" + word + "' or a number"),
       word_(std::move(word)) {}
 
-std::optional<double> WordOrRealOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
+std::optional<double> WordOrRealOption::parsed(const std::string& subject,
+                                               const std::string& value) const {
   return value == word_ ? std::nullopt : std::optional(number(subject, value));
 }
 
@@ -192,8 +185,7 @@ IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault,
       lowest_(lowest),
       highest_(highest) {}
 
-int IntegerOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
+int IntegerOption::parsed(const std::string& subject, const std::string& value) const {
   int x = 0;
   const auto [stop, error] = std::from_chars(value.data(), value.data() + value.size(), x);
   if (error != std::errc() || stop != value.data() + value.size() || x < lowest_ || x > highest_)
@@ -217,8 +209,8 @@ void RealListOption::requireLength(const std::string& subject, const std::string
                           named(subject, value.substr(0, 40)).c_str(), length, longestList));
 }
 
-std::vector<double> RealListOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
+std::vector<double> RealListOption::parsed(const std::string& subject,
+                                           const std::string& value) const {
   std::vector<double> list;
   const auto parts = split(value, ':');
   if (ranges_ && parts.size() > 1) {
@@ -254,8 +246,7 @@ FlagOption::FlagOption(std::string stage, std::string name, bool byDefault, std:
     : Option(std::move(stage), std::move(name), byDefault ? "on" : "off", "", std::move(meaning),
              "on or off") {}
 
-bool FlagOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
+bool FlagOption::parsed(const std::string& subject, const std::string& value) const {
   if (value.empty() || value == "on" || value == "true" || value == "yes" || value == "1")
     return true;
   if (value == "off" || value == "false" || value == "no" || value == "0") return false;
@@ -268,8 +259,7 @@ ChoiceOption::ChoiceOption(std::string stage, std::string name, std::vector<std:
              joined(choices, " or ")),
       choices_(std::move(choices)) {}
 
-std::string ChoiceOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
+std::string ChoiceOption::parsed(const std::string& subject, const std::string& value) const {
   if (std::find(choices_.begin(), choices_.end(), value) == choices_.end()) reject(subject, value);
   return value;
 }
@@ -279,8 +269,7 @@ TextOption::TextOption(std::string stage, std::string name, std::optional<std::s
     : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning),
              "text", !byDefault) {}
 
-std::string TextOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
+std::string TextOption::parsed(const std::string& subject, const std::string& value) const {
   if (value.empty() && given(subject)) reject(subject, "without a value");
   return value;
 }
@@ -298,7 +287,7 @@ FileOption::FileOption(std::string stage, std::string name, std::string meaning)
     : Option(std::move(stage), std::move(name), "", "", std::move(meaning), "a file", true) {}
 
 void FileOption::validate(const std::string& subject) const {
-  const std::string path = text(subject);
+  const std::string path = value(subject);
   onFirstRank(PETSC_COMM_WORLD, named(subject, path) + ": ", [&] {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) throw Error("this is a folder");
@@ -354,10 +343,6 @@ nlohmann::json TextOption::valueSchema() const {
 nlohmann::json FileOption::valueSchema() const { return {{"type", "string"}, {"minLength", 1}}; }
 
 void validateGivenOptions() {
-  struct Validation {
-    Validation() { validating = true; }
-    ~Validation() { validating = false; }  // after an Error as well
-  } validation;
   for (const auto* option : Option::all())
     for (const auto& subject : option->name.find('<') == std::string::npos
                                    ? std::vector<std::string>{""}

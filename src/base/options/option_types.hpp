@@ -47,8 +47,10 @@ class Option {
          std::string meaning, std::string rule, bool required = false);
   ~Option() = default;
   Option(const Option&) = delete;
-  /// Returns the text given by the user, without blanks around it, or the default, and records it
-  /// for the recipe. Throws Error if an option without default is not given.
+  /// Returns the text given by the user, without blanks around it, or the default. Throws Error if
+  /// an option without default is not given.
+  std::string value(const std::string& subject) const;
+  /// Returns the same, and records that the run uses this option.
   std::string text(const std::string& subject) const;
   /// Returns a text such as "option -part_disc_length -1 (disc.yaml, line 3)".
   std::string named(const std::string& subject, const std::string& value) const;
@@ -82,11 +84,13 @@ class RealOption : public Option {
   /// Declares an option. Without `byDefault` it is required wherever it is asked for.
   RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit,
              Range range, std::string meaning);
-  double get(const std::string& subject = {}) const;
-  void validate(const std::string& subject) const override { get(subject); }
+  double get(const std::string& subject = {}) const { return parsed(subject, text(subject)); }
+  void validate(const std::string& subject) const override { parsed(subject, value(subject)); }
   nlohmann::json valueSchema() const override;
 
  private:
+  /// Throws Error unless the text is a value of this option.
+  double parsed(const std::string& subject, const std::string& text) const;
   Range range_;
 };
 
@@ -96,11 +100,15 @@ class WordOrRealOption : public Option {
   WordOrRealOption(std::string stage, std::string name, double byDefault, std::string unit,
                    std::string word, std::string meaning);
   /// Returns the number, or nothing for the word.
-  std::optional<double> get(const std::string& subject = {}) const;
-  void validate(const std::string& subject) const override { get(subject); }
+  std::optional<double> get(const std::string& subject = {}) const {
+    return parsed(subject, text(subject));
+  }
+  void validate(const std::string& subject) const override { parsed(subject, value(subject)); }
   nlohmann::json valueSchema() const override;
 
  private:
+  /// Throws Error unless the text is a value of this option.
+  std::optional<double> parsed(const std::string& subject, const std::string& text) const;
   std::string word_;
 };
 
@@ -108,11 +116,13 @@ class IntegerOption : public Option {
  public:
   IntegerOption(std::string stage, std::string name, int byDefault, int lowest, int highest,
                 std::string meaning);
-  int get(const std::string& subject = {}) const;
-  void validate(const std::string& subject) const override { get(subject); }
+  int get(const std::string& subject = {}) const { return parsed(subject, text(subject)); }
+  void validate(const std::string& subject) const override { parsed(subject, value(subject)); }
   nlohmann::json valueSchema() const override;
 
  private:
+  /// Throws Error unless the text is a value of this option.
+  int parsed(const std::string& subject, const std::string& text) const;
   int lowest_, highest_;
 };
 
@@ -123,14 +133,18 @@ class RealListOption : public Option {
  public:
   RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit,
                  Range range, std::string meaning, bool ranges = false);
-  std::vector<double> get(const std::string& subject = {}) const;
-  void validate(const std::string& subject) const override { get(subject); }
+  std::vector<double> get(const std::string& subject = {}) const {
+    return parsed(subject, text(subject));
+  }
+  void validate(const std::string& subject) const override { parsed(subject, value(subject)); }
   nlohmann::json valueSchema() const override;
   /// Returns the values as a vector, in the plane with a zero in place of a third one that is not
   /// given. Throws Error unless there are three; two are enough for a mesh in the plane.
   std::array<double, 3> components(const std::string& subject, int dimension) const;
 
  private:
+  /// Throws Error unless the text is a value of this option.
+  std::vector<double> parsed(const std::string& subject, const std::string& text) const;
   void requireLength(const std::string& subject, const std::string& value, double length) const;
   Range range_;
   bool ranges_;
@@ -139,20 +153,26 @@ class RealListOption : public Option {
 class FlagOption : public Option {
  public:
   FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning);
-  bool get(const std::string& subject = {}) const;
-  void validate(const std::string& subject) const override { get(subject); }
+  bool get(const std::string& subject = {}) const { return parsed(subject, text(subject)); }
+  void validate(const std::string& subject) const override { parsed(subject, value(subject)); }
   nlohmann::json valueSchema() const override;
+
+ private:
+  /// Throws Error unless the text is a value of this option.
+  bool parsed(const std::string& subject, const std::string& text) const;
 };
 
 class ChoiceOption : public Option {
  public:
   ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices,
                std::string byDefault, std::string meaning);
-  std::string get(const std::string& subject = {}) const;
-  void validate(const std::string& subject) const override { get(subject); }
+  std::string get(const std::string& subject = {}) const { return parsed(subject, text(subject)); }
+  void validate(const std::string& subject) const override { parsed(subject, value(subject)); }
   nlohmann::json valueSchema() const override;
 
  private:
+  /// Throws Error unless the text is a value of this option.
+  std::string parsed(const std::string& subject, const std::string& text) const;
   std::vector<std::string> choices_;
 };
 
@@ -161,12 +181,16 @@ class TextOption : public Option {
   /// Declares an option. Without `byDefault` it is required wherever it is asked for.
   TextOption(std::string stage, std::string name, std::optional<std::string> byDefault,
              std::string meaning);
-  std::string get(const std::string& subject = {}) const;
-  void validate(const std::string& subject) const override { get(subject); }
+  std::string get(const std::string& subject = {}) const { return parsed(subject, text(subject)); }
+  void validate(const std::string& subject) const override { parsed(subject, value(subject)); }
   nlohmann::json valueSchema() const override;
   /// Returns the text split at commas, without the blanks beside them; empty if the option is not
   /// given and its default is empty. Throws Error for an empty item.
   std::vector<std::string> list(const std::string& subject = {}) const;
+
+ private:
+  /// Throws Error unless the text is a value of this option.
+  std::string parsed(const std::string& subject, const std::string& text) const;
 };
 
 /// A FileOption names a file to be read. If an options file names it, it is sought beside that

@@ -3,15 +3,11 @@
 #include <petscsys.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "base/options/settings.hpp"
 #include "base/petsc/check.hpp"
-#include "base/petsc/owned.hpp"
 #include "base/system/text.hpp"
 
 namespace squeal {
@@ -158,7 +154,7 @@ void rejectUnknownOptions() {
       if (option->fullName("") == name && option->name != name)
         throw Error("option -" + name + ": the name in it is empty; it should be -" + option->name);
     const std::string nearest = nearestName(name);
-    const auto given = givenOptions();
+    const auto& given = givenOptions();
     throw Error("unknown " + optionText(name, "", given.count(name) ? given.at(name) : "") +
                 (nearest.empty() ? "" : "; did you mean -" + nearest + "?") +
                 " (squeal -help lists all options)");
@@ -245,29 +241,6 @@ std::string manualAsJson(const std::string& wanted) {
     page["solvers"].push_back(std::move(entry));
   }
   return page.dump(1) + "\n";
-}
-
-std::map<std::string, std::string> givenOptions() {
-  // PETSc offers no list of names and values; its viewer prints one to a line, and neither holds a
-  // line break.
-  char* text = nullptr;
-  std::size_t size = 0;
-  std::FILE* stream = open_memstream(&text, &size);
-  if (!stream) throw std::bad_alloc();
-  OwnedViewer viewer;
-  check(PetscViewerASCIIOpenWithFILE(PETSC_COMM_SELF, stream, viewer.out()));
-  check(PetscOptionsView(nullptr, viewer));
-  viewer = {};
-  std::fclose(stream);
-  std::istringstream lines(std::string(text, size));
-  std::free(text);
-  std::map<std::string, std::string> given;
-  for (std::string line; std::getline(lines, line);) {
-    if (line[0] != '-') continue;  // head and foot
-    const auto blank = std::min(line.find(' '), line.size());
-    given[line.substr(1, blank - 1)] = blank < line.size() ? line.substr(blank + 1) : "";
-  }
-  return given;
 }
 
 }  // namespace squeal

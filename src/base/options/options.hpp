@@ -4,11 +4,11 @@
 #include <petscsys.h>
 
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "base/options/option_types.hpp"
+#include "base/options/settings.hpp"
 
 namespace squeal {
 
@@ -53,9 +53,5 @@ std::string manual(const std::string& stage = {});
 /// Schema) and the `solvers` (stage, prefix, meaning). Of one stage alone unless `stage` is empty;
 /// throws Error for a word that is none.
 std::string manualAsJson(const std::string& stage = {});
-
-/// Returns name and value of every given option, those of PETSc included, whether from a file or
-/// the command line.
-std::map<std::string, std::string> givenOptions();
 
 }  // namespace squeal

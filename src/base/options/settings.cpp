@@ -287,15 +287,16 @@ void requireRoom(const std::vector<Setting>& settings) {
                           mostOptions));
 }
 
-std::map<std::string, Setting>& record() {
-  static std::map<std::string, Setting> settings;
-  return settings;
-}
+/// The options of this run, as PETSc's database holds them.
+struct Record {
+  std::map<std::string, std::string> values;  ///< by name
+  std::map<std::string, Setting> places;      ///< where they stand, by name
+  std::map<std::string, Setting> fromFiles;   ///< settings of files that were replaced, by name
+};
 
-/// Returns the settings of files that were replaced, by the names of their options.
-std::map<std::string, Setting>& replaced() {
-  static std::map<std::string, Setting> settings;
-  return settings;
+Record& record() {
+  static Record options;
+  return options;
 }
 
 }  // namespace
@@ -348,17 +349,12 @@ std::vector<Setting> settingsOfFile(const std::string& file) {
 }
 
 std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRankZero) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
   std::string packed;  // no text holds a line break
-  if (rank == 0)
+  if (mpi::rank(comm) == 0)
     for (const auto& setting : ofRankZero)
       packed += setting.name + "\n" + setting.value + "\n" + setting.file + "\n" +
                 std::to_string(setting.line) + "\n";
-  int length = packed.size();
-  check(MPI_Bcast(&length, 1, MPI_INT, 0, comm));
-  packed.resize(length);
-  check(MPI_Bcast(packed.data(), length, MPI_CHAR, 0, comm));
+  mpi::broadcast(comm, packed);
   const auto parts = split(packed, '\n');
   std::vector<Setting> settings;
   for (std::size_t i = 0; i + 3 < parts.size(); i += 4)
@@ -367,13 +363,28 @@ std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRan
 }
 
 void insert(const std::vector<Setting>& settings) {
+  auto& [values, places, fromFiles] = record();
   for (const auto& setting : settings) {
     check(PetscOptionsSetValue(nullptr, ("-" + setting.name).c_str(), setting.value.c_str()));
-    Setting& inForce = record()[setting.name];
-    if (!inForce.file.empty() && inForce.value != setting.value) replaced()[setting.name] = inForce;
-    inForce = setting;
+    values[setting.name] = setting.value;
+    Setting& latest = places[setting.name];
+    if (!latest.file.empty() && latest.value != setting.value) fromFiles[setting.name] = latest;
+    latest = setting;
   }
 }
+
+void clearOptions() {
+  check(PetscOptionsClear(nullptr));
+  record() = {};
+}
+
+void removeOption(const std::string& name) {
+  check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));
+  auto& [values, places, fromFiles] = record();
+  values.erase(name), places.erase(name), fromFiles.erase(name);
+}
+
+const std::map<std::string, std::string>& givenOptions() { return record().values; }
 
 void insertFile(MPI_Comm comm, const std::string& file) {
   std::vector<Setting> settings;
@@ -382,9 +393,10 @@ void insertFile(MPI_Comm comm, const std::string& file) {
 }
 
 Setting origin(const std::string& name, const std::string& value) {
-  const auto known = record().find(name);
-  return known != record().end() && known->second.value == value ? known->second
-                                                                 : Setting{name, value, "", 0};
+  const auto& places = record().places;
+  const auto known = places.find(name);
+  return known != places.end() && known->second.value == value ? known->second
+                                                               : Setting{name, value, "", 0};
 }
 
 std::string optionText(const std::string& name, const std::string& value,
@@ -396,8 +408,9 @@ std::string optionText(const std::string& name, const std::string& value,
 
 std::vector<std::string> replacedSettings() {
   std::vector<std::string> lines;
-  for (const auto& [name, earlier] : replaced())
-    if (const auto& value = record()[name].value; value != earlier.value)
+  const auto& [values, places, fromFiles] = record();
+  for (const auto& [name, earlier] : fromFiles)
+    if (const auto& value = values.at(name); value != earlier.value)
       lines.push_back("option -" + name + " " + value + " replaces " + earlier.value + " (" +
                       earlier.place() + ")");
   return lines;

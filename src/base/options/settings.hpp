@@ -8,6 +8,7 @@
 /// PETSc's.
 #include <mpi.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -48,11 +49,20 @@ std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRan
 /// Not collective. Puts options into PETSc's database on this rank and records their places.
 void insert(const std::vector<Setting>& settings);
 
+/// Not collective. Removes all options on this rank.
+void clearOptions();
+/// Not collective. Removes the option of this name on this rank.
+void removeOption(const std::string& name);
+
+/// Returns name and value of every given option, those of PETSc included, whether from a file or
+/// the command line. Borrowed until the next insert().
+const std::map<std::string, std::string>& givenOptions();
+
 /// Collective. Reads an options file on rank 0 and inserts its settings on all ranks.
 void insertFile(MPI_Comm comm, const std::string& file);
 
-/// Returns the place where the value of an option was set, if it came through insert() and is still
-/// in force; otherwise a setting without a file.
+/// Returns the place where this value of an option was set; a setting without a file if the option
+/// does not have this value.
 Setting origin(const std::string& name, const std::string& value);
 
 /// Returns "option -a 2 (case.yaml, line 3)", with the place where the value `given` stands if it

@@ -192,10 +192,7 @@ void Folder::tidy(std::chrono::milliseconds patience) {
 }
 
 /// Returns the files of the earlier run.
-Manifest Folder::earlier() const {
-  if (const auto manifest = Manifest::read(path_)) return *manifest;
-  return naming_.former(path_);
-}
+Manifest Folder::earlier() const { return Manifest::read(path_).value_or(Manifest()); }
 
 void Folder::requireFree(const std::function<bool(const fs::path&)>& writes, const Manifest& ours,
                          const fs::path& inside) const {

@@ -21,9 +21,6 @@ struct Naming {
   std::string last;    ///< the file whose presence shows that all others are there
   /// Returns true if a run may write this path, relative to the folder: a file or a subfolder.
   std::function<bool(const std::filesystem::path&)> mayWrite;
-  /// Returns the files that a version without manifests left in a folder; an empty manifest if the
-  /// folder holds no results of such a version.
-  std::function<Manifest(const std::filesystem::path&)> former;
   /// Files whose presence marks a folder as one of ours, beside the manifest and what a killed run
   /// leaves; relative to the folder.
   std::vector<std::filesystem::path> marks = {};

@@ -150,25 +150,12 @@ bool isExport(const fs::path& path) {
          std::regex_match(path.string(), matrix);
 }
 
-/// Returns the files of an export by version 0.1.0, which kept no manifest.
-output::Manifest formerExport(const fs::path& folder) {
-  const fs::path path = folder / "options.txt";
-  if (!whyNotRegular(path).empty()) return {};
-  std::string line;
-  std::istringstream options(contentOfRegular(path).value_or(""));
-  if (!std::getline(options, line) || !line.starts_with(heading)) return {};
-  std::set<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (const auto name = entry.path().filename(); isExport(name) && !entry.is_directory())
-      files.insert(name);
-  return output::Manifest(files);
-}
-
 output::Naming naming() {
   const std::string folder = folderOption.get();
-  output::Naming naming{"-report_matrices", "options.txt", isExport, formerExport};
-  naming.ofCase = !origin("report_matrices", folder).file.empty();
-  return naming;
+  return {.option = "-report_matrices",
+          .last = "options.txt",
+          .mayWrite = isExport,
+          .ofCase = !origin("report_matrices", folder).file.empty()};
 }
 
 }  // namespace

@@ -1,10 +1,7 @@
 #include "run/report/names.hpp"
 
-#include <nlohmann/json.hpp>
 #include <regex>
-#include <sstream>
 
-#include "base/system/regular_file.hpp"
 #include "base/system/text.hpp"
 
 namespace squeal::report {
@@ -44,47 +41,6 @@ bool isGrid(const std::string& name, const std::vector<std::string>& parts) {
 }
 
 std::vector<std::string> partsOf(const fs::path& path) { return {path.begin(), path.end()}; }
-
-/// Returns the names that scripts/plot_stability.py of version 0.1.0 gives its plots: one for each
-/// value of what is swept beside the axes.
-std::set<std::string> plotNames(const std::vector<sweep::Parameters>& points) {
-  std::set<std::string> names;
-  for (const auto& at : points)
-    for (unsigned chosen = 0; chosen < 1U << sweep::allParameters.size(); ++chosen) {
-      std::string suffix;
-      for (std::size_t i = 0; i < sweep::allParameters.size(); ++i)
-        if (chosen & 1U << i)
-          suffix +=
-              formatted("_%s_%g", sweep::allParameters[i].name, at.*sweep::allParameters[i].value);
-      names.insert("stability" + suffix + ".png");
-      names.insert("stability_map" + suffix + ".png");
-    }
-  return names;
-}
-
-/// Returns the points in the summary of version 0.1.0; none if the folder is not of that version.
-std::vector<sweep::Parameters> formerPoints(const fs::path& folder) {
-  const fs::path optionsFile = folder / "options.txt", summaryFile = folder / "summary.json";
-  if (!whyNotRegular(optionsFile).empty() || !whyNotRegular(summaryFile).empty()) return {};
-  std::string line;
-  std::istringstream recipe(contentOfRegular(optionsFile).value_or(""));
-  if (!std::getline(recipe, line) || !line.starts_with("# squeal 0.1.0,")) return {};
-  const auto summary =
-      nlohmann::json::parse(contentOfRegular(summaryFile).value_or(""), nullptr, false);
-  if (!summary.is_object() || summary.value("version", nlohmann::json()) != "0.1.0" ||
-      !summary.contains("case") || !summary.contains("options") || !summary.contains("frictions"))
-    return {};
-  std::vector<sweep::Parameters> points;
-  for (const auto& entry : summary["frictions"]) {
-    sweep::Parameters at;
-    for (const auto& parameter : sweep::allParameters) {
-      if (!entry.contains(parameter.name) || !entry[parameter.name].is_number()) return {};
-      at.*parameter.value = entry[parameter.name];
-    }
-    points.push_back(at);
-  }
-  return points;
-}
 
 }  // namespace
 
@@ -135,23 +91,6 @@ bool ResultNames::isField(const std::vector<std::string>& parts) const {
   if (parts.size() == 1) return true;
   return !match[3].matched && std::regex_match(parts[1], match, frame) &&
          isGrid(match[1], {parts.begin() + 1, parts.end()});
-}
-
-output::Manifest formerResults(const fs::path& folder) {
-  const auto points = formerPoints(folder);
-  if (points.empty()) return {};
-  const ResultNames names(points);
-  const auto plots = plotNames(points);
-  std::set<fs::path> files;
-  for (auto entry = fs::recursive_directory_iterator(folder);
-       entry != fs::recursive_directory_iterator(); ++entry) {
-    const fs::path path = entry->path().lexically_relative(folder);
-    const bool ours = names.contains(path) || plots.contains(path);
-    const bool isFolder = fs::is_directory(entry->symlink_status());
-    if (isFolder && !ours) entry.disable_recursion_pending();
-    if (!isFolder && ours && path != output::Manifest::name) files.insert(path);
-  }
-  return output::Manifest(files);
 }
 
 }  // namespace squeal::report

@@ -1,6 +1,5 @@
 #pragma once
-/// These functions tell the names of the files of a run, and the files that a version without a
-/// manifest left.
+/// The names of the files of a run.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -31,10 +30,5 @@ class ResultNames {
   bool isField(const std::vector<std::string>& parts) const;
   std::set<std::string> points_;
 };
-
-/// Not collective. Returns the files in `folder` that version 0.1.0, which kept no manifest, left
-/// there, the plots of its scripts included; none unless summary.json and options.txt are of that
-/// version.
-output::Manifest formerResults(const std::filesystem::path& folder);
 
 }  // namespace squeal::report

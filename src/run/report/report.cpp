@@ -11,6 +11,8 @@
 #include "eigen/sweep/sweep.hpp"
 #include "run/report/fields.hpp"
 #include "run/report/names.hpp"
+#include "run/report/recipe.hpp"
+#include "run/report/stability_table.hpp"
 #include "run/report/summary.hpp"
 #include "run/report/tables.hpp"
 
@@ -37,12 +39,11 @@ bool isOfCase(const std::filesystem::path& folder) {
 
 output::Naming naming() {
   const auto names = std::make_shared<ResultNames>(sweep::grid(sweep::Settings::given()).points());
-  output::Naming naming{
-      folderOption, "summary.json",
-      [names](const std::filesystem::path& path) { return names->contains(path); }, formerResults};
   const std::filesystem::path part = "interrupted";
-  naming.marks = {part / output::Manifest::name, part / "checkpoint" / "identity.json"};
-  return naming;
+  return {.option = folderOption,
+          .last = "summary.json",
+          .mayWrite = [names](const std::filesystem::path& path) { return names->contains(path); },
+          .marks = {part / output::Manifest::name, part / "checkpoint" / "identity.json"}};
 }
 
 /// Returns the naming of the folder that the option names.
@@ -60,8 +61,8 @@ output::Naming namingOfPart() {
   return naming;
 }
 
+/// Collective. Writes all reports into the folder, which has been staged.
 void writeInto(const analysis::Analysis& analysis, output::Folder& folder) {
-  folder.stage();
   {
     Stage stage(analysis.comm, "report");
     writeTables(analysis, folder.staging());
@@ -71,14 +72,17 @@ void writeInto(const analysis::Analysis& analysis, output::Folder& folder) {
     }
     stage.finish("results in " + folder.path().string());
   }
-  writeRecipe(analysis, folder.staging());
+  writeRecipe(analysis.comm, folder.staging());
   writeSummary(analysis, folder.staging());  // after the last stage: it holds the times
   folder.commit();
 }
 
 }  // namespace
 
-Directory::Directory(MPI_Comm comm) : Folder(comm, namingOfOption(), directoryOption.get()) {}
+Directory::Directory(MPI_Comm comm) : Folder(comm, namingOfOption(), directoryOption.get()) {
+  stage();
+  writeRecipe(comm, staging());
+}
 
 void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::string& text) {
   onFirstRank(comm, std::string("option ") + folderOption + ": ",
@@ -100,6 +104,7 @@ void write(const analysis::Analysis& analysis, Directory& directory) {
   }
   try {
     output::Folder part(comm, namingOfPart(), directory.interrupted());
+    part.stage();
     writeInto(analysis, part);
   } catch (const Error& error) {
     return complain(comm, std::string("interrupted; what was found so far is not written: ") +
@@ -111,11 +116,11 @@ void write(const analysis::Analysis& analysis, Directory& directory) {
 }
 
 void removeInterrupted(MPI_Comm comm, const Directory& directory) {
-  int there = 0;
+  bool there = false;
   onFirstRank(comm, "", [&] {
     there = std::filesystem::is_directory(std::filesystem::symlink_status(directory.interrupted()));
   });
-  check(MPI_Bcast(&there, 1, MPI_INT, 0, comm));
+  mpi::broadcast(comm, there);
   if (there) try {
       output::Folder(comm, namingOfPart(), directory.interrupted()).discard();
     } catch (const Error& error) {  // the results are complete

@@ -13,7 +13,8 @@ namespace squeal::report {
 /// are complete.
 class Directory : public output::Folder {
  public:
-  /// Collective. Call it when all options have been checked. Throws Error as output::Folder does.
+  /// Collective. Call it when all settings have been read: it writes them to options.txt in
+  /// staging(), so that a run that is killed leaves them. Throws Error as output::Folder does.
   explicit Directory(MPI_Comm comm);
   /// Returns the folder inside it for what a run leaves that has been asked to stop.
   std::filesystem::path interrupted() const { return path() / "interrupted"; }
@@ -25,8 +26,8 @@ class Directory : public output::Folder {
 /// naming -report_dir, if a file cannot be written; the earlier results then stay.
 void write(const analysis::Analysis& analysis, Directory& directory);
 
-/// Collective. Removes what an interrupted run has left in interrupted(), but for its checkpoint. A
-/// failure gives a warning.
+/// Collective. Removes the results of an interrupted run in interrupted(), except its checkpoint. A
+/// failure is a warning.
 void removeInterrupted(MPI_Comm comm, const Directory& directory);
 
 /// Collective. Writes the file on rank 0. Throws Error on all ranks, naming -report_dir, if that

@@ -6,12 +6,14 @@
 #include "base/options/options.hpp"
 #include "base/session/session.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/report/report.hpp"
 #include "run/report/table_shapes.hpp"
+#include "run/report/verdict.hpp"
 #include "steady/steady/steady.hpp"
 
 namespace squeal::report {
@@ -177,93 +179,83 @@ Json regimeEntry(const regime::Study& study, const regime::Run& run) {
   return entry;
 }
 
-}  // namespace
+Json meshEntry(const mesh::Mesh& mesh, const contact::Contact& contact) {
+  Json entry = {{"nodes", mesh.totalNodes}, {"cells", mesh.totalCells}};
+  if (const auto& done = mesh.straightened; done.nodes > 0)
+    entry["straightened"] = {{"folded_cells", done.folded},
+                             {"cells", done.cells},
+                             {"nodes", done.nodes},
+                             {"rounds", done.rounds},
+                             {"largest_move_m", done.largestMove}};
+  entry["contact_nodes"] = contact.totalNodes;
+  entry["interfaces"] = interfaceEntries(contact);
+  return entry;
+}
 
-void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
-  int ranks = 1;
-  check(MPI_Comm_size(analysis.comm, &ranks));
-  Json summary;
-  summary["version"] = version();
-  const auto& options = resolvedOptions();
-  summary["case"] =
-      analysis.mesh ? std::filesystem::path(options.at("mesh_file")).stem().string() : "matrices";
-  summary["ranks"] = ranks;
-  summary["complete"] = !analysis.interrupted;
-  summary["resumed"] = analysis.checkpoint.resumed();
-  if (analysis.mesh) {
-    summary["nodes"] = analysis.mesh->totalNodes;
-    summary["cells"] = analysis.mesh->totalCells;
-    if (const auto& done = analysis.mesh->straightened; done.nodes > 0)
-      summary["straightened"] = {{"folded_cells", done.folded},
-                                 {"cells", done.cells},
-                                 {"nodes", done.nodes},
-                                 {"rounds", done.rounds},
-                                 {"largest_move_m", done.largestMove}};
-    summary["contact_nodes"] = analysis.contact.totalNodes;
-    summary["interfaces"] = interfaceEntries(analysis.contact);
+void addComplexModes(Json& entry, const pencil::ComplexModes& point) {
+  entry["eigenvalues"] = point.eigenvalues.size();
+  entry["worst_backward_error"] = point.worstBackwardError();
+  if (point.coveredTo > 0 && std::isfinite(point.coveredTo))
+    entry["covered_to_hz"] = point.coveredTo / (2 * M_PI);
+  if (point.bandTop > 0) {
+    entry["band_top_hz"] = finite(point.bandTop / (2 * M_PI));  // null: all eigenvalues
+    entry["free_modes_without_eigenvalue"] = point.modesWithoutEigenvalue();
+    entry["accuracy_asked"] = point.accuracy;
+    entry["tolerance_asked"] = point.tolerance;
+    entry["worst_error_estimate"] = finite(point.worstErrorEstimate());
+    entry["uncertified"] = point.uncertifiedCount();
   }
-  summary["method"] =
-      pencil::Settings::given().method == pencil::Method::direct ? "direct" : "reduced";
-  summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
-  summary["frictions"] = Json::array();
+  entry["unstable_modes"] = unstableModes(point);
+  entry["verdict"] = text(point.verdict());
+  for (const auto verdict : pencil::allVerdicts)
+    entry["verdicts"][text(verdict)] = point.count(verdict);
+}
+
+Json pointEntries(const analysis::Analysis& analysis) {
+  Json entries = Json::array();
   const auto points = analysis.sweep.points();
   const std::size_t steadyPoints = analysis.sweep.steadyPoints().size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     Json entry = parametersEntry(points[i]);
     if (i % steadyPoints < analysis.steady.size())
       entry["steady"] = steadyEntry(analysis.steady[i % steadyPoints]);
-    if (const auto* point = analysis.pointAt(points[i])) {
-      entry["eigenvalues"] = point->eigenvalues.size();
-      entry["worst_backward_error"] = point->worstBackwardError();
-      if (point->coveredTo > 0 && std::isfinite(point->coveredTo))
-        entry["covered_to_hz"] = point->coveredTo / (2 * M_PI);
-      if (point->bandTop > 0) {
-        entry["band_top_hz"] = finite(point->bandTop / (2 * M_PI));  // null: all eigenvalues
-        entry["free_modes_without_eigenvalue"] = point->modesWithoutEigenvalue();
-        entry["accuracy_asked"] = point->accuracy;
-        entry["tolerance_asked"] = point->tolerance;
-        entry["worst_error_estimate"] = finite(point->worstErrorEstimate());
-        entry["uncertified"] = point->uncertifiedCount();
-      }
-      entry["unstable_modes"] = unstableModes(*point);
-      entry["verdict"] = text(point->verdict());
-      for (const auto verdict : pencil::allVerdicts)
-        entry["verdicts"][text(verdict)] = point->count(verdict);
-    }
-    summary["frictions"].push_back(entry);
+    if (const auto* point = analysis.pointAt(points[i])) addComplexModes(entry, *point);
+    entries.push_back(std::move(entry));
   }
-  for (const auto& [speed, found] : analysis.uniqueness)
-    summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
-  summary["active_sets"] = Json::array();
-  for (const auto& segment : analysis.segments) {
-    Json entry;
-    for (const auto& [word, point] :
-         {std::pair{"first_", &segment.points.front()}, {"last_", &segment.points.back()}})
-      for (const auto& parameter : sweep::allParameters)
-        entry[std::string(word) + parameter.name] = point->at.*parameter.value;
-    entry["open_nodes"] = segment.openNodes;
-    entry["dofs"] = segment.unknowns;
-    entry["modes"] = segment.modes.angularFrequency.size();
-    if (segment.modes.rounding > 0) entry["modes_rounding_error"] = segment.modes.rounding;
-    entry["solves"] = segment.solves;
-    if (segment.modes.inertiaShift > 0)
-      entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
-                              {"eigenvalues_below", segment.modes.inertiaCount},
-                              {"confirmed", segment.modes.countConfirmed}};
-    for (const auto& followed : segment.followed)
-      entry["followed"].push_back(followedEntry(followed));
-    summary["active_sets"].push_back(entry);
-  }
-  for (const auto& event : analysis::contactPath(analysis))
-    summary["contact_path"].push_back({{"friction", event.at.friction},
-                                       {"speed", event.at.speed},
-                                       {"pressure", event.at.pressure},
-                                       {"position_m", event.position},
-                                       {"interface", analysis.contact.interfaces[event.interface]},
-                                       {"change", event.opens ? "opens" : "closes"}});
-  for (const auto& study : analysis.regimes)
-    for (const auto& run : study.runs) summary["regimes"].push_back(regimeEntry(study, run));
-  if (!analysis.failures.empty()) summary["failures"] = analysis.failures;
+  return entries;
+}
+
+Json activeSetEntry(const sweep_solver::ModalSegment& segment) {
+  Json entry;
+  for (const auto& [word, point] :
+       {std::pair{"first_", &segment.points.front()}, {"last_", &segment.points.back()}})
+    for (const auto& parameter : sweep::allParameters)
+      entry[std::string(word) + parameter.name] = point->at.*parameter.value;
+  entry["open_nodes"] = segment.openNodes;
+  entry["dofs"] = segment.unknowns;
+  entry["modes"] = segment.modes.angularFrequency.size();
+  if (segment.modes.rounding > 0) entry["modes_rounding_error"] = segment.modes.rounding;
+  entry["solves"] = segment.solves;
+  if (segment.modes.inertiaShift > 0)
+    entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
+                            {"eigenvalues_below", segment.modes.inertiaCount},
+                            {"confirmed", segment.modes.countConfirmed}};
+  for (const auto& followed : segment.followed)
+    entry["followed"].push_back(followedEntry(followed));
+  return entry;
+}
+
+Json contactEventEntry(const contact::Contact& contact, const analysis::PathEvent& event) {
+  return {{"friction", event.at.friction},
+          {"speed", event.at.speed},
+          {"pressure", event.at.pressure},
+          {"position_m", event.position},
+          {"interface", contact.interfaces[event.interface]},
+          {"change", event.opens ? "opens" : "closes"}};
+}
+
+/// Adds the cost of each stage, and the time of all.
+void addStages(Json& summary) {
   double total = 0;
   for (const auto& record : stageRecords()) {
     summary["stages"][record.name] = {{"wall_s", record.seconds},
@@ -274,7 +266,55 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     total += record.seconds;
   }
   summary["wall_s"] = total;
-  summary["options"] = options;
+}
+
+Json verdictEntry(const RunVerdict& verdict) {
+  return {
+      {"sentence", verdict.sentence},
+      {"points", verdict.points},
+      {"points_solved", verdict.pointsSolved},
+      {"points_unstable", verdict.pointsUnstable},
+      {"most_unstable_modes", verdict.mostUnstable},
+      {"undecided_eigenvalues", verdict.undecided},
+      {"uncertified_eigenvalues", verdict.uncertified},
+      {"critical_friction", verdict.criticalFriction ? Json(*verdict.criticalFriction) : Json()}};
+}
+
+/// Returns the head of the summary: the run and its problem.
+Json runEntry(const analysis::Analysis& analysis) {
+  const auto& options = resolvedOptions();
+  Json entry;
+  entry["version"] = version();
+  entry["case"] =
+      analysis.mesh ? std::filesystem::path(options.at("mesh_file")).stem().string() : "matrices";
+  entry["ranks"] = mpi::size(analysis.comm);
+  entry["complete"] = !analysis.interrupted;
+  entry["resumed"] = analysis.checkpoint.resumed();
+  entry["verdict"] = verdictEntry(runVerdict(analysis));
+  if (analysis.mesh) entry.update(meshEntry(*analysis.mesh, analysis.contact));
+  entry["method"] =
+      pencil::Settings::given().method == pencil::Method::direct ? "direct" : "reduced";
+  entry["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
+  return entry;
+}
+
+}  // namespace
+
+void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
+  Json summary = runEntry(analysis);
+  summary["frictions"] = pointEntries(analysis);
+  for (const auto& [speed, found] : analysis.uniqueness)
+    summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
+  summary["active_sets"] = Json::array();
+  for (const auto& segment : analysis.segments)
+    summary["active_sets"].push_back(activeSetEntry(segment));
+  for (const auto& event : analysis::contactPath(analysis))
+    summary["contact_path"].push_back(contactEventEntry(analysis.contact, event));
+  for (const auto& study : analysis.regimes)
+    for (const auto& run : study.runs) summary["regimes"].push_back(regimeEntry(study, run));
+  if (!analysis.failures.empty()) summary["failures"] = analysis.failures;
+  addStages(summary);
+  summary["options"] = resolvedOptions();
   summary["tables"] = tableShapes(analysis.comm, folder);
   writeText(analysis.comm, folder / "summary.json", summary.dump(2) + "\n");
 }

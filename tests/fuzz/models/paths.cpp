@@ -201,7 +201,7 @@ Outcome run(const Model& model, const Form& form, const Changes& changes,
   writeFile(mesh, files.mesh);
   Outcome outcome;
   try {
-    check(PetscOptionsClear(nullptr));
+    clearOptions();
     std::vector<Setting> settings{{"quiet", "", "", 0}, {"mesh_file", mesh.string(), "", 0}};
     for (const auto* list : {&files.options, &changes})
       for (const auto& [name, value] : *list) {

@@ -31,8 +31,8 @@ fs::path folder(const std::string& name) {
 
 /// Makes every call an entry, and leaves the option as it was.
 struct EveryEntry {
-  EveryEntry() { PetscOptionsSetValue(nullptr, "-checkpoint_interval", "0"); }
-  ~EveryEntry() { PetscOptionsClearValue(nullptr, "-checkpoint_interval"); }
+  EveryEntry() { insert({{"checkpoint_interval", "0"}}); }
+  ~EveryEntry() { removeOption("checkpoint_interval"); }
 };
 
 /// Writes one entry, whose parts differ from rank to rank.

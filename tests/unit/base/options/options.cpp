@@ -99,7 +99,7 @@ TEST(Lists, MayHoldBlanks) {
   const auto file = test::writeFile("lists.yaml",
                                     "probe:\n  vector: [0, -0.01, 1e3]\n  list:\n    - a\n    - "
                                     "b_c\n    - d\n  sweep: [0, 0.2]\n");
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insertFile(PETSC_COMM_WORLD, file);
   EXPECT_EQ(vector.get(), (std::vector<double>{0, -0.01, 1000}));
   EXPECT_EQ(list.list(), (std::vector<std::string>{"a", "b_c", "d"}));
@@ -125,7 +125,7 @@ TEST(Files, AreLookedForBesideTheOptionsFile) {
     static int number = 0;
     const auto options = test::writeFile(formatted("beside here/options_%d.yaml", number++),
                                          "probe:\n  disc:\n    file: " + path + "\n");
-    check(PetscOptionsClear(nullptr));
+    clearOptions();
     insertFile(PETSC_COMM_WORLD, options);
   };
   named("probe.msh");
@@ -265,9 +265,9 @@ probe:
   sweep: "0:0.2:0.1"
   flag: true
 )");
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insertFile(PETSC_COMM_WORLD, file);
-  check(PetscOptionsInsertString(nullptr, "-probe_disc_length 8"));
+  insert(settingsOfText("-probe_disc_length 8"));
   EXPECT_EQ(length.subjects(), (std::vector<std::string>{"back_plate", "disc"}));
   EXPECT_EQ(length.get("back_plate"), 2.5);
   EXPECT_EQ(length.get("disc"), 8);

@@ -302,7 +302,7 @@ TEST(Environment, ComesBeforeTheCommandLine) {
 // any buffer.
 TEST(Database, KeepsValuesAsTheyAre) {
   const std::string lengthy(20000, 'x');
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insert({{"probe_a", "0, 0.2", "", 0},
           {"probe_b", "-x y -z", "", 0},
           {"probe_c", "", "", 0},
@@ -311,17 +311,17 @@ TEST(Database, KeepsValuesAsTheyAre) {
       givenOptions(),
       (std::map<std::string, std::string>{
           {"probe_a", "0, 0.2"}, {"probe_b", "-x y -z"}, {"probe_c", ""}, {"probe_d", lengthy}}));
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
 }
 
 TEST(Database, KnowsWhereAValueStands) {
   const auto file = test::writeFile("origin.yaml", "a:\n  b: 1\n");
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insertFile(PETSC_COMM_WORLD, file);
   EXPECT_EQ(givenOptions(), (std::map<std::string, std::string>{{"a_b", "1"}}));
   EXPECT_EQ(origin("a_b", "1").place(), file + ", line 2");
   EXPECT_EQ(origin("a_b", "2").place(), "");  // set since
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
 }
 
 // A case that says one thing and a command line that says another are not settled in silence; the
@@ -329,13 +329,13 @@ TEST(Database, KnowsWhereAValueStands) {
 TEST(Database, TellsWhichSettingsOfFilesWereReplaced) {
   const auto file =
       test::writeFile("replaced.yaml", "probe:\n  first: 1\n  second: 2\n  third: 3\n");
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insertFile(PETSC_COMM_WORLD, file);
   EXPECT_EQ(replacedSettings(), std::vector<std::string>{});
   insert({{"probe_first", "1", "", 0}, {"probe_second", "5", "", 0}, {"probe_other", "4", "", 0}});
   EXPECT_EQ(replacedSettings(),
             std::vector<std::string>{"option -probe_second 5 replaces 2 (" + file + ", line 3)"});
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
 }
 
 }  // namespace

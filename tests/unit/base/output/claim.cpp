@@ -27,12 +27,10 @@ using test::shared::put;
 
 /// A run whose files have these names.
 Naming naming() {
-  return {"-to", "summary.txt",
-          [](const fs::path& path) {
+  return {.option = "-to", .last = "summary.txt", .mayWrite = [](const fs::path& path) {
             return path == "a.csv" || path == "b.csv" || path == "summary.txt" ||
                    path == Manifest::name;
-          },
-          [](const fs::path&) { return Manifest(); }};
+          }};
 }
 
 void run(const fs::path& folder, const Files& results) { test::replace(naming(), folder, results); }

@@ -27,13 +27,11 @@ using test::shared::put;
 
 /// A run whose files have these names, and are in these folders.
 Naming naming() {
-  return {"-to", "summary.txt",
-          [](const fs::path& path) {
+  return {.option = "-to", .last = "summary.txt", .mayWrite = [](const fs::path& path) {
             static const std::set<fs::path> names{"a.csv",     "summary.txt", Manifest::name, "vtk",
                                                   "vtk/x.vtu", "vtk/y",       "vtk/z"};
             return names.contains(path);
-          },
-          [](const fs::path&) { return Manifest(); }};
+          }};
 }
 
 void run(const fs::path& folder, const Files& results) { test::replace(naming(), folder, results); }

@@ -152,7 +152,7 @@ TEST(Unreadable, LinksToNothingNameTheirTarget) {
   expectMessage(errorReading(matrix), {"dangling.mtx" + why});
   // The one beside the options file is meant, although it leads nowhere.
   const auto beside = writeFile("beside_link.yaml", "mesh_file: dangling.msh\n");
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   insertFile(PETSC_COMM_WORLD, beside);
   expectMessage(errorOf([] { rejectUnknownOptions(); }), {"beside_link.yaml, line 1", why});
 }

@@ -51,9 +51,9 @@ TEST(Modes, BlockLanczosAgreesWithEps) {
 class Layer : public testing::Test {
  protected:
   void SetUp() override {
-    check(PetscOptionsClear(nullptr));
+    clearOptions();
     insertFile(PETSC_COMM_WORLD, "options/layer.yaml");
-    check(PetscOptionsInsertString(nullptr, "-quiet"));
+    insert(settingsOfText("-quiet"));
     model_ = buildModel();
     system_ = std::make_unique<contact::CoupledSystem>(
         model_.bodies, model_.contact, std::vector<unsigned char>(model_.contact.nodes.size(), 1));
@@ -167,7 +167,7 @@ TEST_F(Layer, ASecondPoleFindsTheSameModes) {
 TEST_F(Layer, SturmCountSeesAMissingMode) {
   // The inertia of K − σ M counts 51 modes below a shift just above mode 51: the confirmation is a
   // number, not a formality.
-  check(PetscOptionsInsertString(nullptr, "-modes_count 60"));
+  insert(settingsOfText("-modes_count 60"));
   const auto modes = modes::compute(*system_, modes::Settings::given());
   ASSERT_TRUE(modes.countConfirmed);
   const auto below = std::count_if(modes.lambda.begin(), modes.lambda.end(),
@@ -186,7 +186,7 @@ Model heldRing(const std::string& shape) {
 }
 
 modes::Modes modesOf(const Model& model, const std::string& options, int count) {
-  check(PetscOptionsInsertString(nullptr, options.c_str()));
+  insert(settingsOfText(options));
   const contact::CoupledSystem system(model.bodies, model.contact, {});
   return modes::compute(system, modes::Settings::given().withCount(count));
 }

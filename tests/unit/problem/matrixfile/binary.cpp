@@ -121,7 +121,7 @@ TEST(PetscBinary, OtherIndicesAreRefused) {
 
 // PETSc takes options from a file beside the one it reads: nobody gave them.
 TEST(PetscBinary, OptionsBesideTheFileAreNotTaken) {
-  check(PetscOptionsClear(nullptr));
+  clearOptions();
   const std::string path = writeFile("beside.petsc", Petsc{}.bytes());
   writeFile("beside.petsc.info", "-flutter_friction 7\n");
   valuesRead(path);

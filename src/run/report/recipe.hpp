@@ -1,0 +1,14 @@
+#pragma once
+/// The options of a run as an options file that repeats it.
+#include <mpi.h>
+
+#include <filesystem>
+
+namespace squeal::report {
+
+/// Collective. Writes options.txt into `folder`: the options that are given, and the defaults of
+/// the others as comments. Call it once all settings have been read. Throws Error as writeText()
+/// does.
+void writeRecipe(MPI_Comm comm, const std::filesystem::path& folder);
+
+}  // namespace squeal::report

@@ -1,0 +1,139 @@
+#include "run/report/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/system/text.hpp"
+#include "eigen/pencil/complex_modes.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::report {
+namespace {
+
+/// The unstable eigenvalues of a run.
+struct UnstableModes {
+  const pencil::Eigenvalue* fastest = nullptr;  ///< borrowed
+  sweep::Parameters at;                         ///< its point
+  double lowestFriction = INFINITY;             ///< of a point with an unstable mode
+  int eigenvalues = 0;                          ///< of all points, stable ones included
+};
+
+/// Returns the parameters that have more than one value in the sweep.
+std::vector<sweep::Parameter> sweptParameters(const std::vector<sweep::Parameters>& points) {
+  std::vector<sweep::Parameter> swept;
+  for (const auto& parameter : sweep::allParameters)
+    if (std::ranges::any_of(points, [&](const sweep::Parameters& at) {
+          return at.*parameter.value != points.front().*parameter.value;
+        }))
+      swept.push_back(parameter);
+  return swept;
+}
+
+/// Counts what the points hold.
+UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
+  UnstableModes modes;
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points) {
+      ++verdict.pointsSolved;
+      verdict.undecided += point.count(pencil::Verdict::undecided);
+      verdict.uncertified += point.count(pencil::Verdict::uncertified);
+      modes.eigenvalues += std::ssize(point.eigenvalues);
+      const int unstable = point.unstableCount();
+      verdict.mostUnstable = std::max(verdict.mostUnstable, unstable);
+      if (unstable == 0) continue;
+      ++verdict.pointsUnstable;
+      modes.lowestFriction = std::min(modes.lowestFriction, point.at.friction);
+      for (const auto& e : point.eigenvalues)
+        if (e.unstable && (!modes.fastest || e.s.real() > modes.fastest->s.real()))
+          modes.fastest = &e, modes.at = point.at;
+    }
+  return modes;
+}
+
+/// Returns the lowest friction at which stability is lost, solved for.
+std::optional<double> firstLoss(const analysis::Analysis& analysis) {
+  std::optional<double> lowest;
+  for (const auto& segment : analysis.segments)
+    for (const auto& followed : segment.followed)
+      for (const auto& critical : followed.criticals)
+        if (critical.loss && critical.converged)
+          lowest = std::min(lowest.value_or(INFINITY), critical.friction);
+  return lowest;
+}
+
+std::string placeText(const std::vector<sweep::Parameters>& points, int solved) {
+  if (solved < std::ssize(points))
+    return formatted("at the %d of %zu points of the sweep that have a result", solved,
+                     points.size());
+  return points.size() > 1 ? "at all points of the sweep"
+                           : formatted("at friction %g", points.front().friction);
+}
+
+std::string stableSentence(const std::vector<sweep::Parameters>& points, const RunVerdict& verdict,
+                           int eigenvalues) {
+  const std::string where = placeText(points, verdict.pointsSolved);
+  if (eigenvalues == 0) return "No eigenvalue was found in the band " + where + ".";
+  std::string rest;
+  if (verdict.undecided > 0) rest = formatted("; %d eigenvalues are undecided", verdict.undecided);
+  return "Stable " + where + rest + ".";
+}
+
+std::string onsetText(const std::vector<sweep::Parameters>& points, const RunVerdict& verdict,
+                      double lowestFriction) {
+  if (verdict.criticalFriction)
+    return *verdict.criticalFriction > 0
+               ? formatted("Stable up to friction %.6g", *verdict.criticalFriction)
+               : "Unstable as soon as there is friction";
+  const bool above = std::ranges::any_of(
+      points, [&](const sweep::Parameters& at) { return at.friction < lowestFriction; });
+  return formatted(above ? "Unstable from friction %g on" : "Unstable at friction %g already",
+                   lowestFriction);
+}
+
+std::string unstableSentence(const std::vector<sweep::Parameters>& points,
+                             const RunVerdict& verdict, const UnstableModes& modes) {
+  std::string others;
+  for (const auto& parameter : sweptParameters(points))
+    if (parameter.value != &sweep::Parameters::friction)
+      others += formatted(", %s %g", parameter.name, modes.at.*parameter.value);
+  const auto& fastest = *modes.fastest;
+  return onsetText(points, verdict, modes.lowestFriction) +
+         formatted(
+             "; above it, up to %d unstable mode%s at once. The fastest grows at %.6g Hz with "
+             "%.4g 1/s (damping %.3g %%) at friction %g",
+             verdict.mostUnstable, verdict.mostUnstable > 1 ? "s" : "",
+             fastest.s.imag() / (2 * M_PI), fastest.s.real(), 100 * fastest.dampingRatio(),
+             modes.at.friction) +
+         others + ".";
+}
+
+std::string interruptedSentence(const RunVerdict& verdict, const UnstableModes& modes) {
+  return formatted("The run was stopped before its end: %d of %d points are solved, and ",
+                   verdict.pointsSolved, verdict.points) +
+         (modes.fastest ? formatted("the lowest friction among them with an unstable mode is %g.",
+                                    modes.lowestFriction)
+                        : "all of them are stable.");
+}
+
+}  // namespace
+
+RunVerdict runVerdict(const analysis::Analysis& analysis) {
+  const auto points = analysis.sweep.points();
+  RunVerdict verdict;
+  verdict.points = int(points.size());
+  const UnstableModes modes = count(analysis, verdict);
+  if (modes.fastest && sweptParameters(points).size() <= 1)
+    if (const auto loss = firstLoss(analysis); loss && *loss <= modes.lowestFriction)
+      verdict.criticalFriction = loss;
+  if (analysis.interrupted)
+    verdict.sentence = interruptedSentence(verdict, modes);
+  else if (verdict.pointsSolved == 0)
+    verdict.sentence = "No point of the sweep has a steady sliding state.";
+  else if (!modes.fastest)
+    verdict.sentence = stableSentence(points, verdict, modes.eigenvalues);
+  else
+    verdict.sentence = unstableSentence(points, verdict, modes);
+  return verdict;
+}
+
+}  // namespace squeal::report
