@@ -6,56 +6,21 @@
 #include <memory>
 
 #include "algebra/factor/symmetric_solver.hpp"
-#include "algebra/linalg/columns.hpp"
 #include "base/session/events.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
 #include "eigen/direct/direct.hpp"
-#include "eigen/modes/serialization.hpp"
 #include "eigen/pencil/modal_damping.hpp"
 #include "eigen/pencil/pencil.hpp"
-#include "eigen/pencil/serialization.hpp"
 #include "eigen/reduction/reduced.hpp"
-#include "eigen/sensitivity/sensitivity.hpp"
-#include "eigen/stability/serialization.hpp"
 #include "eigen/sweep/parameters.hpp"
-#include "eigen/sweep/sweep.hpp"
+#include "eigen/sweep_solver/journal.hpp"
+#include "eigen/sweep_solver/mode_shapes.hpp"
+#include "eigen/sweep_solver/sweep_plan.hpp"
 
 namespace squeal::sweep_solver {
 namespace {
-
-std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial, int most) {
-  std::vector<OwnedVec> shapes;
-  const int count = std::min<std::size_t>(most, modes.angularFrequency.size());
-  for (int i = 0; i < count; ++i) {
-    Vec d = nullptr;
-    OwnedVec u;
-    PetscReal largest = 0;
-    check(MatCreateVecs(trial, nullptr, u.out()));
-    check(BVGetColumn(modes.vectors, i, &d));
-    check(MatMult(trial, d, u));
-    check(BVRestoreColumn(modes.vectors, i, &d));
-    check(VecNorm(u, NORM_INFINITY, &largest));
-    check(VecScale(u, 1 / largest));
-    shapes.push_back(std::move(u));
-  }
-  return shapes;
-}
-
-/// Returns modes of the interior unknowns with vectors of all unknowns.
-modes::Modes onAllUnknowns(const modes::Modes& interior, const subspace::Basis& basis) {
-  const linalg::ReadColumns vectors(interior.vectors);
-  return {interior.lambda,
-          interior.angularFrequency,
-          interior.relativeResidual,
-          linalg::copiedColumns(basis.stiffness(), basis.prolonged(vectors.view())),
-          interior.iterations,
-          interior.countConfirmed,
-          interior.inertiaCount,
-          interior.inertiaShift,
-          interior.rounding};
-}
 
 std::string pointText(const pencil::ComplexModes& point) {
   std::string text =
@@ -87,194 +52,116 @@ bool hasResults(const ModalSegment& segment) {
   return std::ranges::any_of(segment.points, isSolved);
 }
 
-/// Flutter at the points of a problem, batch by batch, with one basis for all of them.
-class SegmentSweep {
+/// The eigenvalues at the points of a problem, batch by batch, with one basis for all of them.
+class SweepSolver {
  public:
-  SegmentSweep(SegmentProblem& problem, const Request& request, checkpoint::Checkpoint& checkpoint,
-               const std::string& name)
+  SweepSolver(SweepProblem& problem, const Request& request, checkpoint::Checkpoint& checkpoint,
+              const std::string& name)
       : problem_(problem),
         request_(request),
-        pencil_(problem.pencil()),
-        checkpoint_(checkpoint),
-        name_(name),
-        begin_(MPI_Wtime()) {
-    for (auto& range : problem.ranges()) ranges_.push_back({std::move(range), pencil_.with({}), 0});
-    segments_.resize(ranges_.size());
-    for (double damping : request.dampings)
-      for (std::size_t i = 0; i < problem.steadyPoints().size(); ++i) {
-        points_.push_back(problem.steadyPoints()[i]);
-        points_.back().damping = damping;
-        const auto range = std::ranges::find_if(
-            ranges_, [&](const auto& one) { return one.points.first <= i && i < one.points.last; });
-        auto& points = segments_[range - ranges_.begin()].points;
-        places_.push_back({i, std::size_t(range - ranges_.begin()), points.size()});
-        points.emplace_back();
-      }
-    batches_ = sweep::batches(points_);
-    for (const auto& batch : batches_) order_.insert(order_.end(), batch.begin(), batch.end());
-    if (request.settings.direct) {  // one by one
-      batches_.clear();
-      for (const std::size_t i : order_) batches_.push_back({i});
-    }
+        pencil_(problem.pencil->with({})),
+        plan_(planOf(problem, request.dampings, !request.settings.direct)),
+        journal_(checkpoint, name, problem, plan_, state_) {
+    state_.segments.resize(problem.ranges.size());
+    for (std::size_t k = 0; k < problem.ranges.size(); ++k) sets_.push_back({pencil_.with({}), 0});
+    for (const auto& place : plan_.places) state_.segments[place.range].points.emplace_back();
   }
 
-  SolvedSegments solve() {
-    if (auto finished = checkpoint_.next(name_ + "_finished")) {
-      exchangeFinished(*finished);
-      pointsDone(points_.size());
-      return {std::move(segments_), true};
+  SolvedSweep solve() {
+    if (journal_.restoreFinished()) {
+      for (auto& segment : state_.segments) segment.shapes = shapesOf(segment.modes);
+      return {std::move(state_.segments), true};
     }
-    for (std::size_t k = 0; k < ranges_.size(); ++k) {
-      const auto& has = ranges_[k].points.has;
-      segments_[k].unknowns = problem_.system().size() + std::count(has.begin(), has.end(), 1);
-      segments_[k].openNodes = ranges_[k].points.openNodes;
+    for (std::size_t k = 0; k < sets_.size(); ++k) {
+      const auto& has = problem_.ranges[k].has;
+      state_.segments[k].unknowns = problem_.system->size() + std::count(has.begin(), has.end(), 1);
+      state_.segments[k].openNodes = problem_.ranges[k].openNodes;
     }
     bool complete = true;
     try {
       solveAll();
     } catch (const Interrupted&) {
-      keep();  // as it is asked to stop, all that is not yet in the checkpoint
+      record();  // as it is asked to stop, all that is not yet in the checkpoint
       complete = false;
     } catch (const Error& error) {
-      if (std::ranges::none_of(segments_, hasResults)) throw;
-      failures_.push_back(error.what());
+      if (std::ranges::none_of(state_.segments, hasResults)) throw;
+      state_.failures.push_back(error.what());
     }
-    if (complete && std::ranges::none_of(segments_, hasResults)) throw Error(failures_.front());
-    for (auto& segment : segments_) std::erase_if(segment.points, std::not_fn(isSolved));
-    std::erase_if(segments_, [](const auto& segment) { return segment.points.empty(); });
-    // What took long is not done again if a later segment is cut off.
-    if (complete && failures_.empty() && checkpoint_.isWorth(MPI_Wtime() - begin_)) {
-      checkpoint::Archive archive(pencil_.comm());
-      exchangeFinished(archive);
-      checkpoint_.write(name_ + "_finished", archive);
-    }
-    return {std::move(segments_), complete, std::move(failures_)};
+    if (complete && std::ranges::none_of(state_.segments, hasResults))
+      throw Error(state_.failures.front());
+    for (auto& segment : state_.segments) std::erase_if(segment.points, std::not_fn(isSolved));
+    std::erase_if(state_.segments, [](const auto& segment) { return segment.points.empty(); });
+    if (complete && state_.failures.empty()) journal_.recordFinished();
+    return {std::move(state_.segments), complete, std::move(state_.failures)};
   }
 
  private:
-  /// Points with one active set.
-  struct Range {
-    PointRange points;
+  /// The points with one active set.
+  struct Set {
     pencil::Pencil pencil;
-    int set;  // in the reduced problem
-  };
-  /// Where a point of the sweep stands.
-  struct Place {
-    std::size_t steadyPoint, range, inSegment;
+    int number;  // in the reduced problem
   };
 
   void solveAll() {
     auto modes = computeModes();
     if (modes)
       pencil_.add(
-          pencil::modalDamping(*modes, problem_.system().m0(), request_.settings.modalDamping));
-    for (auto& range : ranges_) {
-      range.pencil = pencil_.with({});
-      range.pencil.add(std::move(range.points.terms));
+          pencil::modalDamping(*modes, problem_.system->m0(), request_.settings.modalDamping));
+    for (std::size_t k = 0; k < sets_.size(); ++k) {
+      sets_[k].pencil = pencil_.with({});
+      sets_[k].pencil.add(std::move(problem_.ranges[k].terms));
     }
     if (modes) reduce(std::move(*modes));
-    while (auto entry = checkpoint_.next(name_ + "_points")) exchangePoints(*entry);
-    keep();
+    journal_.restorePoints(reduced_.get());
+    record();
     stopIfAsked(pencil_.comm());
-    if (ranges_.size() > 1) findModes();
+    if (sets_.size() > 1) findModes();
     solvePoints();
     followPoints();
   }
 
-  /// Collective. Writes to the checkpoint what has been found since the last entry, if it is time.
-  void keep() {
-    if (!checkpoint_.due()) return;
-    if (!modesKept_) {
-      checkpoint::Archive archive(pencil_.comm());
-      modes::exchange(archive, freeModes(), problem_.system().k0());
-      checkpoint_.write(name_ + "_modes", archive);
-      modesKept_ = true;
-    }
-    // A compressed basis does not grow: its points are found again.
-    if (reduced_ && !reduced_->grows()) return;
-    checkpoint::Archive archive(pencil_.comm());
-    exchangePoints(archive);
-    checkpoint_.write(name_ + "_points", archive);
-  }
+  void record() { journal_.record(freeModes(), reduced_.get()); }
 
-  /// Collective. Writes the basis and the points that have been found since the last call, or adds
-  /// them.
-  void exchangePoints(checkpoint::Archive& archive) {
-    const std::size_t before = solved_;
-    archive.common(affine_, solved_, failures_);
-    if (reduced_) reduced_->exchange(archive);
-    bool withModes = setModesFound_ && !setModesKept_;
-    archive.common(withModes);
-    if (withModes) {
-      for (auto& segment : segments_)
-        if (!segment.points.empty())
-          modes::exchange(archive, segment.modes, problem_.substructure().stiffness);
-      setModesFound_ = setModesKept_ = true;
-    }
-    for (; exchanged_ < solved_; ++exchanged_)
-      pencil::exchange(archive, pointAt(order_[exchanged_]));
-    if (archive.reads()) pointsDone(solved_ - before);
-  }
-
-  /// Collective. Writes all that is reported, or sets it.
-  void exchangeFinished(checkpoint::Archive& archive) {
-    const Mat all = problem_.substructure().stiffness;  // of all unknowns; null: all are interior
-    std::size_t count = segments_.size();
-    archive.common(count);
-    segments_.resize(count);
-    for (auto& segment : segments_) {
-      archive.common(segment.openNodes, segment.unknowns, segment.solves, segment.followed);
-      modes::exchange(archive, segment.modes, all ? all : problem_.system().k0());
-      std::size_t points = segment.points.size();
-      archive.common(points);
-      segment.points.resize(points);
-      for (auto& point : segment.points) pencil::exchange(archive, point);
-      if (archive.reads())
-        segment.shapes = reportedShapes(segment.modes, problem_.trial(), request_.reportedModes);
-    }
+  std::vector<OwnedVec> shapesOf(const modes::Modes& modes) const {
+    return reportedShapes(modes, problem_.trial, request_.reportedModes);
   }
 
   /// Returns the free modes of the interior unknowns.
   modes::Modes& freeModes() {
     if (!reduced_) return forLeftVectors_;
-    return ranges_.size() == 1 ? segments_[0].modes : interiorModes_;
+    return sets_.size() == 1 ? state_.segments[0].modes : interiorModes_;
   }
 
   /// Collective. Returns the free modes of the interior unknowns; none with the direct method.
   std::optional<modes::Modes> computeModes() {
     const auto& settings = request_.settings;
-    const bool direct = settings.direct.has_value();
-    if (direct) factor::rejectUnusedSolverOptions();
+    if (settings.direct) factor::rejectUnusedSolverOptions();
     if (!settings.modes) return {};
-    modes::Modes modes;
-    if (auto entry = checkpoint_.next(name_ + "_modes")) {
-      modes::exchange(*entry, modes, problem_.system().k0());
-      modesKept_ = true;
-    } else {
-      modes = modes::compute(problem_.system(), *settings.modes);
-    }
-    if (!direct) return modes;
-    forLeftVectors_ = std::move(modes);
+    auto modes = journal_.restoredModes();
+    if (!modes) modes = modes::compute(*problem_.system, *settings.modes);
+    if (!settings.direct) return modes;
+    forLeftVectors_ = std::move(*modes);
     return {};
   }
 
   void reduce(modes::Modes modes) {
     Stage stage(pencil_.comm(), "flutter");
     reduced_ = std::make_unique<reduction::ReducedProblem>(
-        pencil_, problem_.system(), modes, *request_.settings.reduction, problem_.substructure());
+        pencil_, *problem_.system, modes, *request_.settings.reduction, problem_.substructure);
     reduced_->afterEachRound([this] {
-      keep();
+      record();
       stopIfAsked(pencil_.comm());
     });
     std::string text = formatted("basis of %zu free modes", modes.angularFrequency.size());
-    if (ranges_.size() == 1) {
-      segments_[0].shapes = reportedShapes(modes, problem_.trial(), request_.reportedModes);
-      segments_[0].modes = std::move(modes);
+    if (sets_.size() == 1) {
+      state_.segments[0].shapes = shapesOf(modes);
+      state_.segments[0].modes = std::move(modes);
     } else {
-      for (auto& range : ranges_) range.set = reduced_->addSet(range.pencil, range.points.has);
+      for (std::size_t k = 0; k < sets_.size(); ++k)
+        sets_[k].number = reduced_->addSet(sets_[k].pencil, problem_.ranges[k].has);
       interiorModes_ = std::move(modes);
       text += formatted(" and %" PetscInt_FMT " constraint modes for %zu active sets",
-                        reduced_->basis().boundarySize(), ranges_.size());
+                        reduced_->basis().boundarySize(), sets_.size());
     }
     stage.finish(text);
   }
@@ -282,51 +169,51 @@ class SegmentSweep {
   /// Collective. Finds the free modes of each active set, and with them where its band ends, unless
   /// the checkpoint has them.
   void findModes() {
-    for (std::size_t k = 0; k < ranges_.size(); ++k) {
-      auto& segment = segments_[k];
+    for (std::size_t k = 0; k < sets_.size(); ++k) {
+      auto& segment = state_.segments[k];
       if (segment.points.empty()) continue;
-      if (!setModesFound_) restrictModes(k);
-      segment.shapes = reportedShapes(segment.modes, problem_.trial(), request_.reportedModes);
+      if (!state_.hasSetModes) restrictModes(k);
+      segment.shapes = shapesOf(segment.modes);
     }
-    setModesFound_ = true;
+    state_.hasSetModes = true;
   }
 
   void solvePoints() {
     std::size_t end = 0;
-    for (const auto& batch : batches_) {
+    for (const auto& batch : plan_.batches) {
       end += batch.size();
-      if (end <= solved_) continue;  // the checkpoint has them
+      if (end <= state_.solved) continue;  // the checkpoint has them
       std::vector<reduction::PointProblem> problems;
       for (std::size_t i : batch) {
-        const Range& range = ranges_[places_[i].range];
-        auto terms = problem_.termsOf(places_[i].steadyPoint);
-        affine_ = affine_ && terms.empty();
-        problems.push_back({points_[i], range.pencil.with(std::move(terms)), range.set});
+        const Set& set = sets_[plan_.places[i].range];
+        auto terms = problem_.termsOf(plan_.places[i].steadyPoint);
+        state_.affine = state_.affine && terms.empty();
+        problems.push_back({plan_.points[i], set.pencil.with(std::move(terms)), set.number});
       }
       solveBatch(batch, problems);
       for (std::size_t i = 0; i < batch.size(); ++i) {
         auto& point = pointAt(batch[i]);
         if (!isSolved(point)) continue;
-        problem_.examine(places_[batch[i]].steadyPoint, problems[i].pencil,
+        problem_.examine(plan_.places[batch[i]].steadyPoint, problems[i].pencil,
                          startSpace(problems[i], point), point);
       }
-      solved_ = end;
+      state_.solved = end;
       pointsDone(batch.size());
-      keep();
-      if (solved_ < points_.size()) stopIfAsked(pencil_.comm());
+      record();
+      if (state_.solved < plan_.points.size()) stopIfAsked(pencil_.comm());
     }
     if (reduced_)
-      for (auto& segment : segments_) segment.solves = reduced_->basis().solves();
+      for (auto& segment : state_.segments) segment.solves = reduced_->basis().solves();
   }
 
   /// Collective. Finds the free modes of one active set in the basis that all have in common.
   void restrictModes(std::size_t k) {
     Stage stage(pencil_.comm(), "modes");
-    auto& segment = segments_[k];
-    if (std::ranges::count(ranges_[k].points.has, 1) == 0) {
+    auto& segment = state_.segments[k];
+    if (std::ranges::count(problem_.ranges[k].has, 1) == 0) {
       segment.modes = onAllUnknowns(interiorModes_, reduced_->basis());
     } else {
-      segment.modes = reduced_->freeModes(ranges_[k].set, pencil_);
+      segment.modes = reduced_->freeModes(sets_[k].number, pencil_);
     }
     const auto& residuals = segment.modes.relativeResidual;
     stage.finish(formatted("%zu free modes with %" PetscInt_FMT " open nodes, residuals up to %.1e",
@@ -337,44 +224,47 @@ class SegmentSweep {
   /// Returns the lines of the sweep, with the number of the segment that each begins in.
   std::vector<std::pair<stability::Line, std::size_t>> lines() const {
     std::vector<std::pair<stability::Line, std::size_t>> found;
-    for (std::size_t first = 0, last = 0; first < points_.size(); first = last) {
+    for (std::size_t first = 0, last = 0; first < plan_.points.size(); first = last) {
       stability::Line line;
-      line.at = points_[first];
-      line.modes = &segments_[places_[first].range].modes;
+      line.at = plan_.points[first];
+      line.modes = &state_.segments[plan_.places[first].range].modes;
       do {
-        line.swept.push_back(points_[last++].friction);
-      } while (last < points_.size() && sweep::growsInFriction(points_[last - 1], points_[last]));
+        line.swept.push_back(plan_.points[last++].friction);
+      } while (last < plan_.points.size() &&
+               sweep::growsInFriction(plan_.points[last - 1], plan_.points[last]));
       line.at.friction = 0;
-      const std::size_t from = places_[first].steadyPoint;
-      line.before = problem_.frictionBefore(from);
+      const std::size_t from = plan_.places[first].steadyPoint;
+      line.before = from == 0 ? problem_.frictionBefore : std::nullopt;
       for (const auto& piece : problem_.path(from, last - first)) {
-        const Range& range = ranges_[piece.range];
+        const PointRange& range = problem_.ranges[*piece.range];
         const auto number =
-            std::count_if(ranges_.begin(), ranges_.begin() + piece.range + 1,
-                          [](const auto& one) { return one.points.first < one.points.last; });
-        const bool isPassed = range.points.first == range.points.last;
-        line.pieces.push_back({sourceOf(range), {piece.from}, isPassed ? 0 : int(number)});
+            std::count_if(problem_.ranges.begin(), problem_.ranges.begin() + *piece.range + 1,
+                          [](const auto& one) { return one.first < one.last; });
+        const bool isPassed = range.first == range.last;
+        line.pieces.push_back({sourceOf(*piece.range), {piece.from}, isPassed ? 0 : int(number)});
         auto& frictions = line.pieces.back().frictions;
         for (double friction : line.swept)
           if (piece.from < friction && friction < piece.to) frictions.push_back(friction);
         if (piece.to > piece.from) frictions.push_back(piece.to);
       }
-      found.emplace_back(std::move(line), places_[first].range);
+      found.emplace_back(std::move(line), plan_.places[first].range);
     }
     return found;
   }
 
-  tracking::ProblemSource sourceOf(const Range& range) const {
-    const auto problemAt = [this, &range](const sweep::Parameters& at) {
+  tracking::ProblemSource sourceOf(std::size_t range) const {
+    const Set& set = sets_[range];
+    const std::size_t like = problem_.ranges[range].first;
+    const auto problemAt = [this, &set, like](const sweep::Parameters& at) {
       std::optional<reduction::PointProblem> problem;
-      if (affine_)
-        problem.emplace(reduction::PointProblem{at, range.pencil.with({}), range.set});
-      else if (auto terms = problem_.termsAt(at, range.points.first))
+      if (state_.affine)
+        problem.emplace(reduction::PointProblem{at, set.pencil.with({}), set.number});
+      else if (auto terms = problem_.termsAt(at, like))
         problem.emplace(
-            reduction::PointProblem{at, range.pencil.with(std::move(*terms)), range.set});
+            reduction::PointProblem{at, set.pencil.with(std::move(*terms)), set.number});
       return problem;
     };
-    return {range.pencil, problemAt, affine_, range.set};
+    return {set.pencil, problemAt, state_.affine, set.number};
   }
 
   /// Collective. Follows the eigenvalues over the friction and finds critical frictions, if that is
@@ -395,8 +285,8 @@ class SegmentSweep {
       if (settings.requested) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
       return;
     }
-    if (!affine_ && !settings.requested)  // each friction put in between costs a steady state
-                                          // and terms of its own
+    if (!state_.affine && !settings.requested)  // each friction put in between costs a steady state
+                                                // and terms of its own
       return say(
           pencil_.comm(),
           "track: not done where terms follow the steady state, unless -flutter_track is given");
@@ -411,7 +301,7 @@ class SegmentSweep {
       branches += followed[i].branches.count;
       stations += followed[i].branches.stations.size();
       criticals += followed[i].criticals.size();
-      segments_[begins[i]].followed.push_back(std::move(followed[i]));
+      state_.segments[begins[i]].followed.push_back(std::move(followed[i]));
     }
     stage.finish(
         formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of "
@@ -423,10 +313,10 @@ class SegmentSweep {
   std::vector<pencil::ComplexModes> solved(const std::vector<reduction::PointProblem>& problems) {
     std::vector<pencil::ComplexModes> points;
     if (reduced_)
-      points = reduced_->solve(problems, problem_.trial());
+      points = reduced_->solve(problems, problem_.trial);
     else
       for (const auto& problem : problems)
-        points.push_back(direct::solveDirect(problem.pencil, problem.at, problem_.trial(),
+        points.push_back(direct::solveDirect(problem.pencil, problem.at, problem_.trial,
                                              *request_.settings.direct));
     for (const auto& point : points) requireFiniteEigenvalues(point);
     return points;
@@ -434,7 +324,7 @@ class SegmentSweep {
 
   void noteFailure(const sweep::Parameters& point, const std::string& what) {
     const std::string at = sweep::parameterText(point);
-    failures_.push_back(what.find(at) == std::string::npos ? at + ": " + what : what);
+    state_.failures.push_back(what.find(at) == std::string::npos ? at + ": " + what : what);
   }
 
   /// Collective. Solves a point, or notes why it has no result.
@@ -455,7 +345,7 @@ class SegmentSweep {
       auto points = solved(problems);
       for (std::size_t i = 0; i < batch.size(); ++i) pointAt(batch[i]) = std::move(points[i]);
     } catch (const Error& error) {
-      if (points_.size() == 1) throw;
+      if (plan_.points.size() == 1) throw;
       if (batch.size() == 1) {
         noteFailure(problems.front().at, error.what());
       } else {
@@ -472,46 +362,34 @@ class SegmentSweep {
   }
 
   pencil::ComplexModes& pointAt(std::size_t i) {
-    return segments_[places_[i].range].points[places_[i].inSegment];
+    return state_.segments[plan_.places[i].range].points[plan_.places[i].inRange];
   }
 
-  /// Returns where the search for the left vectors of the shapes kept begins.
+  /// Returns where the search for the left vectors of the stored shapes starts.
   sensitivity::StartSpace startSpace(const reduction::PointProblem& problem,
                                      const pencil::ComplexModes& point) const {
     if (!request_.settings.sensitivity.wanted || point.shapes.empty()) return {};
-    if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.system().m0(), {}};
-    return {reduced_->basis().vectors(), problem_.system().k0(), reduced_->project(problem)};
+    if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.system->m0(), {}};
+    return {reduced_->basis().vectors(), problem_.system->k0(), reduced_->project(problem)};
   }
 
-  SegmentProblem& problem_;
+  SweepProblem& problem_;
   const Request& request_;
   pencil::Pencil pencil_;  // of all points
-  std::vector<Range> ranges_;
-  std::vector<sweep::Parameters> points_;
-  std::vector<Place> places_;           // [point]
-  std::vector<ModalSegment> segments_;  // [range]
-  modes::Modes forLeftVectors_;         // with the direct method, which has no modes of its own
-  modes::Modes interiorModes_;          // where several active sets share the basis
+  SweepPlan plan_;
+  SweepState state_;
+  Journal journal_;
+  std::vector<Set> sets_;        // [range]
+  modes::Modes forLeftVectors_;  // with the direct method, which has no modes of its own
+  modes::Modes interiorModes_;   // if several active sets share the basis
   std::unique_ptr<reduction::ReducedProblem> reduced_;
-  bool affine_ = true;                 // no point has terms of its own
-  std::vector<std::string> failures_;  // of points and stages
-  checkpoint::Checkpoint& checkpoint_;
-  std::string name_;        // of its logs
-  double begin_;            // s
-  bool modesKept_ = false;  // the checkpoint has the modes
-  // Those of the active sets, where these share the basis:
-  bool setModesFound_ = false, setModesKept_ = false;
-  std::size_t solved_ = 0;                         // points that have been solved and examined
-  std::size_t exchanged_ = 0;                      // those of them that the checkpoint has
-  std::vector<std::vector<std::size_t>> batches_;  // of points, as they are solved
-  std::vector<std::size_t> order_;                 // the same without the ends of the batches
 };
 
 }  // namespace
 
-SolvedSegments solveSegments(SegmentProblem& problem, const Request& request,
-                             checkpoint::Checkpoint& checkpoint, const std::string& name) {
-  return SegmentSweep(problem, request, checkpoint, name).solve();
+SolvedSweep solveSweep(SweepProblem& problem, const Request& request,
+                       checkpoint::Checkpoint& checkpoint, const std::string& name) {
+  return SweepSolver(problem, request, checkpoint, name).solve();
 }
 
 }  // namespace squeal::sweep_solver

@@ -16,32 +16,29 @@
 namespace squeal::analysis {
 namespace {
 
-/// The one segment of a problem from files: all points of the sweep.
-class MatrixSegment : public sweep_solver::SegmentProblem {
+/// The problem of matrices from files, for all points of the sweep.
+class MatrixSweep : public sweep_solver::SweepProblem {
  public:
-  /// Collective. Borrows the system and the pencil, and takes the points.
-  MatrixSegment(const factor::AssociatedSystem& system, const pencil::Pencil& pencil,
-                std::vector<sweep::Parameters> points)
-      : system_(system), pencil_(pencil), points_(std::move(points)) {
+  /// Collective. Borrows the system, shares the terms of the pencil, and takes the points.
+  MatrixSweep(const factor::AssociatedSystem& matrices, const pencil::Pencil& terms,
+              std::vector<sweep::Parameters> points) {
     PetscInt local = 0;
-    check(MatGetLocalSize(system.k0(), &local, nullptr));
-    check(MatCreateConstantDiagonal(system.comm(), local, local, PETSC_DETERMINE, PETSC_DETERMINE,
+    check(MatGetLocalSize(matrices.k0(), &local, nullptr));
+    check(MatCreateConstantDiagonal(matrices.comm(), local, local, PETSC_DETERMINE, PETSC_DETERMINE,
                                     1, identity_.out()));
+    system = &matrices;
+    trial = identity_;
+    ranges.push_back({.first = 0, .last = points.size()});
+    pencil = terms.with({});
+    steadyPoints = std::move(points);
   }
-  const factor::AssociatedSystem& system() const override { return system_; }
-  Mat trial() const override { return identity_; }
-  const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
-  pencil::Pencil pencil() const override { return pencil_.with({}); }
-  void examine(std::size_t, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
+  void examine(std::size_t, const pencil::Pencil& ofPoint, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override {
     if (sensitivity::Settings::given().wanted)
-      sensitivity::deriveParameters(point, pencil, start, system_);
+      sensitivity::deriveParameters(point, ofPoint, start, *system);
   }
 
  private:
-  const factor::AssociatedSystem& system_;
-  const pencil::Pencil& pencil_;
-  std::vector<sweep::Parameters> points_;
   OwnedMat identity_;
 };
 
@@ -78,9 +75,9 @@ void solveMatrices(Analysis& analysis) {
   const auto points = analysis.sweep.steadyPoints();
   if (const auto settings = matrices::ExportSettings::given(); settings.wanted())
     matrices::exportPencil(pencil, settings, analysis.sweep, points.size());
-  MatrixSegment problem(symmetric.system, pencil, points);
+  MatrixSweep problem(symmetric.system, pencil, points);
   auto solved =
-      sweep_solver::solveSegments(problem, requestOf(analysis), analysis.checkpoint, "matrices");
+      sweep_solver::solveSweep(problem, requestOf(analysis), analysis.checkpoint, "matrices");
   analysis.segments = std::move(solved.segments);
   for (const auto& failure : solved.failures) addFailure(analysis, "flutter: " + failure);
   if (!solved.complete) throw Interrupted();

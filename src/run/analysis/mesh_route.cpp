@@ -127,17 +127,17 @@ bool isFollowed(const sweep::Sweep& sweep, const sweep::Parameters& at) {
 }
 
 /// Collective. Returns the free modes of a segment as nodal displacements, this rank's rows.
-linalg::Block nodalModes(const Analysis& analysis, const MeshSegment& problem,
+linalg::Block nodalModes(const Analysis& analysis, const MeshSweep& problem,
                          const sweep_solver::ModalSegment& segment) {
   linalg::Block modes(analysis.mesh->dimension * analysis.mesh->ownedNodes);
   const linalg::ReadColumns vectors(segment.modes.vectors);
-  linalg::appendProduct(problem.trial(), vectors.view(), modes);
+  linalg::appendProduct(problem.trial, vectors.view(), modes);
   return modes;
 }
 
 /// Collective. Follows the motion after flutter at a point. What fails there leaves other points as
 /// they are.
-void followAfterFlutter(Analysis& analysis, const MeshSegment& problem, CurrentSystem& current,
+void followAfterFlutter(Analysis& analysis, const MeshSweep& problem, CurrentSystem& current,
                         const sweep_solver::ModalSegment& segment,
                         const pencil::ComplexModes& point) try {
   stopIfAsked(analysis.comm);
@@ -175,17 +175,17 @@ std::string pointsText(const Analysis& analysis, std::size_t first, std::size_t 
                            : begin + " to " + sweep::parameterText(analysis.steady[last - 1].at);
 }
 
-void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
-                      CurrentSystem& current, terms::Influences& influences) {
-  MeshSegment problem(analysis, first, last, current, influences);
+void solveMeshSweep(Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
+                    terms::Influences& influences) {
+  MeshSweep problem(analysis, first, last, current, influences);
   // Terms of their own are absent at friction 0 alone: the last point, of the largest friction, has
   // them if any point has.
   if (const auto settings = matrices::ExportSettings::given(); settings.wanted())
-    matrices::exportPencil(problem.pencil().with(problem.termsOf(last - first - 1)), settings,
+    matrices::exportPencil(problem.pencil->with(problem.termsOf(last - first - 1)), settings,
                            analysis.sweep, last - first);
   const int before = std::ssize(analysis.segments);
-  auto solved = sweep_solver::solveSegments(problem, requestOf(analysis), analysis.checkpoint,
-                                            "sets_" + std::to_string(before + 1));
+  auto solved = sweep_solver::solveSweep(problem, requestOf(analysis), analysis.checkpoint,
+                                         "sets_" + std::to_string(before + 1));
   for (auto& segment : solved.segments) {
     for (auto& followed : segment.followed)
       for (int& activeSet : followed.activeSet)
@@ -240,7 +240,7 @@ void solveMesh(Analysis& analysis) {
     stopIfAsked(analysis.comm);
     last = endOfShared(analysis, first);
     try {
-      solveMeshSegment(analysis, first, last, system, influences);
+      solveMeshSweep(analysis, first, last, system, influences);
     } catch (const Error& error) {  // the other points may have results
       if (failures.empty()) firstReason = error.what();
       failures.push_back(pointsText(analysis, first, last) + ": " + error.what());

@@ -22,9 +22,6 @@ const IntegerOption releasedOption(
     "largest number of contact nodes by which the active sets of points that share a factorisation "
     "and a basis may differ; 0: each active set has its own");
 
-/// Stands for an active set that begins somewhere between two points.
-constexpr std::size_t unknownPlace = -1;
-
 /// Closes the nodes that another set closes, and holds those that it holds.
 void closeLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
   for (std::size_t i = 0; i < set.closed.size(); ++i) {
@@ -103,10 +100,10 @@ std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   return last;
 }
 
-MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_t last,
-                         CurrentSystem& current, terms::Influences& influences)
+MeshSweep::MeshSweep(const Analysis& analysis, std::size_t first, std::size_t last,
+                     CurrentSystem& current, terms::Influences& influences)
     : analysis_(analysis), first_(first), current_(current), influences_(influences) {
-  for (std::size_t i = first; i < last; ++i) points_.push_back(analysis.steady[i].at);
+  for (std::size_t i = first; i < last; ++i) steadyPoints.push_back(analysis.steady[i].at);
   findSets();
   prestress_ = steady::prestressOf(*analysis.mesh, analysis.bodies, steadyAt(0));
   const auto systemOf = [&](const contact::ActiveSet& set) {
@@ -121,40 +118,47 @@ MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_
   }
   if (prestress_) stressed_ = systemOf(anywhere_);
   all_ = interior_ = stressed_ ? stressed_.get() : &current.of(anywhere_);
-  if (contact::sameOnAllRanks(analysis.comm, anywhere_, everywhere)) return;
-  Stage stage(analysis.comm, "contact");
-  released_ = systemOf(everywhere);
-  all_ = released_.get();
-  substructure_ = substructureOf(*all_, *interior_);
-  stage.finish(formatted("%" PetscInt_FMT
-                         " nodes open or slide in some of %zu active sets that share a basis",
-                         countDifferent(analysis.comm, anywhere_, everywhere), sets_.size()));
+  if (!contact::sameOnAllRanks(analysis.comm, anywhere_, everywhere)) {
+    Stage stage(analysis.comm, "contact");
+    released_ = systemOf(everywhere);
+    all_ = released_.get();
+    substructure = substructureOf(*all_, *interior_);
+    stage.finish(formatted("%" PetscInt_FMT
+                           " nodes open or slide in some of %zu active sets that share a basis",
+                           countDifferent(analysis.comm, anywhere_, everywhere), sets_.size()));
+  }
+  system = interior_;
+  trial = all_->transformation().trial;
+  pencil = terms::affineTerms(analysis.contact, *all_);
+  ranges = pointRanges();
+  frictionBefore = frictionOfPointBefore();
 }
 
 /// Collective. Finds the active sets of the points and of the way between them.
-void MeshSegment::findSets() {
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+void MeshSweep::findSets() {
+  for (std::size_t i = 0; i < steadyPoints.size(); ++i) {
     std::vector<sweep_solver::PathPiece> pieces;
-    if (i > 0 && sweep::growsInFriction(points_[i - 1], points_[i])) pieces = piecesBehind(i - 1);
+    if (i > 0 && sweep::growsInFriction(steadyPoints[i - 1], steadyPoints[i]))
+      pieces = piecesBehind(i - 1);
     const contact::ActiveSet set = steady::activeSet(steadyAt(i));
-    const double friction = points_[i].friction,
+    const double friction = steadyPoints[i].friction,
                  from = pieces.empty() ? friction : pieces.back().to;
     if (i > 0 && contact::sameOnAllRanks(analysis_.comm, set, steady::activeSet(steadyAt(i - 1)))) {
-      const std::size_t range = steps_.back().back().range;
+      const std::size_t range = *steps.back().back().range;
       sets_[range].last = i + 1;
       pieces.push_back({range, from, friction});
     } else {
       sets_.push_back({set, i, i + 1});
       pieces.push_back({sets_.size() - 1, from, friction});
     }
-    steps_.push_back(std::move(pieces));
+    steps.push_back(std::move(pieces));
   }
 }
 
 /// Collective. Returns the pieces of the path from a point to where the active set of the next one
 /// on its line begins. If that is not known, it begins at the next point.
-std::vector<sweep_solver::PathPiece> MeshSegment::piecesBehind(std::size_t point) {
-  const sweep::Parameters &here = points_[point], &next = points_[point + 1];
+std::vector<sweep_solver::PathPiece> MeshSweep::piecesBehind(std::size_t point) {
+  const sweep::Parameters &here = steadyPoints[point], &next = steadyPoints[point + 1];
   std::vector<condensed::ContactEvent> events;
   for (const auto& event : analysis_.contactPath)
     if (event.at.speed == here.speed && event.at.pressure == here.pressure &&
@@ -178,11 +182,11 @@ std::vector<sweep_solver::PathPiece> MeshSegment::piecesBehind(std::size_t point
   const std::vector<unsigned char>& closedBefore = steadyAt(point).closed;
   for (std::size_t i = 0; i < set.released.size(); ++i)
     if (!closedBefore[i] || !last.closed[i]) set.released[i] = last.released[i];
-  const std::size_t range = steps_[point].back().range;
+  const std::size_t range = *steps[point].back().range;
   const bool changes =
       !contact::sameOnAllRanks(analysis_.comm, steady::activeSet(steadyAt(point)), last);
   if (!contact::sameOnAllRanks(analysis_.comm, set, last) || (changes && frictions.empty()))
-    return {{unknownPlace, next.friction, next.friction}};
+    return {{std::nullopt, next.friction, next.friction}};
   std::vector<sweep_solver::PathPiece> pieces;
   double from = here.friction;
   for (std::size_t k = 0; k < frictions.size(); ++k) {
@@ -194,31 +198,21 @@ std::vector<sweep_solver::PathPiece> MeshSegment::piecesBehind(std::size_t point
   return pieces;
 }
 
-std::vector<sweep_solver::PathPiece> MeshSegment::path(std::size_t first, std::size_t count) const {
-  const double friction = points_[first].friction;
-  std::vector<sweep_solver::PathPiece> joined{{steps_[first].back().range, friction, friction}};
-  for (std::size_t i = first + 1; i < first + count; ++i)
-    for (const auto& piece : steps_[i])
-      if (piece.range == joined.back().range && piece.from == joined.back().to)
-        joined.back().to = piece.to;
-      else if (piece.range != unknownPlace)
-        joined.push_back(piece);
-  return joined;
-}
-
-std::optional<double> MeshSegment::frictionBefore(std::size_t first) const {
-  if (first > 0 || first_ == 0) return {};
+/// Returns the friction of the point before the first one, if the two differ only in friction.
+std::optional<double> MeshSweep::frictionOfPointBefore() const {
+  if (first_ == 0) return {};
   const steady::Solution& before = analysis_.steady[first_ - 1];
-  if (!before.converged || !sweep::growsInFriction(before.at, points_[0])) return {};
+  if (!before.converged || !sweep::growsInFriction(before.at, steadyPoints[0])) return {};
   return before.at.friction;
 }
 
-std::vector<sweep_solver::PointRange> MeshSegment::ranges() const {
+/// Collective. Returns the active sets with their points, boundary unknowns and terms.
+std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
   std::vector<sweep_solver::PointRange> found;
   const auto& contact = analysis_.contact;
   const PetscInt dimension = contact.mesh->dimension;
   const auto& rows = all_->transformation().rows;
-  const Concatenation ranks(analysis_.comm, substructure_.boundary.size());
+  const Concatenation ranks(analysis_.comm, substructure.boundary.size());
   std::vector<PetscInt> contactNode(contact.mesh->ownedNodes, -1);
   for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
     contactNode[contact.interfaces.nodes[i].node] = i;
@@ -228,7 +222,7 @@ std::vector<sweep_solver::PointRange> MeshSegment::ranges() const {
     range.openNodes = std::ranges::count(set.closed, 0);
     check(MPI_Allreduce(MPI_IN_PLACE, &range.openNodes, 1, MPIU_INT, MPI_SUM, analysis_.comm));
     std::vector<unsigned char> own;
-    for (const PetscInt k : substructure_.boundary) {
+    for (const PetscInt k : substructure.boundary) {
       const PetscInt i = contactNode[rows[k] / dimension];
       const bool isGap = rows[k] % dimension == dimension - 1;
       own.push_back(!set.closed[i] || (!isGap && set.released[i]));
@@ -242,11 +236,9 @@ std::vector<sweep_solver::PointRange> MeshSegment::ranges() const {
   return found;
 }
 
-pencil::Pencil MeshSegment::pencil() const { return terms::affineTerms(analysis_.contact, *all_); }
+std::vector<pencil::Term> MeshSweep::termsOf(std::size_t i) const { return termsOf(steadyAt(i)); }
 
-std::vector<pencil::Term> MeshSegment::termsOf(std::size_t i) const { return termsOf(steadyAt(i)); }
-
-std::vector<pencil::Term> MeshSegment::termsOf(const steady::Solution& solution) const {
+std::vector<pencil::Term> MeshSweep::termsOf(const steady::Solution& solution) const {
   OwnedMat change;
   if (prestress_ && &solution != &steadyAt(0)) {
     change = steady::prestressOf(*analysis_.mesh, analysis_.bodies, solution);
@@ -255,8 +247,8 @@ std::vector<pencil::Term> MeshSegment::termsOf(const steady::Solution& solution)
   return terms::pointTerms(analysis_.contact, *all_, solution, change, terms::Settings::given());
 }
 
-std::optional<std::vector<pencil::Term>> MeshSegment::termsAt(const sweep::Parameters& at,
-                                                              std::size_t like) {
+std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Parameters& at,
+                                                            std::size_t like) {
   sweep::Parameters steady = at;
   steady.damping = 1;
   const contact::ActiveSet set = steady::activeSet(steadyAt(like));
@@ -276,9 +268,9 @@ std::optional<std::vector<pencil::Term>> MeshSegment::termsAt(const sweep::Param
   return ifShared(problem_->solve(steady, current_.of(anywhere_)));
 }
 
-void MeshSegment::examine(std::size_t i, const pencil::Pencil& pencil,
-                          const sensitivity::StartSpace& start, pencil::ComplexModes& point) {
-  examineShapes(analysis_, *interior_, steadyAt(i), pencil, start, influences_, point);
+void MeshSweep::examine(std::size_t i, const pencil::Pencil& ofPoint,
+                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) {
+  examineShapes(analysis_, *interior_, steadyAt(i), ofPoint, start, influences_, point);
 }
 
 }  // namespace squeal::analysis

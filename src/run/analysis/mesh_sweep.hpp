@@ -23,19 +23,11 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
                                       const contact::CoupledSystem& interior);
 
 /// The problem of the steady points [first, last).
-class MeshSegment : public sweep_solver::SegmentProblem {
+class MeshSweep : public sweep_solver::SweepProblem {
  public:
   /// Collective. Borrows all arguments during the life of the object.
-  MeshSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
-              terms::Influences& influences);
-  const contact::CoupledSystem& system() const override { return *interior_; }
-  const subspace::Substructure& substructure() const override { return substructure_; }
-  std::vector<sweep_solver::PointRange> ranges() const override;
-  std::vector<sweep_solver::PathPiece> path(std::size_t first, std::size_t count) const override;
-  std::optional<double> frictionBefore(std::size_t first) const override;
-  Mat trial() const override { return all_->transformation().trial; }
-  const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
-  pencil::Pencil pencil() const override;
+  MeshSweep(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
+            terms::Influences& influences);
   std::vector<pencil::Term> termsOf(std::size_t i) const override;
   std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& at,
                                                    std::size_t like) override;
@@ -50,6 +42,8 @@ class MeshSegment : public sweep_solver::SegmentProblem {
   };
   const steady::Solution& steadyAt(std::size_t i) const { return analysis_.steady[first_ + i]; }
   void findSets();
+  std::vector<sweep_solver::PointRange> pointRanges() const;
+  std::optional<double> frictionOfPointBefore() const;
   std::vector<sweep_solver::PathPiece> piecesBehind(std::size_t point);
   std::vector<pencil::Term> termsOf(const steady::Solution& solution) const;
 
@@ -57,17 +51,13 @@ class MeshSegment : public sweep_solver::SegmentProblem {
   std::size_t first_;
   CurrentSystem& current_;
   terms::Influences& influences_;
-  std::vector<sweep::Parameters> points_;
-  std::vector<OnPath> sets_;  // [range]
-  // [point] the way to it from the point before on its line, the last piece with its own set
-  std::vector<std::vector<sweep_solver::PathPiece>> steps_;
+  std::vector<OnPath> sets_;     // [range]
   contact::ActiveSet anywhere_;  // of all sets
   OwnedMat prestress_;           // of the first point, which K0 contains
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;
   const contact::CoupledSystem* interior_ = nullptr;  // active wherever a point is
   const contact::CoupledSystem* all_ = nullptr;       // active where all points are
-  subspace::Substructure substructure_;
-  std::unique_ptr<steady::Problem> problem_;  // for points between those of the sweep
+  std::unique_ptr<steady::Problem> problem_;          // for points between those of the sweep
 };
 
 }  // namespace squeal::analysis

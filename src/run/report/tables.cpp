@@ -10,7 +10,6 @@
 #include "base/system/text.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/pencil/complex_modes.hpp"
-#include "eigen/pencil/settings.hpp"
 #include "eigen/sensitivity/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"

@@ -1,0 +1,59 @@
+#pragma once
+/// The checkpoint of a sweep.
+#include <optional>
+#include <string>
+
+#include "base/checkpoint/checkpoint.hpp"
+#include "eigen/modes/modes.hpp"
+#include "eigen/reduction/reduced.hpp"
+#include "eigen/sweep_solver/results.hpp"
+#include "eigen/sweep_solver/sweep_plan.hpp"
+#include "eigen/sweep_solver/sweep_problem.hpp"
+
+namespace squeal::sweep_solver {
+
+/// A Journal records the state of a sweep in the logs of a checkpoint whose names begin with a
+/// name, and restores it.
+class Journal {
+ public:
+  /// Borrows all but the name during the life of the object.
+  Journal(checkpoint::Checkpoint& checkpoint, std::string name, const SweepProblem& problem,
+          const SweepPlan& plan, SweepState& state)
+      : checkpoint_(checkpoint),
+        name_(std::move(name)),
+        problem_(problem),
+        plan_(plan),
+        state_(state),
+        begin_(MPI_Wtime()) {}
+
+  /// Collective. Restores the segments of a sweep that is finished. Returns false if there are
+  /// none.
+  bool restoreFinished();
+  /// Collective. Returns the free modes of the interior unknowns, if they are recorded.
+  std::optional<modes::Modes> restoredModes();
+  /// Collective. Restores the points and the basis, which is null with the direct method.
+  void restorePoints(reduction::ReducedProblem* basis);
+
+  /// Collective. Records what has been found since the last entry, if it is time: first the free
+  /// modes of the interior unknowns, then points and basis.
+  void record(modes::Modes& freeModes, reduction::ReducedProblem* basis);
+  /// Collective. Saves the finished segments, so that an interrupted run need not repeat them, if
+  /// that is worth it.
+  void recordFinished();
+
+ private:
+  void exchangePoints(checkpoint::Archive& archive, reduction::ReducedProblem* basis);
+  void exchangeFinished(checkpoint::Archive& archive);
+  MPI_Comm comm() const { return problem_.pencil->comm(); }
+
+  checkpoint::Checkpoint& checkpoint_;
+  std::string name_;
+  const SweepProblem& problem_;
+  const SweepPlan& plan_;
+  SweepState& state_;
+  double begin_;  // s
+  bool modesRecorded_ = false, setModesRecorded_ = false;
+  std::size_t exchanged_ = 0;  // solved points that the checkpoint has
+};
+
+}  // namespace squeal::sweep_solver

@@ -1,0 +1,18 @@
+#pragma once
+/// Free modes in the unknowns and displacements that are reported.
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "eigen/modes/modes.hpp"
+#include "eigen/subspace/basis.hpp"
+
+namespace squeal::sweep_solver {
+
+/// Collective. Returns at most `most` of the first modes in nodal displacements, with a largest
+/// entry of magnitude 1. `trial` is T.
+std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial, int most);
+
+/// Collective. Returns modes of the interior unknowns with vectors of all unknowns.
+modes::Modes onAllUnknowns(const modes::Modes& interior, const subspace::Basis& basis);
+
+}  // namespace squeal::sweep_solver

@@ -1,0 +1,29 @@
+#pragma once
+/// The points of a sweep, and the order in which they are solved.
+#include <vector>
+
+#include "eigen/sweep/parameters.hpp"
+#include "eigen/sweep_solver/sweep_problem.hpp"
+
+namespace squeal::sweep_solver {
+
+/// The place of a point of the sweep.
+struct PointPlace {
+  std::size_t steadyPoint;  ///< of the problem
+  std::size_t range;        ///< of the problem
+  std::size_t inRange;      ///< among all points of the range
+};
+
+/// The points of all dampings at all steady points.
+struct SweepPlan {
+  std::vector<sweep::Parameters> points;
+  std::vector<PointPlace> places;                 ///< [point]
+  std::vector<std::vector<std::size_t>> batches;  ///< of points that are solved together, in order
+  std::vector<std::size_t> order;                 ///< all points in this order
+};
+
+/// Returns the plan of a sweep; with `together`, each batch shares its corrections of one basis,
+/// and without it each point is a batch.
+SweepPlan planOf(const SweepProblem& problem, const std::vector<double>& dampings, bool together);
+
+}  // namespace squeal::sweep_solver
