@@ -13,7 +13,7 @@
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/pencil.hpp"
 #include "problem/terms/terms.hpp"
-#include "run/report/tables.hpp"
+#include "run/report/stability_table.hpp"
 #include "support/blocks.hpp"
 #include "support/dense.hpp"
 #include "support/layers.hpp"
