@@ -19,8 +19,8 @@ class AssociatedSystem {
   PetscInt size() const { return size_; }  ///< n
   MPI_Comm comm() const;
   /// Collective. Returns the direct solver of K0, factorised on first use and borrowed from this
-  /// object. An EPS that has used it leaves it without its factor, so that it is asked for anew
-  /// each time. Throws Error if the factorisation fails.
+  /// object. An EPS that has used it leaves it without its factor, so call this function again
+  /// before each use. Throws Error if the factorisation fails.
   KSP solver() const { return solver_->get(); }
 
  private:

@@ -17,8 +17,8 @@ namespace {
 /// remaining few then cost a pass of their own. An option -…_mat_mumps_icntl_27 takes precedence.
 constexpr int atOnce = 64;
 
-/// MUMPS foresees its workspace from the pattern alone, and pivoting may need more: then the
-/// factorisation is made anew with these percentages more (ICNTL(14)).
+/// MUMPS estimates its workspace only from the pattern, and pivoting may need more. The
+/// factorisation is then repeated with these percentages in addition (ICNTL(14)).
 constexpr int workspaces[] = {100, 400};
 
 /// The ratio of the memory foreseen to the free memory above which the factorisation is not tried.

@@ -1,6 +1,6 @@
 #pragma once
 /// This file calls MUMPS for the LDLᵀ factorisation of distributed symmetric matrices. PETSc's own
-/// interface makes the scatter of the solution anew at each call, a fifth of the time of a block of
+/// interface sets up the scatter of the solution at each call, a fifth of the time of a block of
 /// solves, and does not pass an ordering on.
 #include <dmumps_c.h>
 #include <petscsf.h>
@@ -39,8 +39,8 @@ class MumpsFactor {
   /// Collective. Returns the memory in bytes, summed over all ranks, that the analysis foresees.
   double memory() const { return 1e6 * id_.infog[16]; }
   /// Collective. Factorises the matrix, or that of analyse() if none is given, which may follow
-  /// analyse() alone, with more workspace where pivoting needs it, and with the factor on disk
-  /// where memory is short. Throws Error if the analysis foresees more memory than there is even
+  /// only analyse(), with more workspace if pivoting needs it, and with the factor on disk if
+  /// memory is short. Throws Error if the analysis foresees more memory than there is even
   /// so. Returns the reason of another failure, empty if there is none.
   std::string factorise(Mat matrix = nullptr);
   /// Collective. Computes X = A⁻¹ B, each by this rank's rows, column after column.

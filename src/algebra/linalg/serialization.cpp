@@ -5,14 +5,13 @@
 
 namespace squeal::linalg {
 
-void fields(checkpoint::Stream& stream, DensePair& pair) {
+void fields(Stream& stream, DensePair& pair) {
   // All members are named, so that a new one does not compile until it is written too.
   auto& [s, q, left] = pair;
   stream(s, q, left);
 }
 
-void borrow(checkpoint::Stream& stream, const DenseView& matrix,
-            std::shared_ptr<const void> owner) {
+void borrow(Stream& stream, const DenseView& matrix, std::shared_ptr<const void> owner) {
   PetscInt rows = matrix.rows(), columns = matrix.columns();
   stream(rows, columns);
   const auto entries = matrix.entries();

@@ -11,7 +11,7 @@ namespace squeal::linalg {
 
 /// Not collective. Writes a matrix, or sets it.
 template <class Scalar>
-void fields(checkpoint::Stream& stream, Dense<Scalar>& matrix) {
+void fields(Stream& stream, Dense<Scalar>& matrix) {
   PetscInt rows = matrix.rows(), columns = matrix.columns();
   stream(rows, columns);
   if (stream.reads()) matrix = Dense<Scalar>(rows, columns);
@@ -19,12 +19,11 @@ void fields(checkpoint::Stream& stream, Dense<Scalar>& matrix) {
 }
 
 /// Not collective. Writes a pair, or sets it.
-void fields(checkpoint::Stream& stream, DensePair& pair);
+void fields(Stream& stream, DensePair& pair);
 
 /// Not collective. Writes a matrix without a copy of its entries, which are borrowed; `owner` is
 /// kept during the life of the stream. It is read as a DenseMatrix.
-void borrow(checkpoint::Stream& stream, const DenseView& matrix,
-            std::shared_ptr<const void> owner = {});
+void borrow(Stream& stream, const DenseView& matrix, std::shared_ptr<const void> owner = {});
 
 /// Collective. Writes both parts, or makes them with the layout that they had.
 void exchange(checkpoint::Archive& archive, ComplexVector& vector);

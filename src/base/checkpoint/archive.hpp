@@ -10,8 +10,6 @@
 
 namespace squeal::checkpoint {
 
-using squeal::Stream;
-
 /// Message if a checkpoint entry does not contain the expected values.
 inline constexpr const char* damaged =
     "an entry of the checkpoint is damaged; without -resume the run starts from scratch";

@@ -29,7 +29,7 @@ struct Modes {
 /// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
 /// Unless `-modes_solver` chooses one of them, LAPACK takes their place where most of the modes of
 /// a small problem are wanted, or where EPS too has missed modes of a problem of at most 2000
-/// unknowns. A count that is not confirmed is no error. Throws Error if a count that is given
+/// unknowns. An unconfirmed count is not an error. Throws Error if a count that is given
 /// exceeds the number of unknowns, if the solver does not converge, or if an eigenvalue is not
 /// positive or could have been made by rounding.
 Modes compute(const factor::AssociatedSystem& system, const Settings& settings);

@@ -56,8 +56,8 @@ void RationalLanczos::expand(const Pole& pole) {
     massTimesW();
   }
   solve(pole);
-  // In exact arithmetic only the last two blocks have a part in W, but for the first two steps with
-  // a pole.
+  // In exact arithmetic only the last two blocks have a part in W, except in the first two steps
+  // with a pole.
   const DenseMatrix h = orthogonalise(sinceChange_ >= 2);
   ++sinceChange_;
   double size = 0;  // of W before V was taken out of it, squared
@@ -153,7 +153,7 @@ void RationalLanczos::append() {
 void RationalLanczos::massTimesW() {
   const LoggedWork work(Work::blockProduct);
   Mat product = mw_;
-  PetscScalar* changed = nullptr;  // tells PETSc that the entries are not those of before
+  PetscScalar* changed = nullptr;  // informs PETSc that the entries have changed
   check(MatDenseGetArrayWrite(asMat_, &changed));
   check(MatDenseRestoreArrayWrite(asMat_, &changed));
   check(MatMatMult(m_, asMat_, MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
@@ -187,7 +187,7 @@ void RationalLanczos::subtract(PetscInt first, DenseMatrix& sum) {
 }
 
 /// Makes W M-orthogonal to V and returns the summed coefficients, k × b: one pass over the last two
-/// blocks, where the recurrence says that these have a part in W alone, and one over all of V;
+/// blocks, where the recurrence says that only these have a part in W, and one over all of V;
 /// otherwise two over all of V.
 DenseMatrix RationalLanczos::orthogonalise(bool recurrence) {
   DenseMatrix sum(size_, width_);

@@ -136,7 +136,7 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
     apply(power, at, v, product);
     check(VecNorm(product, NORM_2, &size));
     estimate = std::max<double>(estimate, size);
-    if (size == 0) {  // the terms vanish at this friction; the next call begins anew
+    if (size == 0) {  // the terms vanish at this friction; the next call starts from scratch
       v = OwnedVec();
       return 0;
     }

@@ -5,17 +5,17 @@
 namespace squeal::pencil {
 
 /// The streams find these two by their arguments.
-void fields(checkpoint::Stream& stream, Derivative& derivative);
-void fields(checkpoint::Stream& stream, Sensitivity& found);
+void fields(Stream& stream, Derivative& derivative);
+void fields(Stream& stream, Sensitivity& found);
 
 // All members are named, so that a new one does not compile until it is kept too.
 
-void fields(checkpoint::Stream& stream, Derivative& derivative) {
+void fields(Stream& stream, Derivative& derivative) {
   auto& [parameter, value] = derivative;
   stream(parameter, value);
 }
 
-void fields(checkpoint::Stream& stream, Sensitivity& found) {
+void fields(Stream& stream, Sensitivity& found) {
   auto& [condition, separation, leftBackwardError, derivatives] = found;
   stream(condition, separation, leftBackwardError, derivatives);
 }

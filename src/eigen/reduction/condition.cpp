@@ -47,11 +47,11 @@ std::vector<double> conditionNumbers(const linalg::DenseProblem& problem,
     const Complex s = size == std::abs(pairs[j].s) ? pairs[j].s
                       : pairs[j].s == 0.0          ? size
                                                    : pairs[j].s * (size / std::abs(pairs[j].s));
-    const double alone = 1 / std::abs(pairing(pairs[j].left, s, massTimes, dampingTimes, j));
+    const double simple = 1 / std::abs(pairing(pairs[j].left, s, massTimes, dampingTimes, j));
     std::vector<std::size_t> cluster;
     for (std::size_t k = 0; k < pairs.size(); ++k)
       if (std::abs(pairs[k].s - pairs[j].s) <= oneCluster * size) cluster.push_back(k);
-    double number = alone;
+    double number = simple;
     if (cluster.size() > 1) {
       const PetscInt p = cluster.size();
       linalg::ComplexMatrix g(p, p);

@@ -1,6 +1,5 @@
 #pragma once
-/// This function tells how far residuals move eigenvalues, by condition numbers from left
-/// eigenvectors.
+/// Condition numbers from left eigenvectors: how far residuals move eigenvalues.
 #include <vector>
 
 #include "algebra/linalg/quadratic.hpp"

@@ -13,12 +13,12 @@ using subspace::Basis;
 
 /// Collective. Returns orthogonal columns f, by this rank's rows, that hold the forces [M.29]
 ///   k d_i   and   kᵀ d_i,   k = Σ c (iω_i)^power A,
-/// but for parts of length `resolution`. The parts of even and of odd powers are columns of their
-/// own, each of length 1. d_i stands for the columns of the basis that follow the constraint modes,
-/// one for each of the frequencies ω_i of free modes, rad/s. The sum is over the terms of friction
-/// and over all others that belong to this point alone. The responses K0⁻¹ f are the change of the
-/// right and left vectors with these terms, to first order in them and to lowest order in the
-/// frequency.
+/// except for parts of length `resolution`. The parts of even and of odd powers are columns of
+/// their own, each of length 1. d_i stands for the columns of the basis that follow the constraint
+/// modes, one for each of the frequencies ω_i of free modes, rad/s. The sum is over the terms of
+/// friction and over all others that belong only to this point. The responses K0⁻¹ f are the change
+/// of the right and left vectors with these terms, to first order in them and to lowest order in
+/// the frequency.
 linalg::Block forcesOnModes(const Basis& basis, const pencil::Pencil& pencil,
                             const sweep::Parameters& at, const std::vector<double>& frequencies,
                             double resolution);

@@ -6,12 +6,12 @@ namespace squeal::reduction {
 
 // All members are named, so that a new one does not compile until it is stored too.
 
-void fields(checkpoint::Stream& stream, PairErrors& errors) {
+void fields(Stream& stream, PairErrors& errors) {
   auto& [backward, right, left, roundOff, dense] = errors;
   stream(backward, right, left, roundOff, dense);
 }
 
-void fields(checkpoint::Stream& stream, PointSolution& solution) {
+void fields(Stream& stream, PointSolution& solution) {
   auto& [norms, spectrum, errors, symmetry] = solution;
   auto& [band, guard, improved] = spectrum;
   stream(norms, band, guard, improved, errors, symmetry);

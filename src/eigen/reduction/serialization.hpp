@@ -6,6 +6,6 @@
 namespace squeal::reduction {
 
 /// Not collective. Writes the solution of a point, the same on all ranks, or sets it.
-void fields(checkpoint::Stream& stream, PointSolution& solution);
+void fields(Stream& stream, PointSolution& solution);
 
 }  // namespace squeal::reduction

@@ -18,7 +18,7 @@ constexpr PetscInt smallestImproved = 400;
 /// The part of a residual that improving a pair may leave: a round of corrections gains a decade,
 /// and what is left must be small beside that; little is asked of a pair that needs little.
 constexpr double least = 0.03, enough = 0.3;
-/// A left vector counts in the product of two errors alone.
+/// A left vector counts only in the product of two errors.
 constexpr double leastOfLeft = 0.1;
 
 bool canImprove(const SpectrumRequest& request, const pencil::WatchedBand& band) {

@@ -106,7 +106,7 @@ Complex CriticalRoot::expected(double friction) const {
 
 /// Returns the function at a friction and keeps a sample. The value is NaN if there is no problem
 /// at this friction, or if the eigenvalues are not found in it. It is zero, without a sample,
-/// where two eigenvalues have met so closely that they cannot be told apart.
+/// where two eigenvalues are too close to distinguish.
 double CriticalRoot::valueAt(Family& family, double friction) {
   if (reach(family, friction)) return known_.back().value;
   const bool met = event_.kind == Event::Kind::coalescence &&

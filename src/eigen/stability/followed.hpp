@@ -55,7 +55,7 @@ struct Followed {
 /// tracking is `requested`.
 bool worthFollowing(const Line& line, bool requested);
 /// Returns the reason why there is nothing to follow on lines that are worth it; empty if there is
-/// something. Nothing is followed in the basis of the free modes alone.
+/// something. Nothing is followed in a basis of only the free modes.
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
                             const std::vector<Line>& lines);
 

@@ -3,23 +3,23 @@
 namespace squeal::tracking {
 
 /// The streams find these by their arguments.
-void fields(checkpoint::Stream& stream, Station& station);
-void fields(checkpoint::Stream& stream, Event& event);
-void fields(checkpoint::Stream& stream, Gap& gap);
+void fields(Stream& stream, Station& station);
+void fields(Stream& stream, Event& event);
+void fields(Stream& stream, Gap& gap);
 
 // All members are named, so that a new one does not compile until it is kept too.
 
-void fields(checkpoint::Stream& stream, Station& station) {
+void fields(Stream& stream, Station& station) {
   auto& [friction, swept, pairs, branch, overlap, inBand, piece] = station;
   stream(friction, swept, pairs, branch, overlap, inBand, piece);
 }
 
-void fields(checkpoint::Stream& stream, Event& event) {
+void fields(Stream& stream, Event& event) {
   auto& [kind, branch, partner, loss, low, high, below, above, isolation, piece] = event;
   stream(kind, branch, partner, loss, low, high, below, above, isolation, piece);
 }
 
-void fields(checkpoint::Stream& stream, Gap& gap) {
+void fields(Stream& stream, Gap& gap) {
   auto& [from, to, what, identityOnly] = gap;
   stream(from, to, what, identityOnly);
 }
@@ -28,7 +28,7 @@ void fields(checkpoint::Stream& stream, Gap& gap) {
 
 namespace squeal::stability {
 
-void fields(checkpoint::Stream& stream, Followed& followed) {
+void fields(Stream& stream, Followed& followed) {
   auto& [line, activeSet, from, branches, criticals, countExact, wholeSpace] = followed;
   auto& [band, stations, events, gaps, count, entered, left] = branches;
   stream(line, activeSet, from, band, stations, events, gaps, count, entered, left, criticals,

@@ -7,6 +7,6 @@
 namespace squeal::stability {
 
 /// Not collective. Writes what was followed on a line, which all ranks know, or sets it.
-void fields(checkpoint::Stream& stream, Followed& followed);
+void fields(Stream& stream, Followed& followed);
 
 }  // namespace squeal::stability

@@ -329,9 +329,9 @@ class SweepSolver {
 
   /// Collective. Solves a point, or notes why it has no result.
   void solveAlone(std::size_t i, const reduction::PointProblem& problem) try {
-    std::vector<reduction::PointProblem> alone;
-    alone.push_back({problem.at, problem.pencil.with({}), problem.set});
-    pointAt(i) = std::move(solved(alone).front());
+    std::vector<reduction::PointProblem> single;
+    single.push_back({problem.at, problem.pencil.with({}), problem.set});
+    pointAt(i) = std::move(solved(single).front());
   } catch (const Error& error) {
     noteFailure(problem.at, error.what());
   }

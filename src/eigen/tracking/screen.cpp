@@ -187,8 +187,8 @@ class Screening {
     const std::vector<linalg::DensePair> below{a.below, b.below}, above{a.above, b.above};
     const double isolation = isolationOf(i, j);
     Dip dip(d0 * d0, d1 * d1);
-    // Where they are equal at both ends, differences are rounding: only a growth that counts as
-    // such tells of a merger.
+    // Where they are equal at both ends, differences are round-off: only a growth that counts as
+    // such indicates a merger.
     const bool equalTwice = coincide(below) && coincide(above);
     const auto result = dip.search(equalTwice ? 0.5 : t, [&](double at) {
       const double value = examine(at, below, above, isolation);

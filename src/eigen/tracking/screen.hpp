@@ -20,7 +20,7 @@ struct StepEnd {
 };
 
 /// Collective. Appends the events found within the step between `low` and `high`. A cubic through
-/// the values and slopes at both ends tells which two neutral eigenvalues may meet and which growth
+/// the values and slopes at both ends shows which two neutral eigenvalues may meet and which growth
 /// rate may change its sign twice. These are examined in between by their own subspace. Mergers
 /// wider than about 1e-5 of the step are found, and so are arches of the growth rate whose cubic
 /// falls to a tenth of the values at the ends. If an examination fails or does not decide, a gap is

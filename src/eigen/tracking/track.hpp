@@ -42,7 +42,7 @@ struct Event {
 struct Gap {
   double from = 0, to = 0;
   std::string what;           ///< the reason
-  bool identityOnly = false;  ///< no eigenvalue is missing, but they cannot be told apart
+  bool identityOnly = false;  ///< no eigenvalue is missing, but they cannot be distinguished
 };
 
 /// The result of following.

@@ -35,12 +35,12 @@ bool isLinear(const ReducedModel& model, const march::Massless& scheme) {
 }  // namespace
 
 // All members are named, so that a new one does not compile until it is in the stream too.
-void fields(checkpoint::Stream& stream, Pass& pass) {
+void fields(Stream& stream, Pass& pass) {
   auto& [state, acceleration, period] = pass;
   stream(state, acceleration, period);
 }
 
-void fields(checkpoint::Stream& stream, Passes& passes) {
+void fields(Stream& stream, Passes& passes) {
   auto& [count, sum, nearest, change] = passes;
   stream(count, sum, nearest, change);
 }

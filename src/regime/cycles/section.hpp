@@ -29,8 +29,8 @@ struct Passes {
 };
 
 /// Writes the passes to a stream, or reads them.
-void fields(checkpoint::Stream& stream, Passes& passes);
-void fields(checkpoint::Stream& stream, Pass& pass);
+void fields(Stream& stream, Passes& passes);
+void fields(Stream& stream, Pass& pass);
 
 /// A Section is passed where the coordinate of a mode passes zero upwards.
 class Section {

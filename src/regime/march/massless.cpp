@@ -39,7 +39,7 @@ DenseMatrix modalInverse(const ReducedModel& model, double h) {
 }  // namespace
 
 // All members are named, so that a new one does not compile until it is in the stream too.
-void fields(checkpoint::Stream& stream, InitialState& state) {
+void fields(Stream& stream, InitialState& state) {
   auto& [q, v, z] = state;
   stream(q, v, z);
 }

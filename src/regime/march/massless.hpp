@@ -16,7 +16,7 @@ struct InitialState {
   std::vector<double> q, v, z;
 };
 /// Writes the state to a stream, or reads it.
-void fields(checkpoint::Stream& stream, InitialState& state);
+void fields(Stream& stream, InitialState& state);
 /// Returns the initial state of the first step, of length h.
 InitialState initialStateAt(const Start& start, double h);
 

@@ -54,7 +54,7 @@ const char* text(Kind kind) {
 }
 
 // All members are named, so that a new one does not compile until it is in the stream too.
-void fields(checkpoint::Stream& stream, Regime& regime) {
+void fields(Stream& stream, Regime& regime) {
   auto& [kind, settled, duration, carrier, modulation, growth, peakDeviation, largestKinetic,
          largestVelocity, largestJump, largestDefect, imbalance, means, nodes, cyclePeaks,
          spectrum] = regime;

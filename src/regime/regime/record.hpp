@@ -46,7 +46,7 @@ struct Regime {
 };
 
 /// Writes the regime to a stream, or reads it.
-void fields(checkpoint::Stream& stream, Regime& regime);
+void fields(Stream& stream, Regime& regime);
 
 /// The largest kinetic energies of the cycles of a march, J.
 class CyclePeaks {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/checkpoint/broadcast.hpp"
 #include "base/petsc/check.hpp"
 #include "base/system/mpi.hpp"
+#include "base/system/stream.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
 #include "regime/regime/cycle.hpp"
@@ -70,8 +70,8 @@ std::vector<Trajectory> trajectories(MPI_Comm comm, const ReducedModel& model,
     const int root = rankOf(comm, i);
     mpi::broadcast(comm, tasks[i].failure, root);
     if (!tasks[i].failure.empty()) continue;
-    checkpoint::broadcast(comm, all[i].regime, root);
-    checkpoint::broadcast(comm, all[i].passes, root);
+    broadcast(comm, all[i].regime, root);
+    broadcast(comm, all[i].passes, root);
   }
   return all;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/checkpoint/broadcast.hpp"
+#include "base/system/stream.hpp"
 
 namespace squeal::sound {
 namespace {
@@ -53,14 +53,14 @@ std::vector<Sample> RecentHistory::samples() const {
 
 /// The stream finds it by its argument. All members are named, so that a new one does not compile
 /// until it is broadcast too.
-void fields(checkpoint::Stream& stream, Sample& sample);
-void fields(checkpoint::Stream& stream, Sample& sample) {
+void fields(Stream& stream, Sample& sample);
+void fields(Stream& stream, Sample& sample) {
   auto& [time, q, z, gap, force] = sample;
   stream(time, q, z, gap, force);
 }
 
 void broadcast(MPI_Comm comm, int root, std::vector<Sample>& samples) {
-  checkpoint::broadcast(comm, samples, root);
+  squeal::broadcast(comm, samples, root);
 }
 
 }  // namespace squeal::sound

@@ -3,19 +3,19 @@
 namespace squeal::steady {
 
 /// The streams find these two by their arguments.
-void fields(checkpoint::Stream& stream, Resultant& resultant);
-void fields(checkpoint::Stream& stream, Sticking& sticking);
+void fields(Stream& stream, Resultant& resultant);
+void fields(Stream& stream, Sticking& sticking);
 
 // All members are named, so that a new one does not compile until it is kept too.
 
-void fields(checkpoint::Stream& stream, Resultant& resultant) {
+void fields(Stream& stream, Resultant& resultant) {
   auto& [interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
          overLimit, released, unheld, momentDefect] = resultant;
   stream(interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
          overLimit, released, unheld, momentDefect);
 }
 
-void fields(checkpoint::Stream& stream, Sticking& sticking) {
+void fields(Stream& stream, Sticking& sticking) {
   auto& [holds, direction, heldAgain] = sticking;
   stream(holds, direction, heldAgain);
 }

@@ -67,7 +67,7 @@ TEST(Quadratic, DampingThatIsNextToNothing) {
 }
 
 // Without friction and damping the eigenvalues of a moving disc are imaginary, exactly: whatever
-// rounding makes of a frequency of 1e-5 of the highest, some 1e-16 × 1e10 of itself, is no growth.
+// rounding makes of a frequency of 1e-5 of the highest, some 1e-16 × 1e10 of itself, is not growth.
 TEST(Quadratic, GyroscopicForcesLeaveNoGrowth) {
   constexpr PetscInt m = 40;
   std::mt19937 generator(5);
@@ -151,7 +151,7 @@ void expectReal(const DenseProblem& problem, const std::vector<double>& wanted) 
 }
 
 // A matrix of zeros has no size to scale by. With M = 1 and Z = 3 the roots of s² + 3 s are 0 and
-// −3; with M = 0, s + 2 has one root alone.
+// −3; with M = 0, s + 2 has only one root.
 TEST(Quadratic, WithoutStiffnessOrWithoutMass) {
   const auto one = [](double entry) { return test::square({entry}); };
   expectReal({one(1), one(3), one(0)}, {-3, 0});

@@ -129,8 +129,8 @@ TEST(Broadcast, CopiesTheValueOfTheRootToAllRanks) {
 TEST(Object, GivesTheCommunicatorOfAHandle) {
   OwnedVec vector;
   check(VecCreateSeq(PETSC_COMM_SELF, 2, vector.out()));
-  EXPECT_EQ(test::sizeOf(comm(vector)), 1);
-  EXPECT_EQ(comm(vector), comm(vector.get()));
+  EXPECT_EQ(test::sizeOf(commOf(vector)), 1);
+  EXPECT_EQ(commOf(vector), commOf(vector.get()));
   check(PetscObjectSetName(object(vector), "forces"));
   const char* name = nullptr;
   check(PetscObjectGetName(object(vector.get()), &name));

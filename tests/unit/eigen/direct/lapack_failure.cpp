@@ -1,6 +1,6 @@
 // Where LAPACK cannot sort a Schur form, the direct method begins again from another vector. The
 // failure is a matter of rounding, so this program puts its own dtrexc before that of LAPACK, which
-// refuses to swap as often as it is told to.
+// refuses to swap as often as a test asks it to.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <petscblaslapack.h>

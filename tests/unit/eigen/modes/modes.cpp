@@ -157,8 +157,8 @@ TEST_F(Layer, ASecondPoleFindsTheSameModes) {
   EXPECT_GT(fewer.below, 30);
   EXPECT_LT(fewer.solves, facts.solves);
   EXPECT_LT(departureFromOrthonormal(basisOf(two), system_->m0()), 1e-12);
-  // The residuals that the small matrices give are those of the pairs themselves, but for rounding
-  // of the solves, some 1e-13, which grows by λ/|λ − σ| next to the second pole.
+  // The residuals that the small matrices give are those of the pairs themselves, except for
+  // round-off of the solves, some 1e-13, which grows by λ/|λ − σ| next to the second pole.
   EXPECT_LT(worstResidual(*system_, one), 3e-12);
   EXPECT_LT(worstResidual(*system_, two), 1e-10);
   print("60 modes: %d solves with one pole, %d with two, of which the second has %d modes below\n",
@@ -193,7 +193,7 @@ modes::Modes modesOf(const Model& model, const std::string& options, int count) 
 }
 
 // Krylov vectors of one start vector meet one vector of each eigenspace: blocks of one miss half of
-// the modes of a ring. The inertia tells, and larger blocks find them; LAPACK gives the
+// the modes of a ring. The inertia shows it, and larger blocks find them; LAPACK gives the
 // frequencies.
 TEST(HeldRing, DoubleModesAreCounted) {
   const Model model = heldRing("n_theta=64,n_r=2,thickness=0.04,width=0.01");

@@ -81,7 +81,7 @@ TEST(Refinement, ImprovesPairsOfASmallerBasis) {
   expectSpectrum(eigenvaluesOf(bandOf(pairs)), eigenvaluesOf(bandOf(pairsOf(problem))), 1e-12);
 }
 
-// Pairs that are not open stay as they are, but for the zeros that extend them.
+// Pairs that are not open stay as they are, except for the zeros that extend them.
 TEST(Refinement, LeavesOtherPairs) {
   const DenseProblem problem = brake(0.02);
   auto pairs = pairsOf(leading(problem, known));

@@ -13,7 +13,7 @@
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/pencil.hpp"
 #include "problem/terms/terms.hpp"
-#include "run/report/tables.hpp"
+#include "run/report/stability_table.hpp"
 #include "support/blocks.hpp"
 #include "support/dense.hpp"
 #include "support/layers.hpp"
@@ -113,7 +113,7 @@ double outside(const Fixture& f, const linalg::Block& basis, const linalg::Block
 }
 
 // K0⁻¹ r for the forces of friction r = k φ and kᵀφ, of unit length, on the modes of the band: the
-// basis holds them but for K0⁻¹ r' with r' of length 0.03 at most, whose energy is that squared
+// basis holds them except for K0⁻¹ r' with r' of length 0.03 at most, whose energy is that squared
 // over the lowest eigenvalue of K0 at most.
 TEST(StaticResponses, AreHeldByTheBasis) {
   Fixture f("-modes_count 40 -flutter_rounds 0");

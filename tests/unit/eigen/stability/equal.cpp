@@ -1,5 +1,5 @@
 // Equal eigenvalues, at an end of a step or within it, against closed forms: they hide no change of
-// stability, and what cannot be decided is told.
+// stability, and what cannot be decided is reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ TEST(Equal, FrictionsOfTheSweepAndPointsBetweenThem) {
   }
 }
 
-// So close to the friction where they are equal that it cannot be told apart from it: told as not
+// So close to the friction where they are equal that it cannot be distinguished: reported as not
 // converged, with an error that covers it.
 TEST(Equal, ChangeTooCloseToBeSolvedFor) {
   const double c = 1e-6, exact = std::sqrt(0.25 + 4.5 * c * c);
@@ -160,7 +160,7 @@ TEST(Equal, DefectiveThroughout) {
 }
 
 // Two modes cross at f = 0.4, where the difference of their ω² is 100 (f − 0.4)³. With the coupling
-// c they are unstable while |f − 0.4|³ < c/50. What parabolas do not find there is told.
+// c they are unstable while |f − 0.4|³ < c/50. What parabolas do not find there is reported.
 TEST(Equal, FlatMergerIsFoundOrTold) {
   for (const double c : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
     Linear family = modal({100, 100}, {});

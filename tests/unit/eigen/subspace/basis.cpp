@@ -124,7 +124,7 @@ TEST(Basis, DropsWhatItHasAndWhatDependsOnOthers) {
   EXPECT_LT(f.departure(), 1e-10);
 }
 
-// Nothing is left of K0 V where V is orthonormal to some digits alone, so that the basis never
+// Nothing is left of K0 V where V is orthonormal only to some digits, so that the basis never
 // holds more vectors than there are unknowns.
 TEST(Basis, DropsWhatItHasWhereItIsLessOrthonormal) {
   for (const double along : {3e-5, 1e-4, 3e-4, 1e-3}) {

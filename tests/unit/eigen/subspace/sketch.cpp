@@ -51,8 +51,8 @@ DenseMatrix randomColumns(PetscInt count) {
   return test::randomMatrix(length, count, generator);
 }
 
-// Signs belong to global rows: the sketch of all ranks is that of one rank with all rows, but for
-// the order of the sums.
+// Signs belong to global rows: the sketch of all ranks is that of one rank with all rows, except
+// for the order of the sums.
 TEST(Sketch, DoesNotDependOnTheRanks) {
   const Layout layout(PETSC_COMM_WORLD), whole(PETSC_COMM_SELF);
   const DenseMatrix columns = randomColumns(3);
@@ -154,7 +154,7 @@ TEST(Sketch, NormsOfRegularVectors) {
             3 * std::sqrt(2.0 / subspace::Sketch::size));
 }
 
-// Columns that are combinations of few directions but for a small rest: as many combinations as
+// Columns that are combinations of few directions except for a small rest: as many combinations as
 // directions, and they hold the columns.
 TEST(Sketch, LeadingCombinationsHoldTheColumns) {
   const Layout layout(PETSC_COMM_WORLD);

@@ -78,9 +78,9 @@ TEST(Substructure, EigenvaluesAreThoseOfEachActiveSet) {
     std::vector<reduction::PointProblem> batch;
     for (const double friction : {0.0, 0.3, 0.6}) batch.push_back({{friction}, own.with({}), set});
     const auto points = f.reduced->solve(batch, f.all->transformation().trial);
-    const contact::CoupledSystem alone(f.model.bodies, f.model.contact,
-                                       {f.closedBut(from, to), {}});
-    const auto whole = terms::affineTerms(f.model.contact, alone);
+    const contact::CoupledSystem single(f.model.bodies, f.model.contact,
+                                        {f.closedBut(from, to), {}});
+    const auto whole = terms::affineTerms(f.model.contact, single);
     for (const auto& point : points) {
       std::vector<Complex> exact;
       for (const auto& pair :
@@ -111,9 +111,10 @@ TEST(Substructure, FreeModesAreCountedWithoutAnotherFactorisation) {
     const int set = f.add(from, to, own);
     const auto modes = f.reduced->freeModes(set, *f.terms);
     EXPECT_TRUE(modes.countConfirmed);
-    const contact::CoupledSystem alone(f.model.bodies, f.model.contact,
-                                       {f.closedBut(from, to), {}});
-    linalg::DenseMatrix stiffness = test::denseCopy(alone.k0()), mass = test::denseCopy(alone.m0());
+    const contact::CoupledSystem single(f.model.bodies, f.model.contact,
+                                        {f.closedBut(from, to), {}});
+    linalg::DenseMatrix stiffness = test::denseCopy(single.k0()),
+                        mass = test::denseCopy(single.m0());
     const auto exact = linalg::symmetricEigen(stiffness, mass);
     ASSERT_LT(modes.lambda.size(), exact.size());
     EXPECT_GT(exact[modes.lambda.size()], std::pow(f.reduced->band().top, 2));
@@ -124,7 +125,7 @@ TEST(Substructure, FreeModesAreCountedWithoutAnotherFactorisation) {
   }
 }
 
-// Below any frequency: where a number is told, it is right, and it is told but next to a mode,
+// Below any frequency: a number that is given is right, and it is given except next to a mode,
 // where the bounds of what the modes leave out are too wide.
 TEST(Substructure, NumberOfModesBelowAnyFrequency) {
   Fixture f;
@@ -134,7 +135,7 @@ TEST(Substructure, NumberOfModesBelowAnyFrequency) {
   const subspace::ModeCount count(basis, free, f.all->m0());
   EXPECT_FALSE(count.below(1.01 * free.inertiaShift, {}));  // above what is known of the interior
   std::vector<PetscInt> own;
-  int told = 0, asked = 0;
+  int known = 0, asked = 0;
   for (PetscInt open = 0; open <= basis.boundarySize(); ++open) {
     if (open > 0) own.push_back(open - 1);
     // The unknowns of this set: those of the interior and the gaps in question, in their place.
@@ -166,12 +167,12 @@ TEST(Substructure, NumberOfModesBelowAnyFrequency) {
       const auto found = count.below(sigma, own);
       ++asked;
       if (!found) continue;
-      ++told;
+      ++known;
       EXPECT_EQ(*found, std::ranges::count_if(exact, [&](double value) { return value < sigma; }));
     }
   }
-  test::print("%d of %d numbers told\n", told, asked);
-  EXPECT_GT(told, 0.8 * asked);
+  test::print("%d of %d numbers known\n", known, asked);
+  EXPECT_GT(known, 0.8 * asked);
 }
 
 }  // namespace

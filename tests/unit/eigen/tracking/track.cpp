@@ -40,7 +40,7 @@ TEST(Track, UncoupledModesKeepTheirIdentity) {
   }
 }
 
-// Two modes are equal at f = 0, but for what stands for rounding: it makes them a split pair, or
+// Two modes are equal at f = 0, except for simulated round-off: it makes them a split pair, or
 // puts one of them or the other first. Their frequencies part from there, and so number 1 is the
 // one that falls, whatever rounding says.
 TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
@@ -90,7 +90,7 @@ TEST(Track, StronglyDampedOnesAreLeftAloneUntilTheyMatter) {
   EXPECT_NEAR(found[0].slope, 2, 1e-5);  // ds/df = 20 / √(64 + 40 f), by a difference
 }
 
-// Eigenvalues enter and leave by the edge of the band alone.
+// Eigenvalues enter and leave only by the edge of the band.
 TEST(Track, TheEdgeOfTheBand) {
   Linear family = randomFamily(30, 7, false);
   pencil::WatchedBand band;
