@@ -108,7 +108,7 @@ std::vector<const SolverPrefix*> SolverPrefix::all() {
 
 void SolverPrefix::rejectUnused(const std::vector<std::string>& exceptAfter) const {
   for (const auto& name : namesLeft()) {
-    if (!name.starts_with(prefix)) continue;
+    if (!name.starts_with(prefix) || isOurs(name)) continue;
     const std::string rest = name.substr(prefix.size());
     if (std::any_of(exceptAfter.begin(), exceptAfter.end(),
                     [&](const auto& later) { return rest.starts_with(later); }))
