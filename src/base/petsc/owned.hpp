@@ -53,8 +53,8 @@ PetscObject object(const Owned<Handle, destroy>& owned) {
 
 /// Returns the communicator of an owned Mat, Vec, KSP, …
 template <class Handle, PetscErrorCode (*destroy)(Handle*)>
-MPI_Comm comm(const Owned<Handle, destroy>& owned) {
-  return comm(owned.get());
+MPI_Comm commOf(const Owned<Handle, destroy>& owned) {
+  return commOf(owned.get());
 }
 
 using OwnedVec = Owned<Vec, VecDestroy>;
