@@ -64,21 +64,24 @@ int run(const squeal::Session& session) try {
     if (session.rank() == 0) std::fputs(usage, stderr);
     return 1;  // a script that has lost its arguments must not take this for a run
   }
-  squeal::analysis::checkOptions();  // first, so that an error in them leaves all folders untouched
+  // All settings are read first, so that an error in them leaves all folders untouched.
+  const auto settings = squeal::analysis::Settings::given();
+  const auto reporting = squeal::report::Settings::given(
+      settings.pencil.method == squeal::pencil::Method::reduced, settings.mesh.has_value());
   for (const auto& line : squeal::replacedSettings()) squeal::say(session.comm(), line);
-  if (squeal::analysis::dryRunWanted()) {
-    squeal::analysis::dryRun(session.comm());
+  if (settings.dryRun) {
+    squeal::analysis::dryRun(session.comm(), settings);
     return 0;
   }
   squeal::beginEvents(session.comm());
-  squeal::report::Directory directory(session.comm());
-  if (const auto settings = squeal::matrices::ExportSettings::given(); settings.wanted())
-    squeal::matrices::requireExportFolder(session.comm(), settings, directory.path());
-  squeal::analysis::Analysis analysis =
-      squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint",
-                                squeal::report::Settings::given().modes);
+  squeal::report::Directory directory(session.comm(), reporting,
+                                      squeal::sweep::grid(settings.sweep).points());
+  if (settings.matrixExport.wanted())
+    squeal::matrices::requireExportFolder(session.comm(), settings.matrixExport, directory.path());
+  squeal::analysis::Analysis analysis = squeal::analysis::analyse(
+      session.comm(), settings, directory.interrupted() / "checkpoint", reporting.modes);
   try {
-    squeal::report::write(analysis, directory);
+    squeal::report::write(analysis, reporting, directory);
   } catch (const squeal::Error&) {
     if (analysis.checkpoint.exists())
       squeal::complain(session.comm(),

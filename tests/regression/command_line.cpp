@@ -292,7 +292,7 @@ TEST(CommandLine, MagnitudesAndSizesHaveLimits) {
        {"matrix 'x' times its factors", "its square"}},  // 1e500
       {"range",
        with(layer, {{"flutter_friction", "0:1:1e-7"}}),
-       {"-flutter_friction 0:1:1e-7", "10000001 values", "100000 at most"}},
+       {"-flutter_friction 0:1:1e-7", "10000001 values", "at most 100000"}},
       {"grid",
        with(layer, {{"flutter_friction", "0:0.999:0.001"}, {"flutter_speed", "1:1000:1"}}),
        {"1000 x 1000 x 1 x 1 = 1000000 points"}},

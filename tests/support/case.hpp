@@ -17,8 +17,7 @@ namespace squeal::test {
 inline analysis::Analysis runOptions(const std::string& options) {
   clearOptions();
   insert(settingsOfText("-quiet " + options));
-  analysis::checkOptions();
-  return analysis::analyse(PETSC_COMM_WORLD);
+  return analysis::analyse(PETSC_COMM_WORLD, analysis::Settings::given());
 }
 
 /// Collective. Runs a case file with a few options changed.
@@ -26,8 +25,7 @@ inline analysis::Analysis runCase(const std::string& name, const std::string& ch
   clearOptions();
   insertFile(PETSC_COMM_WORLD, "options/" + name + ".yaml");
   insert(settingsOfText("-quiet " + changes));
-  analysis::checkOptions();
-  return analysis::analyse(PETSC_COMM_WORLD);
+  return analysis::analyse(PETSC_COMM_WORLD, analysis::Settings::given());
 }
 
 /// Measured figures, once for all ranks.

@@ -176,8 +176,7 @@ TEST(FixedFriction, IsExported) {
   clearOptions();
   insertFile(PETSC_COMM_WORLD, folder + "/options.txt");
   insert(settingsOfText("-quiet"));
-  analysis::checkOptions();
-  const auto read = analysis::analyse(PETSC_COMM_WORLD);
+  const auto read = analysis::analyse(PETSC_COMM_WORLD, analysis::Settings::given());
   const auto &here = written.segments.at(0), &there = read.segments.at(0);
   // The tolerance of the modes, squared, and that of the certificate.
   EXPECT_LT(worst(errors(eigenvaluesOf(here.modes), eigenvaluesOf(there.modes)).relative), 1e-9);

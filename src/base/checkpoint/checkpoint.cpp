@@ -23,16 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const FlagOption checkpointOption(
-    "general", "checkpoint", true,
-    "write checkpoints to the subfolder interrupted of the results folder");
-const RealOption intervalOption(
-    "general", "checkpoint_interval", 60, "s", nonNegative,
-    "minimum wall time between checkpoint entries; 0 = an entry for every result");
-const FlagOption resumeOption(
-    "general", "resume", false,
-    "resume from the checkpoint in the results folder, or start from scratch if there is none");
-
 constexpr const char* identityName = "identity.json";
 
 /// Returns true for the name of a file of a checkpoint.
@@ -78,13 +68,11 @@ int entriesIn(const fs::path& folder) {
 
 }  // namespace
 
-bool resumeWanted() { return resumeOption.get(); }
-
-Checkpoint::Checkpoint(MPI_Comm comm, fs::path folder, Identity identity, bool resumes)
+Checkpoint::Checkpoint(MPI_Comm comm, fs::path folder, Identity identity, const Settings& settings)
     : comm_(comm),
       folder_(std::move(folder)),
       identity_(std::move(identity)),
-      enabled_(checkpointOption.get()),
+      settings_(settings),
       last_(MPI_Wtime()) {
   int found = 0;
   std::string different;
@@ -94,19 +82,19 @@ Checkpoint::Checkpoint(MPI_Comm comm, fs::path folder, Identity identity, bool r
     if (!differs) return;
     different = *differs;
     found = entriesIn(folder_);
-    if (found > 0 && resumes && !different.empty())
+    if (found > 0 && settings.resume && !different.empty())
       throw Error("the checkpoint in " + folder_.string() +
                   " belongs to another run: " + different);
   });
   mpi::broadcast(comm_, found);
   if (found == 0) {
-    if (resumes)
+    if (settings.resume)
       say(comm_, "resume: there is no checkpoint in " + folder_.string() +
                      "; the run starts from scratch");
     return;
   }
   exists_ = true;
-  if (!resumes) {
+  if (!settings.resume) {
     complain(comm_,
              "warning: " + folder_.string() + " contains the checkpoint of " +
                  (different.empty() ? "this case, which -resume would have used" : "another run") +
@@ -141,15 +129,15 @@ std::optional<Archive> Checkpoint::next(const std::string& log) {
 }
 
 bool Checkpoint::due() {
-  if (!enabled_) return false;
+  if (!settings_.enabled) return false;
   constexpr double most = 0.05;  // share of the time that entries may take
-  const double interval = intervalOption.get(), since = MPI_Wtime() - last_;
+  const double interval = settings_.interval, since = MPI_Wtime() - last_;
   return mpi::any(comm_, stopAsked() || interval == 0 || since >= std::max(interval, cost_ / most));
 }
 
 bool Checkpoint::isWorth(double seconds) const {
-  if (!enabled_) return false;
-  bool is = seconds >= intervalOption.get() / 6;
+  if (!settings_.enabled) return false;
+  bool is = seconds >= settings_.interval / 6;
   mpi::broadcast(comm_, is);
   return is;
 }
@@ -164,7 +152,7 @@ void Checkpoint::prepareFolder() const {
 }
 
 void Checkpoint::write(const std::string& log, const Archive& archive) {
-  if (!enabled_) return;
+  if (!settings_.enabled) return;
   const double begin = MPI_Wtime();
   const Layout layout = layoutOf(comm_, archive);
   const fs::path path = fileOf(log, count_[log]), partial = fs::path(path) += ".partial";
@@ -185,7 +173,7 @@ void Checkpoint::write(const std::string& log, const Archive& archive) {
     complain(comm_, std::string("warning: the run writes no more checkpoints: ") + error.what());
     std::error_code ignored;
     if (mpi::rank(comm_) == 0 && whyNotRegular(partial).empty()) fs::remove(partial, ignored);
-    enabled_ = false;
+    settings_.enabled = false;
     return;
   }
   begun_ = exists_ = true;

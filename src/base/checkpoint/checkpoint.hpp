@@ -9,6 +9,7 @@
 
 #include "base/checkpoint/archive.hpp"
 #include "base/checkpoint/identity.hpp"
+#include "base/checkpoint/settings.hpp"
 
 namespace squeal::checkpoint {
 
@@ -24,10 +25,11 @@ class Checkpoint {
  public:
   /// Makes a disabled checkpoint without entries.
   Checkpoint() = default;
-  /// Collective. With `resumes`, next() reads the entries in the folder. Throws Error if they have
-  /// another identity or are damaged. If there are none, the log reports it, and the run starts
-  /// from scratch.
-  Checkpoint(MPI_Comm comm, std::filesystem::path folder, Identity identity, bool resumes);
+  /// Collective. If the settings say so, next() reads the entries in the folder. Throws Error if
+  /// they have another identity or are damaged. If there are none, the log reports it, and the run
+  /// starts from scratch.
+  Checkpoint(MPI_Comm comm, std::filesystem::path folder, Identity identity,
+             const Settings& settings);
 
   /// Collective. Returns the next entry of a log; none after the last one. Throws Error if its file
   /// cannot be read or is damaged.
@@ -55,14 +57,12 @@ class Checkpoint {
   MPI_Comm comm_ = MPI_COMM_NULL;
   std::filesystem::path folder_;
   Identity identity_;
-  bool enabled_ = false, resumed_ = false, begun_ = false, exists_ = false;
+  Settings settings_{.enabled = false};
+  bool resumed_ = false, begun_ = false, exists_ = false;
   double last_ = 0;                   // time of the last entry, s
   double cost_ = 0;                   // time that it took, s
   std::map<std::string, int> read_;   // [log] entries read
   std::map<std::string, int> count_;  // [log] entries in the folder
 };
-
-/// Returns the option `-resume`.
-bool resumeWanted();
 
 }  // namespace squeal::checkpoint

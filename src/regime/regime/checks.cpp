@@ -11,14 +11,14 @@
 
 namespace squeal::regime {
 
-void checkOptions(const Settings& settings, bool ofMesh) {
+void checkOptions(const Settings& settings, const pencil::Settings& pencil,
+                  const terms::Settings* terms) {
   if (!settings.followed()) return;
   checkSteps(settings.march);
-  if (!ofMesh)
+  if (!terms)
     throw Error(
         "option -regime_friction: matrices from files do not define where bodies separate and "
         "stick; the motion after flutter is followed only for meshes");
-  const auto pencil = pencil::Settings::given();
   if (pencil.method == pencil::Method::direct)
     throw Error(
         "option -regime_friction: the motion after flutter needs the free modes and the estimates "
@@ -27,7 +27,7 @@ void checkOptions(const Settings& settings, bool ofMesh) {
     throw Error(
         "option -regime_friction: -flutter_modal_damping is not followed in time; give the damping "
         "to the materials");
-  if (!terms::Settings::given().frictionDamping)
+  if (!terms->frictionDamping)
     throw Error(
         "option -regime_friction: in time the friction force turns with the relative velocity, so "
         "that -flutter_friction_damping must be on");

@@ -4,15 +4,18 @@
 
 #include <span>
 
+#include "eigen/pencil/settings.hpp"
+#include "problem/terms/settings.hpp"
 #include "regime/regime/full_model.hpp"
 #include "regime/regime/settings.hpp"
 #include "regime/regime/task.hpp"
 
 namespace squeal::regime {
 
-/// Throws Error for settings of the stage that no march can satisfy, and for options of other
-/// stages that it does not support.
-void checkOptions(const Settings& settings, bool ofMesh);
+/// Throws Error for settings of the stage that no march can satisfy, and for settings of other
+/// stages that it does not support. `terms` is null for matrices from files.
+void checkOptions(const Settings& settings, const pencil::Settings& pencil,
+                  const terms::Settings* terms);
 
 /// Throws Error if there is no contact, and for convective terms and prestress, which are not
 /// supported in time.

@@ -27,7 +27,7 @@ const pencil::ComplexModes* Analysis::pointAt(const sweep::Parameters& at) const
 }
 
 sweep_solver::Request requestOf(const Analysis& analysis) {
-  return {.settings = sweep_solver::Settings::given(),
+  return {.settings = analysis.settings.solver,
           .dampings = analysis.sweep.dampings,
           .reportedModes = analysis.reportedModes};
 }
@@ -37,48 +37,27 @@ void addFailure(Analysis& analysis, const std::string& reason) {
   analysis.failures.push_back(reason);
 }
 
-void checkOptions() {
-  rejectUnknownOptions();
-  const auto pencil = pencil::Settings::given();
-  direct::rejectIdleSolverOptions(pencil.method);
-  if (pencil.method == pencil::Method::direct && pencil.isModallyDamped())
-    throw Error(
-        "option -flutter_modal_damping: damping of the free modes needs the modes of "
-        "-flutter_method reduced");
-  sweep::grid(sweep::Settings::given());
-  const bool ofMesh = matrices::Settings::given().ofMesh();
-  regime::checkOptions(regime::Settings::given(), ofMesh);
-  if (ofMesh) ModelSettings::given();
-}
-
-/// Adds frictions to those of a sweep.
-static void addFrictions(sweep::Sweep& sweep, const std::vector<double>& more) {
-  for (const double friction : more)
-    if (std::ranges::find(sweep.frictions, friction) == sweep.frictions.end())
-      sweep.frictions.push_back(friction);
-  std::ranges::sort(sweep.frictions);
-}
-
-Analysis prepare(MPI_Comm comm) {
+Analysis prepare(MPI_Comm comm, const Settings& settings) {
   Analysis analysis;
   analysis.comm = comm;
-  const bool ofMesh = matrices::Settings::given().ofMesh();
-  analysis.sweep = sweep::grid(sweep::Settings::given());
-  addFrictions(analysis.sweep, regime::Settings::given().frictions);
-  if (ofMesh) {
+  analysis.settings = settings;
+  analysis.sweep = sweep::grid(settings.sweep);
+  if (settings.mesh) {
     prepareMesh(analysis);
-    warnOfDenseWork(comm, analysis.sweep, analysis.mesh->dimension * analysis.mesh->totalNodes);
+    warnOfDenseWork(comm, settings, analysis.sweep,
+                    analysis.mesh->dimension * analysis.mesh->totalNodes);
   }
   return analysis;
 }
 
-Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder, int reportedModes) {
-  Analysis analysis = prepare(comm);
+Analysis analyse(MPI_Comm comm, const Settings& settings,
+                 const std::filesystem::path& checkpointFolder, int reportedModes) {
+  Analysis analysis = prepare(comm, settings);
   analysis.reportedModes = reportedModes;
   if (!checkpointFolder.empty()) {
     auto identity = checkpoint::identityOfRun(comm);
     if (analysis.mesh) identity["the mesh"] = mesh::checksum(*analysis.mesh);
-    analysis.checkpoint = {comm, checkpointFolder, std::move(identity), checkpoint::resumeWanted()};
+    analysis.checkpoint = {comm, checkpointFolder, std::move(identity), settings.checkpoint};
   }
   expectPoints(analysis.sweep.points().size());
   try {

@@ -14,6 +14,7 @@
 #include "model/elasticity/elasticity.hpp"
 #include "model/mesh/mesh.hpp"
 #include "regime/regime/regime.hpp"
+#include "run/analysis/settings.hpp"
 #include "steady/condensed/contact_path.hpp"
 #include "steady/steady/steady.hpp"
 #include "steady/uniqueness/uniqueness.hpp"
@@ -29,6 +30,7 @@ struct SpeedUniqueness {
 /// All results of a run, and the problem that they belong to.
 struct Analysis {
   MPI_Comm comm = MPI_COMM_NULL;
+  Settings settings;
   sweep::Sweep sweep;
   /// The mesh, at a fixed address, since contact and steady sliding borrow it; null for matrices
   /// from files, where bodies, contact and steady states are empty.
@@ -67,20 +69,16 @@ sweep_solver::Request requestOf(const Analysis& analysis);
 /// Collective. Adds the reason why a stage has no result, and prints it.
 void addFailure(Analysis& analysis, const std::string& reason);
 
-/// Collective. Throws Error for options that are unknown, out of range or idle: for all that can be
-/// told before a file is read or written.
-void checkOptions();
-
 /// Collective. Returns all that comes before the first solution: the sweep and, for a mesh, the
-/// mesh, the matrices of the bodies and contact. Matrices from files are read later. The options
-/// must have been checked. Throws Error as the stages document it.
-Analysis prepare(MPI_Comm comm);
+/// mesh, the matrices of the bodies and contact. Matrices from files are read later.
+/// Throws Error as the stages document it.
+Analysis prepare(MPI_Comm comm, const Settings& settings);
 
 /// Collective. Runs all stages that the options, which have been checked, ask for, and returns the
 /// results; those that there are where the run has been asked to stop. The folder is for the
 /// checkpoint; an empty path: there is none. `reportedModes` is the number of free modes whose
 /// shapes are reported. Throws Error as the stages and the checkpoint document it.
-Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder = {},
-                 int reportedModes = 10);
+Analysis analyse(MPI_Comm comm, const Settings& settings,
+                 const std::filesystem::path& checkpointFolder = {}, int reportedModes = 10);
 
 }  // namespace squeal::analysis

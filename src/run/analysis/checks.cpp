@@ -9,9 +9,9 @@
 
 namespace squeal::analysis {
 
-void settleFriction(const contact::Contact& contact, sweep::Sweep& sweep) {
+void settleFriction(const contact::Contact& contact, bool frictionGiven, sweep::Sweep& sweep) {
   if (contact.frictionExponents() != std::vector<int>{0}) return;
-  if (givenOptions().count("flutter_friction") && sweep.frictions != std::vector<double>{0})
+  if (frictionGiven && sweep.frictions != std::vector<double>{0})
     throw Error(
         "option -flutter_friction: no interface has this coefficient of friction, since each "
         "sliding one has a -contact_<interface>_friction; leave one of them out");
@@ -47,11 +47,11 @@ void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const swe
 }
 
 void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact& contact,
-                       const sweep::Sweep& sweep) {
+                       const pencil::Settings& pencil, const sweep::Sweep& sweep) {
   const auto given = [](const std::vector<double>& factors) {
     return factors != std::vector<double>{1};
   };
-  if (given(sweep.dampings) && !bodies.damping && !pencil::Settings::given().isModallyDamped())
+  if (given(sweep.dampings) && !bodies.damping && !pencil.isModallyDamped())
     throw Error(
         "option -flutter_damping scales the damping of the bodies, and there is none: give "
         "-material_<group>_rayleigh_*, "
@@ -70,7 +70,8 @@ void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact&
         "-constraint_<group>_displacement or -contact_<interface>_obstacle_displacement");
 }
 
-void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
+void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms,
+                       const pencil::Settings& pencil, const sweep::Sweep& sweep) {
   const auto require = [&](const std::vector<double>& values, const std::string& name,
                            auto exponent) {
     if (values.size() > 1 && std::none_of(terms.begin(), terms.end(), [&](const auto& named) {
@@ -82,16 +83,17 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const swee
   require(sweep.frictions, "friction",
           [](const pencil::Term& term) { return term.frictionExponent; });
   require(sweep.speeds, "speed", [](const pencil::Term& term) { return term.speedExponent; });
-  if (!pencil::Settings::given().isModallyDamped())
+  if (!pencil.isModallyDamped())
     require(sweep.dampings, "damping",
             [](const pencil::Term& term) { return term.dampingExponent; });
   if (sweep.pressures != std::vector<double>{1})
     throw Error("option -flutter_pressure: no matrix from a file depends on the pressure");
 }
 
-void warnOfDenseWork(MPI_Comm comm, const sweep::Sweep& sweep, PetscInt unknowns) {
-  if (pencil::Settings::given().method == pencil::Method::direct) return;
-  const int modes = std::min<PetscInt>(modes::Settings::given().count, unknowns);
+void warnOfDenseWork(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep,
+                     PetscInt unknowns) {
+  if (settings.pencil.method == pencil::Method::direct) return;
+  const int modes = std::min<PetscInt>(settings.solver.modes->count, unknowns);
   sweep::warnOfLongSweep(comm, sweep, modes);
 }
 

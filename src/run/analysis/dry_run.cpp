@@ -19,10 +19,6 @@
 namespace squeal::analysis {
 namespace {
 
-const FlagOption dryRunOption("general", "dry_run", false,
-                              "check the input, say what a run would do and how much memory it "
-                              "would take, and solve and write nothing");
-
 /// Collective. Returns the sum over all ranks.
 double total(MPI_Comm comm, double value) {
   check(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm));
@@ -89,13 +85,14 @@ void saySweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
 /// analysis of MUMPS foresees it, and the vectors of the basis with what is computed from them:
 /// about `vectorsPerMode` for each free mode, as measured of 53,151 to 225,715 unknowns in three
 /// dimensions and of 119,600 in the plane.
-void sayMemory(MPI_Comm comm, Mat k0) {
+void sayMemory(MPI_Comm comm, const Settings& settings, Mat k0) {
   constexpr double vectorsPerMode = 12;
   PetscInt unknowns = 0;
   MatInfo info;
   check(MatGetSize(k0, &unknowns, nullptr));
   check(MatGetInfo(k0, MAT_GLOBAL_SUM, &info));
-  const int modes = std::min<PetscInt>(modes::Settings::given().count, unknowns);
+  const int modes =
+      std::min<PetscInt>(settings.solver.modes.value_or(modes::Settings()).count, unknowns);
   const double factor = factor::factorMemory(k0);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -112,7 +109,7 @@ void sayMemory(MPI_Comm comm, Mat k0) {
 }
 
 void ofMatrices(const Analysis& analysis) {
-  const auto named = readMatrices(analysis.comm, analysis.sweep);
+  const auto named = readMatrices(analysis.comm, analysis.settings, analysis.sweep);
   OwnedMat pattern;  // of K0
   for (const auto& [name, term] : named) {
     MatInfo info;
@@ -133,16 +130,14 @@ void ofMatrices(const Analysis& analysis) {
   saySweep(analysis.comm, analysis.sweep, false);
   PetscInt unknowns = 0;
   check(MatGetSize(named.front().term.matrix, &unknowns, nullptr));
-  warnOfDenseWork(analysis.comm, analysis.sweep, unknowns);
-  if (pattern) sayMemory(analysis.comm, pattern);
+  warnOfDenseWork(analysis.comm, analysis.settings, analysis.sweep, unknowns);
+  if (pattern) sayMemory(analysis.comm, analysis.settings, pattern);
 }
 
 }  // namespace
 
-bool dryRunWanted() { return dryRunOption.get(); }
-
-void dryRun(MPI_Comm comm) {
-  const Analysis analysis = prepare(comm);
+void dryRun(MPI_Comm comm, const Settings& settings) {
+  const Analysis analysis = prepare(comm, settings);
   if (!analysis.mesh) {
     ofMatrices(analysis);
   } else {
@@ -153,7 +148,7 @@ void dryRun(MPI_Comm comm) {
     const contact::CoupledSystem system(
         analysis.bodies, analysis.contact,
         contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size()));
-    sayMemory(comm, system.k0());
+    sayMemory(comm, settings, system.k0());
   }
   say(comm,
       "dry run: no fault found in options and files; nothing was solved or written, so that "

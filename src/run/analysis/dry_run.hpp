@@ -2,15 +2,14 @@
 /// The option `-dry_run` says what a run would do and take, without a solution and without results.
 #include <mpi.h>
 
-namespace squeal::analysis {
+#include "run/analysis/settings.hpp"
 
-/// Returns the option `-dry_run`.
-bool dryRunWanted();
+namespace squeal::analysis {
 
 /// Collective. Checks the input, after the options, as a run does up to its first factorisation,
 /// and says what was found: bodies, constraints, loads, contact (or matrices), points of the sweep,
 /// and an estimate of the memory. Whether matrices from files are symmetric and positive definite
 /// is not checked. Throws Error as the run does.
-void dryRun(MPI_Comm comm);
+void dryRun(MPI_Comm comm, const Settings& settings);
 
 }  // namespace squeal::analysis

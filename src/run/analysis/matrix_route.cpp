@@ -21,7 +21,8 @@ class MatrixSweep : public sweep_solver::SweepProblem {
  public:
   /// Collective. Borrows the system, shares the terms of the pencil, and takes the points.
   MatrixSweep(const factor::AssociatedSystem& matrices, const pencil::Pencil& terms,
-              std::vector<sweep::Parameters> points) {
+              std::vector<sweep::Parameters> points, bool derives)
+      : derives_(derives) {
     PetscInt local = 0;
     check(MatGetLocalSize(matrices.k0(), &local, nullptr));
     check(MatCreateConstantDiagonal(matrices.comm(), local, local, PETSC_DETERMINE, PETSC_DETERMINE,
@@ -34,20 +35,21 @@ class MatrixSweep : public sweep_solver::SweepProblem {
   }
   void examine(std::size_t, const pencil::Pencil& ofPoint, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override {
-    if (sensitivity::Settings::given().wanted)
-      sensitivity::deriveParameters(point, ofPoint, start, *system);
+    if (derives_) sensitivity::deriveParameters(point, ofPoint, start, *system);
   }
 
  private:
   OwnedMat identity_;
+  bool derives_;  // the sensitivities
 };
 
 }  // namespace
 
-std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep) {
+std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const Settings& settings,
+                                              const sweep::Sweep& sweep) {
   Stage stage(comm, "matrices");
-  auto named = matrices::readTerms(comm, matrices::Settings::given());
-  rejectIdleFactors(named, sweep);
+  auto named = matrices::readTerms(comm, settings.matrices);
+  rejectIdleFactors(named, settings.pencil, sweep);
   requireFiniteSweep(named, sweep);
   std::vector<std::string> files;
   for (const auto& item : named)
@@ -57,7 +59,7 @@ std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep&
 }
 
 void solveMatrices(Analysis& analysis) {
-  auto named = readMatrices(analysis.comm, analysis.sweep);
+  auto named = readMatrices(analysis.comm, analysis.settings, analysis.sweep);
   Stage stage(analysis.comm, "matrices");
   const matrices::SymmetricPart symmetric = matrices::symmetricPart(named);
   stage.finish(formatted(
@@ -68,14 +70,15 @@ void solveMatrices(Analysis& analysis) {
                       symmetric.asymmetry)
                 .c_str()
           : ""));
-  warnOfDenseWork(analysis.comm, analysis.sweep, symmetric.system.size());
+  warnOfDenseWork(analysis.comm, analysis.settings, analysis.sweep, symmetric.system.size());
   std::vector<pencil::Term> terms;
   for (auto& item : named) terms.push_back(std::move(item.term));
   const pencil::Pencil pencil(std::move(terms));
   const auto points = analysis.sweep.steadyPoints();
-  if (const auto settings = matrices::ExportSettings::given(); settings.wanted())
+  if (const auto& settings = analysis.settings.matrixExport; settings.wanted())
     matrices::exportPencil(pencil, settings, analysis.sweep, points.size());
-  MatrixSweep problem(symmetric.system, pencil, points);
+  MatrixSweep problem(symmetric.system, pencil, points,
+                      analysis.settings.solver.sensitivity.wanted);
   auto solved =
       sweep_solver::solveSweep(problem, requestOf(analysis), analysis.checkpoint, "matrices");
   analysis.segments = std::move(solved.segments);

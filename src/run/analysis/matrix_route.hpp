@@ -11,7 +11,8 @@ namespace squeal::analysis {
 
 /// Collective. Returns the matrices of files, checked against the sweep. Throws Error as
 /// matrices::readTerms(), rejectIdleFactors() and requireFiniteSweep() do.
-std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep);
+std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const Settings& settings,
+                                              const sweep::Sweep& sweep);
 
 /// Collective. Adds to the analysis one segment: the modes, and flutter at all points of its sweep.
 /// Throws Error as readMatrices(), matrices::symmetricPart() and the stages do.

@@ -120,8 +120,9 @@ void findOnsets(Analysis& analysis, const pencil::ComplexModes& point) try {
 }
 
 /// Returns true if the motion after flutter is wanted at a point of the sweep.
-bool isFollowed(const sweep::Sweep& sweep, const sweep::Parameters& at) {
-  return std::ranges::binary_search(regime::Settings::given().frictions, at.friction) &&
+bool isFollowed(const Analysis& analysis, const sweep::Parameters& at) {
+  const sweep::Sweep& sweep = analysis.sweep;
+  return std::ranges::binary_search(analysis.settings.regime.frictions, at.friction) &&
          at.speed == sweep.speeds.front() && at.pressure == sweep.pressures.front() &&
          at.damping == sweep.dampings.front();
 }
@@ -146,7 +147,7 @@ void followAfterFlutter(Analysis& analysis, const MeshSweep& problem, CurrentSys
   held.released.assign(analysis.contact.interfaces.nodes.size(), 0);
   analysis.regimes.push_back(regime::study({analysis.bodies, analysis.contact, current.of(held),
                                             steadyAt(analysis, point.at), point.at.damping},
-                                           regime::Settings::given(),
+                                           analysis.settings.regime,
                                            nodalModes(analysis, problem, segment), point));
   const auto& failures = analysis.regimes.back().failures;
   analysis.failures.insert(analysis.failures.end(), failures.begin(), failures.end());
@@ -160,7 +161,7 @@ void nameUnfollowed(Analysis& analysis) {
   for (const auto& solution : analysis.steady) {
     auto at = solution.at;
     at.damping = analysis.sweep.dampings.front();
-    if (!solution.converged && isFollowed(analysis.sweep, at))
+    if (!solution.converged && isFollowed(analysis, at))
       addFailure(analysis,
                  sweep::parameterText(at) +
                      ": not followed after flutter (-regime_friction): there is no steady "
@@ -180,7 +181,7 @@ void solveMeshSweep(Analysis& analysis, std::size_t first, std::size_t last, Cur
   MeshSweep problem(analysis, first, last, current, influences);
   // Terms of their own are absent at friction 0 alone: the last point, of the largest friction, has
   // them if any point has.
-  if (const auto settings = matrices::ExportSettings::given(); settings.wanted())
+  if (const auto& settings = analysis.settings.matrixExport; settings.wanted())
     matrices::exportPencil(problem.pencil->with(problem.termsOf(last - first - 1)), settings,
                            analysis.sweep, last - first);
   const int before = std::ssize(analysis.segments);
@@ -202,14 +203,15 @@ void solveMeshSweep(Analysis& analysis, std::size_t first, std::size_t last, Cur
   if (!solved.complete) throw Interrupted();
   for (const auto& segment : found)
     for (const auto& point : segment.points)
-      if (isFollowed(analysis.sweep, point.at))
+      if (isFollowed(analysis, point.at))
         followAfterFlutter(analysis, problem, current, segment, point);
 }
 
 }  // namespace
 
 void prepareMesh(Analysis& analysis) {
-  const ModelSettings settings = ModelSettings::given();
+  const Settings& run = analysis.settings;
+  const ModelSettings& settings = run.mesh->model;
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(analysis.comm, settings));
   // before elements are made: it moves nodes
   auto ties = findTies(*analysis.mesh, settings.interfaces);
@@ -217,23 +219,23 @@ void prepareMesh(Analysis& analysis) {
   analysis.contact =
       buildContact(*analysis.mesh, analysis.bodies, std::move(ties), settings.contact);
   contact::requireMotion(analysis.contact);
-  settleFriction(analysis.contact, analysis.sweep);
-  if (const auto settings = regime::Settings::given(); settings.followed())
-    regime::requireSupported(settings, analysis.bodies, analysis.contact);
+  settleFriction(analysis.contact, run.frictionGiven, analysis.sweep);
+  if (run.regime.followed())
+    regime::requireSupported(run.regime, analysis.bodies, analysis.contact);
   requireFiniteSweep(analysis.bodies, analysis.contact, analysis.sweep);
-  rejectIdleFactors(analysis.bodies, analysis.contact, analysis.sweep);
+  rejectIdleFactors(analysis.bodies, analysis.contact, run.pencil, analysis.sweep);
 }
 
 void solveMesh(Analysis& analysis) {
   CurrentSystem system(analysis);
   steadySweep(analysis, system);
   if (analysis.contact.interfaces.totalNodes > 0)
-    if (const auto settings = uniqueness::Settings::given(); settings.wanted)
+    if (const auto& settings = analysis.settings.mesh->uniqueness; settings.wanted)
       analysis.uniqueness = examineUniqueness(analysis, settings);
   std::vector<std::string> failures;
   std::string firstReason;
   terms::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact,
-                               terms::Settings::given());
+                               analysis.settings.mesh->terms);
   for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
     last = first + 1;
     if (!analysis.steady[first].converged) continue;

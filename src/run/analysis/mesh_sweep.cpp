@@ -17,11 +17,6 @@
 namespace squeal::analysis {
 namespace {
 
-const IntegerOption releasedOption(
-    "flutter", "reduction_released", 150, 0, 100'000,
-    "largest number of contact nodes by which the active sets of points that share a factorisation "
-    "and a basis may differ; 0: each active set has its own");
-
 /// Closes the nodes that another set closes, and holds those that it holds.
 void closeLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
   for (std::size_t i = 0; i < set.closed.size(); ++i) {
@@ -55,14 +50,15 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
                    pencil::ComplexModes& point) {
   if (point.shapes.empty()) return;
   const OwnedMat prestress = steady::prestressOf(*analysis.mesh, analysis.bodies, solution);
-  const auto friction = terms::frictionState(analysis.contact, solution, terms::Settings::given());
+  const auto friction =
+      terms::frictionState(analysis.contact, solution, analysis.settings.mesh->terms);
   for (auto& shape : point.shapes) {
     const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
     shape.frictionWork =
         terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction,
                             {point.at, point.eigenvalues[shape.index].s, u, prestress});
   }
-  if (!sensitivity::Settings::given().wanted) return;
+  if (!analysis.settings.solver.sensitivity.wanted) return;
   Stage stage(analysis.mesh->comm, "flutter");
   influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
   double error = 0;
@@ -83,12 +79,9 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
 
 std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   // Modal damping is that of the free modes of a point, which prestress changes.
-  const auto pencil = pencil::Settings::given();
-  if (pencil.isModallyDamped() && analysis.bodies.settings.prestress) return first + 1;
-  const bool alone = pencil.method == pencil::Method::direct ||
-                     sensitivity::Settings::given().wanted ||
-                     matrices::ExportSettings::given().wanted() || pencil.isModallyDamped();
-  const PetscInt most = alone ? 0 : releasedOption.get();
+  if (analysis.settings.pencil.isModallyDamped() && analysis.bodies.settings.prestress)
+    return first + 1;
+  const PetscInt most = analysis.settings.mesh->released;
   contact::ActiveSet anywhere = steady::activeSet(analysis.steady[first]), everywhere = anywhere;
   std::size_t last = first;
   for (; last < analysis.steady.size() && analysis.steady[last].converged; ++last) {
@@ -244,7 +237,8 @@ std::vector<pencil::Term> MeshSweep::termsOf(const steady::Solution& solution) c
     change = steady::prestressOf(*analysis_.mesh, analysis_.bodies, solution);
     check(MatAXPY(change, -1, prestress_, SAME_NONZERO_PATTERN));
   }
-  return terms::pointTerms(analysis_.contact, *all_, solution, change, terms::Settings::given());
+  return terms::pointTerms(analysis_.contact, *all_, solution, change,
+                           analysis_.settings.mesh->terms);
 }
 
 std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Parameters& at,

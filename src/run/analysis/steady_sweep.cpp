@@ -18,15 +18,6 @@
 namespace squeal::analysis {
 namespace {
 
-const FlagOption fullOption("steady", "steady_full", false,
-                            "steady sliding is solved in all unknowns, as a check, instead of in "
-                            "those of the contact");
-
-const IntegerOption pathOption(
-    "steady", "steady_path", 20, 0, 1'000'000,
-    "largest number of contact nodes that may open or close between neighbouring points of a sweep "
-    "for the parameters to be solved for at which they do; 0: none");
-
 /// Collective. Tells which sticking interfaces are held by more than their limit of friction, and
 /// which slide.
 void tellSticking(const Analysis& analysis, const steady::Solution& solution) {
@@ -147,7 +138,7 @@ std::string betweenText(const Analysis& analysis, const Way& way) {
 /// be followed, and tells those that are too long.
 std::vector<Way> waysToFollow(const Analysis& analysis, std::size_t begin) {
   const MPI_Comm comm = analysis.mesh->comm;
-  const int limit = pathOption.get();
+  const int limit = analysis.settings.mesh->steady.path;
   std::vector<Way> ways;
   for (std::size_t k = begin; k < analysis.steady.size() && limit > 0; ++k) {
     const auto neighbour = analysis.sweep.earlierNeighbour(k);
@@ -368,7 +359,7 @@ void fullSweep(Analysis& analysis, const steady::Problem& problem, CurrentSystem
 
 void steadySweep(Analysis& analysis, CurrentSystem& system) {
   const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
-  if (fullOption.get())
+  if (analysis.settings.mesh->steady.full)
     fullSweep(analysis, problem, system);
   else
     condensedSweep(analysis, problem, system.of(bonded(analysis)));

@@ -25,15 +25,6 @@ using fieldfile::Hdf5File;
 
 namespace {
 
-const IntegerOption animatedOption(
-    "report", "report_animated", 1, 0, 1000,
-    "number of fastest growing modes of the whole sweep written as a time series over one period");
-const IntegerOption piecesOption(
-    "report", "report_pieces", 8, 1, 1'000'000,
-    "most files that the VTK form of one field is written into; on more ranks, neighbouring ranks "
-    "share a file");
-const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames of one period");
-
 /// Collective. Returns a nodal vector with the contact pressure at the pad nodes, Pa, in component
 /// 0 and the gap, m, in component 1; both are zero elsewhere.
 OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution& solution) {
@@ -71,7 +62,7 @@ struct Animated {
   const pencil::Shape* shape;
 };
 
-std::vector<Animated> fastest(const analysis::Analysis& analysis) {
+std::vector<Animated> fastest(const analysis::Analysis& analysis, int count) {
   std::vector<Animated> all;
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
@@ -79,7 +70,7 @@ std::vector<Animated> fastest(const analysis::Analysis& analysis) {
         all.push_back({point.eigenvalues[shape.index].s.real(), &point, &shape});
   std::sort(all.begin(), all.end(),
             [](const auto& a, const auto& b) { return a.growth > b.growth; });
-  all.resize(std::min<std::size_t>(all.size(), animatedOption.get()));
+  all.resize(std::min<std::size_t>(all.size(), count));
   return all;
 }
 
@@ -92,9 +83,9 @@ std::string shapeName(const pencil::ComplexModes& point, const pencil::Shape& sh
 ///   Re(d e^{iφ})
 /// over one period: pressing play in ParaView shows the squeal. The growth is left out, since it
 /// would hide the shape.
-void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Animated& item,
-             const std::filesystem::path& folder) {
-  const int frames = framesOption.get();
+void animate(const analysis::Analysis& analysis, const Settings& settings, const Ghosts& ghosts,
+             const Animated& item, const std::filesystem::path& folder) {
+  const int frames = settings.frames;
   const double period = 2 * M_PI / item.point->eigenvalues[item.shape->index].s.imag();
   if (!std::isfinite(period)) return;  // divergence does not oscillate
   const std::string name =
@@ -108,7 +99,7 @@ void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Ani
     check(VecScale(u, std::cos(phase)));
     check(VecAXPY(u, -std::sin(phase), item.shape->imaginary));
     const auto stem = folder / name / formatted("frame_%03d", frame);
-    writeVtk(*analysis.mesh, stem, {ghosts.vector("displacement", u)});
+    writeVtk(*analysis.mesh, stem, {ghosts.vector("displacement", u)}, settings.pieces);
     files.emplace_back(period * frame / frames, stem.string() + ".pvtu");
   }
   fieldfile::writePvd(analysis.mesh->comm, folder / (name + ".pvd"), files, folderOption);
@@ -142,11 +133,12 @@ void writePath(const analysis::Analysis& analysis, Hdf5File& file) {
 }  // namespace
 
 void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
-              const std::vector<Field>& fields) {
-  fieldfile::writeVtu(mesh, stem, fields, folderOption, piecesOption.get());
+              const std::vector<Field>& fields, int pieces) {
+  fieldfile::writeVtu(mesh, stem, fields, folderOption, pieces);
 }
 
-void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
+void writeFields(const analysis::Analysis& analysis, const Settings& settings,
+                 const std::filesystem::path& folder) {
   const auto& mesh = *analysis.mesh;
   const auto vtk = folder / "vtk";
   const Ghosts ghosts(mesh);
@@ -156,7 +148,8 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
     const auto stem = vtk / ("steady_friction_" + pointName(solution.at));
     writeVtk(mesh, stem,
              {ghosts.vector("displacement", solution.displacement),
-              ghosts.scalar("contact_pressure", contactField(analysis, solution))});
+              ghosts.scalar("contact_pressure", contactField(analysis, solution))},
+             settings.pieces);
     // ParaView's time is the friction; where more is swept, several states would share it, and the
     // file's place in the list is the time.
     const bool frictionAlone = analysis.sweep.frictions.size() == analysis.steady.size();
@@ -171,7 +164,8 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
           formatted("mode_%03zu_%.0f_Hz", i + 1, segment.modes.angularFrequency[i] / (2 * M_PI)),
           segment.shapes[i]));
     if (!fields.empty())
-      writeVtk(mesh, vtk / ("modes_from_friction_" + pointName(segment.points.front().at)), fields);
+      writeVtk(mesh, vtk / ("modes_from_friction_" + pointName(segment.points.front().at)), fields,
+               settings.pieces);
     for (const auto& point : segment.points) {
       std::vector<Field> shapes;
       for (const auto& shape : point.shapes) {
@@ -181,11 +175,13 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
                                        workField(analysis, shape), 1));
       }
       if (!shapes.empty())
-        writeVtk(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes);
+        writeVtk(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes,
+                 settings.pieces);
     }
   }
-  for (const auto& item : fastest(analysis)) animate(analysis, ghosts, item, vtk);
-  writeRegimeFields(analysis, ghosts, vtk);
+  for (const auto& item : fastest(analysis, settings.animated))
+    animate(analysis, settings, ghosts, item, vtk);
+  writeRegimeFields(analysis, ghosts, vtk, settings.pieces);
 }
 
 void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder) {

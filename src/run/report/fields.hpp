@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "run/analysis/analysis.hpp"
+#include "run/report/settings.hpp"
 
 namespace squeal::report {
 
@@ -12,6 +13,7 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
 
 /// Collective. Writes the VTK files of a run with a mesh into `folder`/vtk. Throws Error as
 /// writeVtu() does.
-void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder);
+void writeFields(const analysis::Analysis& analysis, const Settings& settings,
+                 const std::filesystem::path& folder);
 
 }  // namespace squeal::report

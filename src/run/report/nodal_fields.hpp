@@ -12,7 +12,7 @@ namespace squeal::report {
 
 /// Collective. Writes the VTK files of some fields in as many pieces as `-report_pieces` allows.
 void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
-              const std::vector<fieldfile::Field>& fields);
+              const std::vector<fieldfile::Field>& fields, int pieces);
 
 /// Brings nodal values from their owners to all ranks whose cells need them. Its methods are
 /// collective.

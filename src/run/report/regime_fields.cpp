@@ -69,7 +69,7 @@ OwnedVec borrowed(const mesh::Mesh& mesh, std::span<const double> column) {
 
 /// Collective. Writes the latest cycles of a run as a time series.
 void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Run& run,
-             const std::filesystem::path& stem) {
+             const std::filesystem::path& stem, int pieces) {
   const auto& frames = run.surface.frames;
   std::vector<std::pair<double, std::filesystem::path>> files;
   for (std::size_t k = 0; k < frames.time.size(); ++k) {
@@ -80,7 +80,8 @@ void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Run
     };
     writeVtk(*analysis.mesh, file,
              {ghosts.vector("displacement", u), ghosts.scalar("gap", at(frames.gap[k])),
-              ghosts.scalar("contact_pressure", at(frames.pressure[k]))});
+              ghosts.scalar("contact_pressure", at(frames.pressure[k]))},
+             pieces);
     files.emplace_back(frames.time[k], file.string() + ".pvtu");
   }
   if (!files.empty())
@@ -90,15 +91,15 @@ void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Run
 }  // namespace
 
 void writeRegimeFields(const analysis::Analysis& analysis, const Ghosts& ghosts,
-                       const std::filesystem::path& vtk) {
+                       const std::filesystem::path& vtk, int pieces) {
   forEachRun(analysis, [&](const Study& study, const Run& run, const std::string& name) {
     if (run.regime.measured()) {
       std::vector<Field> fields;
       for (const auto& mean : meanFields)
         fields.push_back(ghosts.scalar(mean.name, meansOf(analysis, study, run, mean)));
-      writeVtk(*analysis.mesh, vtk / ("regime_means_" + name), fields);
+      writeVtk(*analysis.mesh, vtk / ("regime_means_" + name), fields, pieces);
     }
-    animate(analysis, ghosts, run, vtk / ("regime_" + name));
+    animate(analysis, ghosts, run, vtk / ("regime_" + name), pieces);
   });
 }
 

@@ -9,9 +9,10 @@
 
 namespace squeal::report {
 
-/// Collective. Writes the VTK files of each run of the regime into the folder `vtk`.
+/// Collective. Writes the VTK files of each run of the regime into the folder `vtk`,
+/// each field in at most `pieces` files.
 void writeRegimeFields(const analysis::Analysis& analysis, const Ghosts& ghosts,
-                       const std::filesystem::path& vtk);
+                       const std::filesystem::path& vtk, int pieces);
 
 /// Collective. Writes the means at the contact nodes to /regime/friction_POINT/start_START.
 void writeRegimeFields(const analysis::Analysis& analysis, fieldfile::Hdf5File& file);

@@ -216,7 +216,7 @@ void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::pat
   writeText(comm, folder / "regime_cycles.csv", cycleTable(analysis));
   writeText(comm, folder / "regime_spectrum.csv", spectrumTable(analysis));
   writeText(comm, folder / "regime_points.csv", pointTable(analysis));
-  const auto cycles = regime::Settings::given().cycles;
+  const auto& cycles = analysis.settings.regime.cycles;
   if (!cycles.wanted) return;
   writeText(comm, folder / "periodic.csv", periodicTable(analysis));
   writeText(comm, folder / "floquet.csv", floquetTable(analysis));

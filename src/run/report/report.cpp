@@ -19,26 +19,8 @@
 namespace squeal::report {
 namespace {
 
-const TextOption directoryOption("report", "report_dir", "results",
-                                 "folder for the results: a new or empty one, or one with earlier "
-                                 "results, which are replaced when the new ones are complete");
-const FlagOption fieldsOption("report", "report_fields", true,
-                              "write fields: results.h5 and the VTK files");
-
-/// Returns true if a case names the folder: in an options file, or, as scripts/run does it, by its
-/// own name: results/NAME for the case NAME.yaml.
-bool isOfCase(const std::filesystem::path& folder) {
-  if (!origin("report_dir", folder.string()).file.empty()) return true;
-  const auto place = (std::filesystem::absolute(folder) / "").lexically_normal().parent_path();
-  if (place.parent_path().filename() != "results") return false;
-  return std::ranges::any_of(givenOptions(), [&](const auto& option) {
-    const std::filesystem::path file = origin(option.first, option.second).file;
-    return !file.empty() && file.stem() == place.filename();
-  });
-}
-
-output::Naming naming() {
-  const auto names = std::make_shared<ResultNames>(sweep::grid(sweep::Settings::given()).points());
+output::Naming naming(const std::vector<sweep::Parameters>& points) {
+  const auto names = std::make_shared<ResultNames>(points);
   const std::filesystem::path part = "interrupted";
   return {.option = folderOption,
           .last = "summary.json",
@@ -47,28 +29,30 @@ output::Naming naming() {
 }
 
 /// Returns the naming of the folder that the option names.
-output::Naming namingOfOption() {
-  output::Naming naming = report::naming();
-  naming.ofCase = isOfCase(directoryOption.get());
+output::Naming namingOfOption(const Settings& settings,
+                              const std::vector<sweep::Parameters>& points) {
+  output::Naming naming = report::naming(points);
+  naming.ofCase = settings.folderOfCase;
   if (const auto log = eventsFile(); !log.empty()) naming.opened = {log};
   return naming;
 }
 
 /// Returns the naming of a folder inside it.
-output::Naming namingOfPart() {
-  output::Naming naming = report::naming();
+output::Naming namingOfPart(const std::vector<sweep::Parameters>& points) {
+  output::Naming naming = report::naming(points);
   naming.inside = true;
   return naming;
 }
 
 /// Collective. Writes all reports into the folder, which has been staged.
-void writeInto(const analysis::Analysis& analysis, output::Folder& folder) {
+void writeInto(const analysis::Analysis& analysis, const Settings& settings,
+               output::Folder& folder) {
   {
     Stage stage(analysis.comm, "report");
     writeTables(analysis, folder.staging());
-    if (fieldsOption.get()) {
+    if (settings.fields) {
       writeHdf5(analysis, folder.staging());
-      if (analysis.mesh) writeFields(analysis, folder.staging());
+      if (analysis.mesh) writeFields(analysis, settings, folder.staging());
     }
     stage.finish("results in " + folder.path().string());
   }
@@ -79,7 +63,8 @@ void writeInto(const analysis::Analysis& analysis, output::Folder& folder) {
 
 }  // namespace
 
-Directory::Directory(MPI_Comm comm) : Folder(comm, namingOfOption(), directoryOption.get()) {
+Directory::Directory(MPI_Comm comm, const Settings& settings, std::vector<sweep::Parameters> points)
+    : Folder(comm, namingOfOption(settings, points), settings.folder), points_(std::move(points)) {
   stage();
   writeRecipe(comm, staging());
 }
@@ -89,10 +74,10 @@ void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::stri
               [&] { output::writeFile(path, text); });
 }
 
-void write(const analysis::Analysis& analysis, Directory& directory) {
+void write(const analysis::Analysis& analysis, const Settings& settings, Directory& directory) {
   const MPI_Comm comm = analysis.comm;
   if (!analysis.interrupted) {
-    writeInto(analysis, directory);
+    writeInto(analysis, settings, directory);
     say(comm, stabilityTable(analysis));
     return;
   }
@@ -103,9 +88,9 @@ void write(const analysis::Analysis& analysis, Directory& directory) {
     return complain(comm, "interrupted before the first eigenvalues" + how);
   }
   try {
-    output::Folder part(comm, namingOfPart(), directory.interrupted());
+    output::Folder part(comm, namingOfPart(directory.points()), directory.interrupted());
     part.stage();
-    writeInto(analysis, part);
+    writeInto(analysis, settings, part);
   } catch (const Error& error) {
     return complain(comm, std::string("interrupted; what was found so far is not written: ") +
                               error.what() + how);
@@ -122,7 +107,7 @@ void removeInterrupted(MPI_Comm comm, const Directory& directory) {
   });
   mpi::broadcast(comm, there);
   if (there) try {
-      output::Folder(comm, namingOfPart(), directory.interrupted()).discard();
+      output::Folder(comm, namingOfPart(directory.points()), directory.interrupted()).discard();
     } catch (const Error& error) {  // the results are complete
       complain(comm, std::string("warning: results of an interrupted run stay: ") + error.what());
     }

@@ -1,21 +1,54 @@
 #include "run/report/settings.hpp"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "base/options/options.hpp"
-#include "eigen/pencil/settings.hpp"
 
 namespace squeal::report {
 namespace {
 
+const TextOption directoryOption("report", "report_dir", "results",
+                                 "folder for the results: a new or empty one, or one with earlier "
+                                 "results, which are replaced when the new ones are complete");
+const FlagOption fieldsOption("report", "report_fields", true,
+                              "write fields: results.h5 and the VTK files");
 const IntegerOption modesOption("report", "report_modes", 10, 0, 100'000,
                                 "number of free modes written as fields");
+const IntegerOption animatedOption(
+    "report", "report_animated", 1, 0, 1000,
+    "number of fastest growing modes of the whole sweep written as a time series over one period");
+const IntegerOption piecesOption(
+    "report", "report_pieces", 8, 1, 1'000'000,
+    "most files that the VTK form of one field is written into; on more ranks, neighbouring ranks "
+    "share a file");
+const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames of one period");
+
+/// Returns true if a case names the folder: in an options file, or, as scripts/run does it, by its
+/// own name: results/NAME for the case NAME.yaml.
+bool isOfCase(const std::filesystem::path& folder) {
+  if (!origin("report_dir", folder.string()).file.empty()) return true;
+  const auto place = (std::filesystem::absolute(folder) / "").lexically_normal().parent_path();
+  if (place.parent_path().filename() != "results") return false;
+  return std::ranges::any_of(givenOptions(), [&](const auto& option) {
+    const std::filesystem::path file = origin(option.first, option.second).file;
+    return !file.empty() && file.stem() == place.filename();
+  });
+}
 
 }  // namespace
 
-Settings Settings::given() {
+Settings Settings::given(bool isReduced, bool ofMesh) {
   Settings settings;
-  // The direct method reports no free modes.
-  if (pencil::Settings::given().method == pencil::Method::reduced)
-    settings.modes = modesOption.get();
+  settings.folder = directoryOption.get();
+  settings.folderOfCase = isOfCase(settings.folder);
+  settings.fields = fieldsOption.get();
+  if (isReduced) settings.modes = modesOption.get();
+  if (settings.fields && ofMesh) {
+    settings.animated = animatedOption.get();
+    settings.frames = framesOption.get();
+    settings.pieces = piecesOption.get();
+  }
   return settings;
 }
 

@@ -1,13 +1,21 @@
 #pragma once
-/// The choices of the report.
+/// The settings of the report.
+#include <string>
 
 namespace squeal::report {
 
-/// Options of the report.
 struct Settings {
-  int modes = 10;  ///< `-report_modes`: number of free modes written as fields
-  /// Not collective. Reads the options.
-  static Settings given();
+  std::string folder = "results";  ///< `-report_dir`
+  bool folderOfCase = false;       ///< the case names the folder, so that it may hold any files
+  bool fields = true;              ///< `-report_fields`: write results.h5 and the VTK files
+  int modes = 10;                  ///< `-report_modes`: number of free modes written as fields
+  int animated = 1;                ///< `-report_animated`: number of modes written in motion
+  int frames = 16;                 ///< `-report_frames`: time steps of a period
+  int pieces = 8;                  ///< `-report_pieces`: most VTK files of one field
+
+  /// Not collective. Reads the options; those of the fields only if they are written, and those of
+  /// VTK files only for a mesh. The direct method has no free modes.
+  static Settings given(bool isReduced, bool ofMesh);
 };
 
 }  // namespace squeal::report

@@ -147,7 +147,7 @@ std::string errorText(const analysis::Analysis& analysis) {
       backward = std::max(backward, point.worstBackwardError());
       estimate = std::max(estimate, point.worstErrorEstimate());
     }
-  const double asked = pencil::Settings::given().band.top;
+  const double asked = analysis.settings.pencil.band.top;
   if (top < asked)
     text += formatted(
         "\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: "

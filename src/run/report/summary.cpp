@@ -293,7 +293,7 @@ Json runEntry(const analysis::Analysis& analysis) {
   entry["verdict"] = verdictEntry(runVerdict(analysis));
   if (analysis.mesh) entry.update(meshEntry(*analysis.mesh, analysis.contact));
   entry["method"] =
-      pencil::Settings::given().method == pencil::Method::direct ? "direct" : "reduced";
+      analysis.settings.pencil.method == pencil::Method::direct ? "direct" : "reduced";
   entry["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
   return entry;
 }

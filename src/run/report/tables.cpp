@@ -127,7 +127,7 @@ std::string contactPathTable(const analysis::Analysis& analysis) {
 void writeTables(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
   writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
-  if (sensitivity::Settings::given().wanted)
+  if (analysis.settings.solver.sensitivity.wanted)
     writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
   if (analysis.mesh) writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));

@@ -209,8 +209,7 @@ Outcome run(const Model& model, const Form& form, const Changes& changes,
         settings.push_back({name, value, "", 0});
       }
     insert(settings);
-    analysis::checkOptions();
-    return outcomeOf(analysis::analyse(PETSC_COMM_WORLD));
+    return outcomeOf(analysis::analyse(PETSC_COMM_WORLD, analysis::Settings::given()));
   } catch (const Error& error) {
     outcome.refusal = error.what();
   }

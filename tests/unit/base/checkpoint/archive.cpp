@@ -24,11 +24,8 @@ fs::path folder(const std::string& name) {
          ("checkpoint_" + name + "_" + std::to_string(mpi::size(PETSC_COMM_WORLD))) / "entries";
 }
 
-/// Writes an entry at every call, and restores the option afterwards.
-struct EveryEntry {
-  EveryEntry() { insert({{"checkpoint_interval", "0"}}); }
-  ~EveryEntry() { removeOption("checkpoint_interval"); }
-};
+/// Settings that make every call an entry.
+Settings everyEntry(bool resume) { return {.interval = 0, .resume = resume}; }
 
 /// Writes one entry, whose parts differ from rank to rank.
 void write(Checkpoint& checkpoint, double first) {
@@ -96,7 +93,6 @@ void expectAsWritten(Checkpoint& checkpoint, double first) {
 }
 
 TEST(Checkpoint, IsReadAsItWasWritten) {
-  const EveryEntry all;
   const fs::path place = folder("read");
   const Identity identity{{"a", "1"}};
   Checkpoint first(PETSC_COMM_WORLD, place, identity, false);
@@ -119,12 +115,11 @@ TEST(Checkpoint, IsReadAsItWasWritten) {
 }
 
 TEST(Checkpoint, OfAnotherRunIsRefused) {
-  const EveryEntry all;
   const fs::path place = folder("other");
   Checkpoint first(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "2"}}, false);
   write(first, 1);
   try {
-    Checkpoint(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, true);
+    Checkpoint(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, everyEntry(true));
     ADD_FAILURE() << "it is taken";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("belongs to another run: b was '2' and is '3'"),
@@ -137,7 +132,7 @@ TEST(Checkpoint, OfAnotherRunIsRefused) {
   Checkpoint old(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "2"}}, true);
   expectAsWritten(old, 1);
   write(fresh, 5);
-  Checkpoint again(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, true);
+  Checkpoint again(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, everyEntry(true));
   expectAsWritten(again, 5);
   EXPECT_FALSE(again.next("log"));
   again.remove();
@@ -145,7 +140,6 @@ TEST(Checkpoint, OfAnotherRunIsRefused) {
 }
 
 TEST(Checkpoint, DamageIsFound) {
-  const EveryEntry all;
   const fs::path place = folder("damaged"), file = place / "log_0000.entry";
   const Identity identity{{"a", "1"}};
   Checkpoint first(PETSC_COMM_WORLD, place, identity, false);
@@ -181,11 +175,10 @@ TEST(Checkpoint, DamageIsFound) {
 }
 
 TEST(Checkpoint, AFailedWriteDoesNotEndTheRun) {
-  const EveryEntry all;
   const fs::path file = folder("file").parent_path();
   if (rankHere() == 0) std::ofstream(file) << "mine";
   MPI_Barrier(PETSC_COMM_WORLD);
-  Checkpoint checkpoint(PETSC_COMM_WORLD, file / "inside", {{"a", "1"}}, false);
+  Checkpoint checkpoint(PETSC_COMM_WORLD, file / "inside", {{"a", "1"}}, everyEntry(false));
   EXPECT_NO_THROW(write(checkpoint, 1));
   EXPECT_FALSE(checkpoint.exists());
   EXPECT_FALSE(checkpoint.due());  // it is disabled
@@ -196,21 +189,20 @@ TEST(Checkpoint, AFailedWriteDoesNotEndTheRun) {
 // Regression: a link in the place of the next entry let the run overwrite a foreign file, and a
 // pipe blocked it.
 TEST(Checkpoint, IsWrittenNeitherThroughALinkNorIntoAPipe) {
-  const EveryEntry all;
   for (const std::string kind : {"a link", "a named pipe", "a folder"}) {
     const test::Folder place;
     const fs::path entries = place.path / "interrupted" / "checkpoint",
                    partial = entries / "log_0001.entry.partial", foreign = place.path / "foreign";
     const Identity identity{{"a", "1"}};
-    Checkpoint checkpoint(PETSC_COMM_WORLD, entries, identity, false);
+    Checkpoint checkpoint(PETSC_COMM_WORLD, entries, identity, everyEntry(false));
     write(checkpoint, 1);
     EXPECT_TRUE(checkpoint.exists());
     test::plant(kind, partial, foreign);
     EXPECT_NO_THROW(write(checkpoint, 2));
     EXPECT_FALSE(checkpoint.due());  // it is disabled
     for (const bool resumes : {false, true}) {
-      const std::string message =
-          test::errorOf([&] { Checkpoint(PETSC_COMM_WORLD, entries, identity, resumes); });
+      const std::string message = test::errorOf(
+          [&] { Checkpoint(PETSC_COMM_WORLD, entries, identity, everyEntry(resumes)); });
       EXPECT_EQ(message, "option -checkpoint: invalid file in the checkpoint folder: " +
                              partial.string() + " is " + kind + ", not a regular file");
     }

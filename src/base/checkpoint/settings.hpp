@@ -1,0 +1,15 @@
+#pragma once
+/// The settings of checkpoints.
+
+namespace squeal::checkpoint {
+
+struct Settings {
+  bool enabled = true;   ///< `-checkpoint`
+  double interval = 60;  ///< `-checkpoint_interval`: least wall time between entries, s
+  bool resume = false;   ///< `-resume`
+
+  /// Not collective. Reads the options.
+  static Settings given();
+};
+
+}  // namespace squeal::checkpoint

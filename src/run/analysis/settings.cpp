@@ -1,0 +1,84 @@
+#include "run/analysis/settings.hpp"
+
+#include <algorithm>
+
+#include "base/options/options.hpp"
+#include "eigen/direct/nearest.hpp"
+#include "eigen/sweep/sweep.hpp"
+#include "regime/regime/checks.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+const FlagOption dryRunOption("general", "dry_run", false,
+                              "check the input, estimate the memory of a run, and solve and write "
+                              "nothing");
+const FlagOption fullOption("steady", "steady_full", false,
+                            "solve for steady sliding in all unknowns, as a check, instead of in "
+                            "those of the contact");
+const IntegerOption pathOption(
+    "steady", "steady_path", 20, 0, 1'000'000,
+    "largest number of contact nodes that may open or close between neighbouring points of a sweep "
+    "whose events are solved for; 0 = none");
+const IntegerOption releasedOption(
+    "flutter", "reduction_released", 150, 0, 100'000,
+    "largest number of contact nodes by which active sets that share a factorisation and a basis "
+    "may differ; 0 = no sharing");
+
+/// Adds frictions to those of the sweep.
+void addFrictions(sweep::Settings& sweep, const std::vector<double>& more) {
+  for (const double friction : more)
+    if (std::ranges::find(sweep.frictions, friction) == sweep.frictions.end())
+      sweep.frictions.push_back(friction);
+  std::ranges::sort(sweep.frictions);
+}
+
+SteadySettings steadySettings() {
+  SteadySettings settings{.full = fullOption.get()};
+  if (!settings.full) settings.path = pathOption.get();
+  return settings;
+}
+
+MeshSettings meshSettings(const Settings& others) {
+  MeshSettings settings{.model = ModelSettings::given(),
+                        .steady = steadySettings(),
+                        .uniqueness = {},
+                        .terms = terms::Settings::given()};
+  const auto& interfaces = settings.model.interfaces.interfaces;
+  if (!std::ranges::all_of(interfaces, &interfaces::InterfaceSettings::isTie))
+    settings.uniqueness = uniqueness::Settings::given();
+  // These ask for the matrices of each active set.
+  const bool isSeparate = others.pencil.method == pencil::Method::direct ||
+                          others.solver.sensitivity.wanted || others.matrixExport.wanted() ||
+                          others.pencil.isModallyDamped();
+  settings.released = isSeparate ? 0 : releasedOption.get();
+  return settings;
+}
+
+}  // namespace
+
+Settings Settings::given() {
+  rejectUnknownOptions();
+  Settings settings;
+  settings.dryRun = dryRunOption.get();
+  settings.pencil = pencil::Settings::given();
+  direct::rejectIdleSolverOptions(settings.pencil.method);
+  if (settings.pencil.method == pencil::Method::direct && settings.pencil.isModallyDamped())
+    throw Error(
+        "option -flutter_modal_damping: damping of the free modes needs the modes of "
+        "-flutter_method reduced");
+  settings.sweep = sweep::Settings::given();
+  settings.frictionGiven = givenOptions().contains("flutter_friction");
+  settings.solver = sweep_solver::Settings::given();
+  settings.matrices = matrices::Settings::given();
+  settings.matrixExport = matrices::ExportSettings::given();
+  settings.regime = regime::Settings::given();
+  if (settings.matrices.ofMesh()) settings.mesh = meshSettings(settings);
+  regime::checkOptions(settings.regime, settings.pencil,
+                       settings.mesh ? &settings.mesh->terms : nullptr);
+  addFrictions(settings.sweep, settings.regime.frictions);
+  settings.checkpoint = checkpoint::Settings::given();
+  return settings;
+}
+
+}  // namespace squeal::analysis

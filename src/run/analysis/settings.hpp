@@ -1,0 +1,52 @@
+#pragma once
+/// All settings of a run, read once before anything else.
+#include <optional>
+
+#include "base/checkpoint/settings.hpp"
+#include "eigen/pencil/settings.hpp"
+#include "eigen/sweep/settings.hpp"
+#include "eigen/sweep_solver/settings.hpp"
+#include "problem/matrices/settings.hpp"
+#include "problem/terms/settings.hpp"
+#include "regime/regime/settings.hpp"
+#include "run/analysis/model_settings.hpp"
+#include "steady/uniqueness/settings.hpp"
+
+namespace squeal::analysis {
+
+/// Settings of the steady states of a sweep.
+struct SteadySettings {
+  bool full = false;  ///< `-steady_full`: solve in all unknowns
+  int path = 20;  ///< `-steady_path`: most nodes that open or close between two points on a path
+                  ///< that is followed; 0 = no path
+};
+
+/// Settings of a problem that is given by a mesh.
+struct MeshSettings {
+  ModelSettings model;
+  SteadySettings steady;
+  uniqueness::Settings uniqueness;
+  terms::Settings terms;
+  /// `-reduction_released`: most contact nodes by which active sets that share a basis differ.
+  int released = 150;
+};
+
+/// Settings of an analysis.
+struct Settings {
+  bool dryRun = false;  ///< `-dry_run`: check the input, and solve nothing
+  checkpoint::Settings checkpoint;
+  sweep::Settings sweep;       ///< with the frictions of `-regime_friction`
+  bool frictionGiven = false;  ///< `-flutter_friction` is given
+  pencil::Settings pencil;
+  sweep_solver::Settings solver;
+  matrices::Settings matrices;
+  matrices::ExportSettings matrixExport;
+  std::optional<MeshSettings> mesh;  ///< none for matrices from files
+  regime::Settings regime;
+
+  /// Collective. Reads all options of the analysis. Throws Error for an option that is unknown, out
+  /// of range or idle: for every mistake that shows before a file is read or written.
+  static Settings given();
+};
+
+}  // namespace squeal::analysis
