@@ -66,14 +66,16 @@ int run(const squeal::Session& session) try {
   }
   // All settings are read first, so that an error in them leaves all folders untouched.
   const auto settings = squeal::analysis::Settings::given();
-  const auto reporting = squeal::report::Settings::given(
-      settings.pencil.method == squeal::pencil::Method::reduced, settings.mesh.has_value());
+  const auto reporting =
+      squeal::report::Settings::given(settings.pencil.method == squeal::pencil::Method::reduced,
+                                      settings.mesh.has_value(), settings.output.eventLog);
+  squeal::setQuiet(settings.output.quiet);
   for (const auto& line : squeal::replacedSettings()) squeal::say(session.comm(), line);
   if (settings.dryRun) {
     squeal::analysis::dryRun(session.comm(), settings);
     return 0;
   }
-  squeal::beginEvents(session.comm());
+  squeal::beginEvents(session.comm(), settings.output);
   squeal::report::Directory directory(session.comm(), reporting,
                                       squeal::sweep::grid(settings.sweep).points());
   if (settings.matrixExport.wanted())

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/session/session.hpp"
+#include "base/session/stages.hpp"
 
 namespace {
 
@@ -44,6 +45,7 @@ void silence(int rank) {
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   squeal::Session session(argc, argv);
+  squeal::setQuiet(true);
   if (session.rank() != 0) silence(session.rank());
   int failed = RUN_ALL_TESTS();
   if (testing::UnitTest::GetInstance()->test_to_run_count() == 0)

@@ -257,6 +257,15 @@ class Resumed(unittest.TestCase):
             self.assertEqual(run.finish(), 3, run.text())
             self.assertEqual((folder / "interrupted/checkpoint/identity.json").exists(), kept)
 
+    def test_a_killed_run_leaves_all_its_options(self):
+        folder = self.place / "options"
+        run = Run(folder, BRAKE)
+        run.wait_for(lambda event: event["event"] == "stage_begin")
+        run.kill_ranks()
+        self.assertNotEqual(run.finish(), 0)
+        left = (folder / ".partial" / "options.txt").read_text()
+        self.assertEqual(left, (self.place / "whole" / "options.txt").read_text())
+
     def test_what_cannot_be_continued(self):
         shutil.copytree(self.cut_off, self.folder)
         before = files_of(self.folder)

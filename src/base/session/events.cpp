@@ -20,7 +20,6 @@
 #include <string_view>
 #include <thread>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 #include "base/session/session.hpp"
 #include "base/session/stages.hpp"
@@ -29,14 +28,6 @@
 
 namespace squeal {
 namespace {
-
-const TextOption fileOption("general", "log_json", "",
-                            "event log to append to, one JSON object per line: stages, points, "
-                            "warnings, checkpoints, end of the run");
-const ChoiceOption progressOption(
-    "general", "progress", {"auto", "line", "plain"}, "auto",
-    "status line with stage, completed points and time (line) or without it (plain); auto = line "
-    "on a terminal, but not under mpirun, which hides the terminal");
 
 /// The reported state of a run; on rank 0.
 struct Run {
@@ -103,9 +94,9 @@ const bool isLaunched =
     std::ranges::any_of(std::array{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "SLURM_PROCID"},
                         [](const char* name) { return std::getenv(name) != nullptr; });
 
-bool wantsLine() {
-  if (isQuiet()) return false;
-  if (progressOption.get() != "auto") return progressOption.get() == "line";
+bool wantsLine(const OutputSettings& settings) {
+  if (settings.quiet) return false;
+  if (settings.progress != "auto") return settings.progress == "line";
   // A terminal that cannot erase a line, as in editors, is of type "dumb".
   const char* kind = std::getenv("TERM");
   return !isLaunched && isatty(STDOUT_FILENO) == 1 && kind && std::string_view(kind) != "dumb";
@@ -146,9 +137,9 @@ std::string timeText() {
 
 }  // namespace
 
-void beginEvents(MPI_Comm comm) {
-  const std::string path = fileOption.get();
-  const bool line = wantsLine();
+void beginEvents(MPI_Comm comm, const OutputSettings& settings) {
+  const std::string& path = settings.eventLog;
+  const bool line = wantsLine(settings);
   onFirstRank(comm, "option -log_json: ", [&] {
     Run& r = run();
     r.begin = now();
@@ -164,8 +155,6 @@ void beginEvents(MPI_Comm comm) {
   });
   logEvent("start", {{"version", version()}, {"ranks", mpi::size(comm)}});
 }
-
-std::string eventsFile() { return fileOption.get(); }
 
 void endEvents(int exitCode) {
   logEvent("end", {{"exit_code", exitCode}});

@@ -5,14 +5,14 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "base/session/settings.hpp"
+
 namespace squeal {
 
 /// Collective. Opens the file of -log_json, if given, to append to it, and starts the status line
 /// if the run has a terminal (-progress). The first event is `start`. Throws Error if the file
 /// cannot be opened, or is neither an event log, nor empty, nor a device.
-void beginEvents(MPI_Comm comm);
-/// Returns the path of -log_json; empty if it is not given.
-std::string eventsFile();
+void beginEvents(MPI_Comm comm, const OutputSettings& settings);
 /// Not collective. Erases the status line, and writes the event `end` with the exit code.
 void endEvents(int exitCode);
 

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 #include "base/session/events.hpp"
 #include "base/system/text.hpp"
@@ -16,11 +15,14 @@
 namespace squeal {
 namespace {
 
-const FlagOption quiet("general", "quiet", false, "no output except warnings and errors");
-
 std::vector<StageRecord>& records() {
   static std::vector<StageRecord> list;
   return list;
+}
+
+bool& quietSlot() {
+  static bool quiet = false;
+  return quiet;
 }
 
 int& outputErrorSlot() {
@@ -86,7 +88,9 @@ void Stage::finish(const std::string& result) {
   print(formatted("%-10s %8.2f s  %s\n", name_.c_str(), seconds, result.c_str()));
 }
 
-bool isQuiet() { return quiet.get(); }
+void setQuiet(bool quiet) { quietSlot() = quiet; }
+
+bool isQuiet() { return quietSlot(); }
 
 void say(MPI_Comm comm, const std::string& text) {
   logEvent("message", {{"text", text}});

@@ -45,7 +45,9 @@ class Stage {
   std::optional<LoggedStage> logged_;
 };
 
-/// Returns the option `-quiet`.
+/// Not collective. Prints no more than warnings and errors from here on, or everything again.
+void setQuiet(bool quiet);
+/// Returns true if only warnings and errors are printed.
 bool isQuiet();
 /// Not collective. Prints text on rank 0, unless -quiet is given.
 void say(MPI_Comm comm, const std::string& text);

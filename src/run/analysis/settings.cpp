@@ -60,6 +60,7 @@ MeshSettings meshSettings(const Settings& others) {
 Settings Settings::given() {
   rejectUnknownOptions();
   Settings settings;
+  settings.output = OutputSettings::given();
   settings.dryRun = dryRunOption.get();
   settings.pencil = pencil::Settings::given();
   direct::rejectIdleSolverOptions(settings.pencil.method);

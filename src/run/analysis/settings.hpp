@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "base/checkpoint/settings.hpp"
+#include "base/session/settings.hpp"
 #include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/settings.hpp"
 #include "eigen/sweep_solver/settings.hpp"
@@ -33,6 +34,7 @@ struct MeshSettings {
 
 /// Settings of an analysis.
 struct Settings {
+  OutputSettings output;
   bool dryRun = false;  ///< `-dry_run`: check the input, and solve nothing
   checkpoint::Settings checkpoint;
   sweep::Settings sweep;       ///< with the frictions of `-regime_friction`

@@ -33,7 +33,7 @@ output::Naming namingOfOption(const Settings& settings,
                               const std::vector<sweep::Parameters>& points) {
   output::Naming naming = report::naming(points);
   naming.ofCase = settings.folderOfCase;
-  if (const auto log = eventsFile(); !log.empty()) naming.opened = {log};
+  if (!settings.eventLog.empty()) naming.opened = {settings.eventLog};
   return naming;
 }
 

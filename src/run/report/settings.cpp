@@ -38,8 +38,9 @@ bool isOfCase(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Settings Settings::given(bool isReduced, bool ofMesh) {
+Settings Settings::given(bool isReduced, bool ofMesh, const std::string& eventLog) {
   Settings settings;
+  settings.eventLog = eventLog;
   settings.folder = directoryOption.get();
   settings.folderOfCase = isOfCase(settings.folder);
   settings.fields = fieldsOption.get();

@@ -11,11 +11,12 @@ struct Settings {
   int modes = 10;                  ///< `-report_modes`: number of free modes written as fields
   int animated = 1;                ///< `-report_animated`: number of modes written in motion
   int frames = 16;                 ///< `-report_frames`: time steps of a period
+  std::string eventLog;            ///< a file of this run that may lie in the folder; empty = none
   int pieces = 8;                  ///< `-report_pieces`: most VTK files of one field
 
   /// Not collective. Reads the options; those of the fields only if they are written, and those of
   /// VTK files only for a mesh. The direct method has no free modes.
-  static Settings given(bool isReduced, bool ofMesh);
+  static Settings given(bool isReduced, bool ofMesh, const std::string& eventLog);
 };
 
 }  // namespace squeal::report
