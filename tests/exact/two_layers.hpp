@@ -52,7 +52,7 @@ struct Sliding {
 /// outer normal is −y, is drawn along +x with −σ_xy, pressed with R_N = −σ_yy, and w* = s u_P − (s
 /// + ikW) u_D adds to w = −W, so that it lowers the sliding speed. [4.7] A layer whose rate is zero
 /// has a = b, where only two of its four potentials differ in displacement: a fourfold zero of the
-/// determinant that is no eigenvalue, divided out.
+/// determinant that is not an eigenvalue, divided out.
 inline Complex characteristic(const Sliding& sliding, int n, Complex s) {
   const double k = sliding.k(n);
   const Complex discRate = sliding.discRate(n, s);

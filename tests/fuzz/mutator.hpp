@@ -1,6 +1,6 @@
 #pragma once
-/// Damaged files made of sound ones, the same on every machine: the n-th input depends on the seeds
-/// and on n alone.
+/// Damaged files made of sound ones, the same on every machine: the n-th input depends only on the
+/// seeds and on n.
 #include <cstdint>
 #include <string>
 #include <vector>

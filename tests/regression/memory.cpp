@@ -1,4 +1,4 @@
-// Too little memory, wherever it runs out, is told in one line: no trace, no stall, no results.
+// Wherever memory runs out, the program reports it in one line: no trace, no stall, no results.
 #include <gtest/gtest.h>
 
 #include "support/bad_input.hpp"

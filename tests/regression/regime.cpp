@@ -10,7 +10,8 @@ namespace squeal::test {
 namespace {
 
 // The start is a thousandth of the onset, so that all is linear. The rule is of first order: half
-// the step, half the error, but for rounding and for what the start excites besides: 10 %.
+// the step gives half the error within 10 %, which covers round-off and the other modes that the
+// start excites.
 TEST(Regime, GrowsAsCertified) {
   std::vector<double> errors;
   for (const std::string step : {"1e-6", "5e-7"}) {

@@ -16,7 +16,7 @@ const Options shortMarch = with(coarse, {{"flutter_friction", "0.3,0.34"},
                                          {"regime_cycle", "on"},
                                          {"regime_cycle_steps", "128"}});
 
-// Motions of the smallest amplitude are linear but for the friction force, which turns with the
+// Motions of the smallest amplitude are linear except for the friction force, which turns with the
 // velocity, so that the branch ends near the friction at which the mode is neutral.
 TEST(RegimeCycle, BranchTurnsBackAndEndsAtTheOnset) {
   const ProgramRun run = runProgram(

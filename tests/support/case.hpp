@@ -13,7 +13,7 @@
 
 namespace squeal::test {
 
-/// Collective. Runs with these options alone.
+/// Collective. Runs with only these options.
 inline analysis::Analysis runOptions(const std::string& options) {
   clearOptions();
   insert(settingsOfText("-quiet " + options));

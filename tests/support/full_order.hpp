@@ -40,7 +40,7 @@ inline constexpr double directError = 3e-13;
 
 struct Comparison {
   double worst = 0;  ///< |s − s*| / |s*|
-  /// The ratio of the true error to the estimate, as far as it can be told from the error of s*
+  /// The ratio of the true error to the estimate, as far as the error of s* resolves it
   double worstRatio = 0;
   int certified = 0;
 };

@@ -26,7 +26,7 @@
 
 namespace squeal::test {
 
-/// The options database holds these alone.
+/// Replaces the contents of the options database by these.
 inline void setOptions(const std::string& options) {
   clearOptions();
   insert(settingsOfText("-quiet " + options));
@@ -165,13 +165,13 @@ inline double dot(Vec x, Vec y) {
 
 using mesh::dot;
 
-/// The bodies alone, without contact.
+/// The bodies without contact.
 struct Built {
   mesh::Mesh mesh;
   elasticity::Bodies bodies;
 };
 
-/// Collective. From these options alone.
+/// Collective. Builds the bodies from only these options.
 inline Built buildBodies(const std::string& options) {
   setOptions(options);
   Built built{readMesh(), {}};

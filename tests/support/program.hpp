@@ -76,7 +76,7 @@ inline ProgramRun runAgain(const std::string& name, int ranks, const std::string
   const fs::path out = placeFor(name) / "stdout.txt", error = placeFor(name) / "stderr.txt";
   const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " +
                               std::to_string(seconds) + " '" SQUEAL_MPIEXEC "' " +
-                              (ranks == 1 ? "alone" : std::to_string(ranks)) + " '" + program +
+                              (ranks == 1 ? "serial" : std::to_string(ranks)) + " '" + program +
                               "' " + options + " -report_dir '" + run.folder.string() + "' >'" +
                               out.string() + "' 2>'" + error.string() + "'";
   const int status = std::system(command.c_str());

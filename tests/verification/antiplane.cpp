@@ -166,7 +166,7 @@ TEST(Antiplane, FrictionFallsWithSpeed) {
                  1e-3, "falling friction");
 }
 
-// The linearised problem sees value and slope at the sliding speed alone.
+// The linearised problem depends only on value and slope at the sliding speed.
 TEST(Antiplane, TangentOfTheFrictionLaw) {
   const ExponentialLaw law{2.5, 0.04};
   for (const char* convective : {"off", "on"}) {

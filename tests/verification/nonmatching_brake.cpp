@@ -12,7 +12,7 @@ const std::string coarse =
     "n_h_lining=1,";
 const std::string band = " -modes_count 60 -flutter_band 9500";
 
-// The disc is a body of revolution, so that turning it changes its mesh alone.
+// The disc is a body of revolution, so turning it changes only its mesh.
 TEST(NonMatchingBrake, DiscTurned) {
   const auto matching = unstable(coarse + "n_pad_theta=12,n_pad_r=5", band);
   for (const char* slave : {"pad", "disc"})

@@ -101,7 +101,7 @@ TEST(FixedFriction, CountsOnQuadraticFaces) {
 TEST(FixedFriction, HasTheSensitivitiesOfTheSweptOne) {
   // On several ranks the sums of two runs are rounded differently, and the derivatives of this
   // model then take one of two values, 1e-4 apart.
-  if (sizeOf() > 1) GTEST_SKIP() << "the same sums in both runs on one rank alone";
+  if (sizeOf() > 1) GTEST_SKIP() << "the sums of both runs agree only on one rank";
   const auto sensitivities = [](const std::string& friction) {
     const auto analysis = runOptions(slider::options(1, 0) + direct +
                                      "-flutter_sensitivities -flutter_shapes 3 " + friction);

@@ -10,7 +10,7 @@
 
 namespace squeal::analysis {
 
-/// The associated system of the active set in force, which is made anew when the set changes.
+/// The associated system of the active set in force, which is rebuilt when the set changes.
 class CurrentSystem {
  public:
   /// Borrows the analysis during the life of the object.

@@ -40,7 +40,8 @@ struct Element {
 
 /// Returns the elements that fill the cell whose lowest corner is `low`.
 std::vector<Element> elementsOf(Shape shape, const Place& low);
-/// Returns the faces of an element, in the plane its edges; the normal by node order is not told.
+/// Returns the faces of an element (in the plane, its edges). The order of their nodes does not
+/// define the direction of the normal.
 std::vector<Element> facesOf(Shape shape, const Element& element);
 
 }  // namespace squeal::fuzz
