@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// An elastic annulus a ≤ r ≤ b in plane strain, held at r = a, free at r = b, turning about its
 /// axis at ω.

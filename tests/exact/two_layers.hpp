@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Two elastic layers of period Lx = 3 in plane strain, one sliding on the other: the disc, −1 ≤ y
 /// ≤ 0, clamped at y = −1, whose matter moves along +x, and the pad, 0 ≤ y ≤ 0.6, held at y = 0.6.

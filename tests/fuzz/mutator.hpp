@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Damaged files made of sound ones, the same on every machine: the n-th input depends only on the
 /// seeds and on n.

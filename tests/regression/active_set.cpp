@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A block clamped at its foot and pressed at its top by a sliding plate. Friction bends it and its
 // nodes lift one after the other: the active set changes within a sweep, until at some friction no
 // steady sliding state is left.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The program as it is called: options files, words of the command line, and what is said of
 // mistakes in them.
 #include "support/bad_input.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A disc that is full: one line and exit code 1 on any number of ranks, the earlier results as they
 // were, nothing of the new ones left.
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Wherever memory runs out, the program reports it in one line: no trace, no stall, no results.
 #include <gtest/gtest.h>
 

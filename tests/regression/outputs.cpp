@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What a run leaves behind: tables, summary, recipe, fields.
 #include <hdf5.h>
 

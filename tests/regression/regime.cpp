@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What becomes of the unstable mode of a coarse disc brake: the reduced model has the certified
 // eigenvalue, and the march its growth; bad input is refused by name.
 #include <gtest/gtest.h>

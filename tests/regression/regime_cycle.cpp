@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Periodic motions of a coarse disc brake after flutter, and the branch that they form over the
 // friction: it turns back below the onset of flutter and ends there.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What a march cannot do is refused before it, by name and bound; what fails at one point or start
 // leaves the others, and the certified stages, as they are; a request to stop is obeyed at once.
 #include <gtest/gtest.h>

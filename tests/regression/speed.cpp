@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The speed enters only as the product of -flutter_speed and the motions in the options.
 #include <gtest/gtest.h>
 

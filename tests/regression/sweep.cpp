@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A point of a sweep over four parameters is what a run with these values in the options gives.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Features that meet: contact that closes within a step, a third eigenvalue beside two that merge,
 // eigenvalues that are exactly zero, a body that is held weakly or at some frictions only. Nothing
 // crashes, and no verdict stands without a result behind it.

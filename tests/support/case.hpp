@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Runs the method as a user would: options in, the whole analysis out.
 #include <petscsys.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// All files of a folder with their contents.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Eigenvalues of a case on all unknowns, and how far those of its reduced problem are from them.
 #include <gtest/gtest.h>

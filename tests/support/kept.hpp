@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Results of an earlier run with files of the user among them, and what is expected of them after
 /// something has happened to a run.

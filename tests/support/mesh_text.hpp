@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small meshes as texts of gmsh's format, sound as they stand.
 #include <gmsh.h>

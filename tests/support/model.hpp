@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// What tests of single stages share: options in, mesh, bodies and contact out; matrices and
 /// vectors as plain arrays on every rank.

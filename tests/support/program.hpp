@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Starts the program as its users do and reads what it leaves behind. For tests on one rank: the
 /// program has ranks of its own.

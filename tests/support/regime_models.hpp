@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Reduced models made by hand, and the tube on a shaft whose stick-slip waves are known exactly
 /// (after Moirot, Nguyen and Oueslati, Eur. J. Mech. A/Solids 22, 2003).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Sensitivities of eigenvalues judged by whole runs: finite differences, and the balance of
 /// friction work.

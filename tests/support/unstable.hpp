@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The unstable modes of the disc brake on meshes that match and on meshes that do not.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Layers that slide on each other, as slabs free to move across the sliding direction too: friction
 // damps these motions. The slabs' spectrum holds the waves in the plane as well.
 #include "exact/antiplane.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Damped, rotating and unsymmetric problems: the reduced problem with all modes against the direct
 // solve; structural damping against closed forms; the speed sweep.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A coarse disc brake whose disc is turned under the pad by a third of a cell, and whose pad has
 // three cells on two of the disc: unstable modes are those of meshes that match.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The reduced problem against the one on all unknowns: its eigenvalues, and what it says of their
 // errors.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Roles of interfaces: coefficients of friction of their own, and interfaces that stick up to their
 // limit of friction, against closed forms, statics, and models that must agree.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // An annulus that turns: gyroscopic terms and rotation stiffness split its double modes into
 // forward and backward waves.
 #include <gtest/gtest.h>

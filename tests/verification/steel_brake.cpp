@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Steady sliding of a stiff brake, three steel parts: the linear solvers reach round-off, and only
 // round-off is accepted. The pads are pressed on by a uniform pressure and held only by springs, so
 // that statics gives the resultants of contact and springs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Solids against beam and ring theory: cantilever (Timoshenko 1921, Huang 1961), free circular ring
 // (Hoppe 1871, Love).
 #include <gtest/gtest.h>

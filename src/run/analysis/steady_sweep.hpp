@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Steady sliding is found at all steady points of a sweep, and what the contact does between them.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// HDF5 writes to the disc with this driver.
 #include <hdf5.h>

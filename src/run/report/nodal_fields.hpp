@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Nodal vectors become fields for VTK files.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The element types of the generated meshes, as patterns within a cell of a lattice.
 #include <array>

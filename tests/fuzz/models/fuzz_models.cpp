@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 /// main() of the program that solves random models. A separate process, which is restarted if it
 /// crashes or hangs, solves a batch of them; every fourth model is also solved on two ranks.
 #include <fcntl.h>

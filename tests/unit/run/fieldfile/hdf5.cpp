@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // results.h5: what PETSc's own reader finds in it is what was given.
 #include <gtest/gtest.h>
 

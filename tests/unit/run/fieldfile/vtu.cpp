@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // VTU and PVD files: what VTK's own reader finds in them is what was given.
 #include <gmsh.h>
 #include <gtest/gtest.h>
