@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // floor FILE: reads K0, a matrix in the format of PETSc (-report_matrices), and prints the wall
 // time in seconds of one factorisation by MUMPS and of 400 solves in blocks of 32 by MatMatSolve.
 // The free vibration of 200 modes cannot take less. scripts/bench/floor calls it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// An elastic annulus a ≤ r ≤ b in plane strain, held at r = a, free at r = b, turning about its
 /// axis at ω.
@@ -57,7 +58,7 @@ struct Radial {
 
   Radial(const Annulus& annulus, int order, std::size_t size)
       : stiffness{2 * size}, mass{2 * size} {
-    const std::size_t points = size + 8;  // 1/r is no polynomial
+    const std::size_t points = size + 8;  // 1/r is not a polynomial
     const double half = (annulus.outer - annulus.inner) / 2;
     for (std::size_t q = 0; q < points; ++q) {
       double xi =

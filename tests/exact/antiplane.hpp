@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Anti-plane waves u_z(x, y) exp(ikx + st) in the two layers of two_layers.hpp, across the
 /// direction of sliding: friction damps them, as its force turns with the relative velocity.

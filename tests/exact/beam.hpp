@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Cantilevers of steel, clamped at one end and free at the other, by the theories of beams and of
 /// rods.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Two concentric cylinders in plane strain, pressed together by a pressure in the bore: Lamé's
 /// solution.

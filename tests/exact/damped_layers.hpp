@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The two layers of two_layers.hpp with external damping, at the frictions where a wave begins to
 /// grow.

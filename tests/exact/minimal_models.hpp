@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Two-degree-of-freedom models of the literature, with critical frictions in closed form.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The two layers of two_layers.hpp with the full terms of moving matter: the disc's matter travels
 /// along +x at W = 0.05, and D u = W ∂u/∂x.

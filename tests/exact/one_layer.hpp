@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// One elastic layer −h ≤ y ≤ 0, clamped at y = −h, under a rigid plate at y = 0 that slides along
 /// +x: Moirot and Nguyen (2000), section 5. E = 1, ν = 0.3, ρ = 1, h = 1, Lx = 3, plane strain.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// An orthotropic material with nothing special about it: its law, and waves across a layer of it.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Two elastic layers of period Lx = 3 in plane strain, one sliding on the other: the disc, −1 ≤ y
 /// ≤ 0, clamped at y = −1, whose matter moves along +x, and the pad, 0 ≤ y ≤ 0.6, held at y = 0.6.
@@ -52,7 +53,7 @@ struct Sliding {
 /// outer normal is −y, is drawn along +x with −σ_xy, pressed with R_N = −σ_yy, and w* = s u_P − (s
 /// + ikW) u_D adds to w = −W, so that it lowers the sliding speed. [4.7] A layer whose rate is zero
 /// has a = b, where only two of its four potentials differ in displacement: a fourfold zero of the
-/// determinant that is no eigenvalue, divided out.
+/// determinant that is not an eigenvalue, divided out.
 inline Complex characteristic(const Sliding& sliding, int n, Complex s) {
   const double k = sliding.k(n);
   const Complex discRate = sliding.discRate(n, s);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Exact plane-strain waves exp(ikx + st) in elastic layers −∞ < x < ∞, of period Lx, k = 2πn/Lx, n
 /// = 0, ±1, …

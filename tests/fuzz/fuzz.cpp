@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 /// main() of the programs of this folder. A child process reads the inputs one after the other; its
 /// parent sees it crash or hang, keeps the input, and starts another child behind it.
 #include "fuzz/fuzz.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The parts that all programs of this folder share: main(), which reads damaged files by the
 /// thousand, and demands of the reader that it takes them or refuses them by a message of one line.

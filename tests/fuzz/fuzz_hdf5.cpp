@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include <hdf5.h>
 
 #include "fuzz/fuzz.hpp"

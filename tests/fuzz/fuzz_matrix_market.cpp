@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "fuzz/fuzz.hpp"
 #include "problem/matrices/read.hpp"
 

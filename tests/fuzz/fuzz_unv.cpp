@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "fuzz/fuzz.hpp"
 #include "model/mesh/gmsh_model.hpp"
 #include "support/mesh_text.hpp"

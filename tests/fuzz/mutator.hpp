@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Damaged files made of sound ones, the same on every machine: the n-th input depends on the seeds
-/// and on n alone.
+/// Damaged files made of sound ones, the same on every machine: the n-th input depends only on the
+/// seeds and on n.
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Random numbers that are the same on every machine.
 #include <cmath>

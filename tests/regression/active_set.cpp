@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A block clamped at its foot and pressed at its top by a sliding plate. Friction bends it and its
 // nodes lift one after the other: the active set changes within a sweep, until at some friction no
 // steady sliding state is left.
@@ -19,7 +20,7 @@ const std::string block =
     "-contact_plate_obstacle_displacement 0,-0.001,0"
     " -report_fields off ";
 
-// 4 x 8 cells: 40 free nodes of 45, 5 of them in contact; a closed gap is no unknown.
+// 4 x 8 cells: 40 free nodes of 45, 5 of them in contact; a closed gap is not an unknown.
 constexpr int contactNodes = 5, closedUnknowns = 75;
 
 TEST(ActiveSet, SteadyStateIsTheOneThatExists) {
@@ -89,13 +90,13 @@ TEST(ActiveSet, ModesAreComputedAnewWhereItChanges) {
       EXPECT_LE(now[i], before[i] * (1 + 1e-9)) << "mode " << i + 1;
     EXPECT_TRUE(before.empty() || now[0] < before[0] * (1 - 1e-6));
     before = now;
-    // The way through the sweep leaves no trace: alone, from the bonded state, this friction gives
-    // the same.
-    const ProgramRun alone =
+    // The path through the sweep has no influence: a run of this friction only, from the bonded
+    // state, gives the same.
+    const ProgramRun separate =
         runProgram("active_set/alone_" + shortest(first), 1,
                    block + "-modes_count 21 -quiet -flutter_friction " + shortest(first));
-    ASSERT_EQ(alone.exitCode, 0) << alone.error;
-    const Findings same = findingsOf(alone);
+    ASSERT_EQ(separate.exitCode, 0) << separate.error;
+    const Findings same = findingsOf(separate);
     EXPECT_LT(worst(errors(findings.eigenvalues.at(first), same.eigenvalues.at(first)).relative),
               1e-6);
     EXPECT_LT(forceDifference(findings.steady.at(first), same.steady.at(first)), 1e-8);
@@ -122,13 +123,13 @@ TEST(ActiveSet, OneBasisServesAllSets) {
       list[friction[i]].push_back({{growth[i], frequency[i]}, estimate[i]});
     return list;
   };
-  auto shared = listOf(one), alone = listOf(each);
-  ASSERT_EQ(shared.size(), alone.size());
+  auto shared = listOf(one), separate = listOf(each);
+  ASSERT_EQ(shared.size(), separate.size());
   std::size_t compared = 0;
   for (const auto& [friction, list] : shared)
     for (const auto& [s, estimate] : list) {
       // The bands end in a gap of the free modes of the basis, which is not the same.
-      const auto& others = alone.at(friction);
+      const auto& others = separate.at(friction);
       const auto nearest = std::ranges::min_element(others, {}, [&, wanted = s](const auto& other) {
         return std::abs(other.first - wanted);
       });

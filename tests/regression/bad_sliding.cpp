@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Mistakes about how bodies slide on each other: motions, their speed, and the friction law.
 #include "support/bad_input.hpp"
 

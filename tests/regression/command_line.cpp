@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The program as it is called: options files, words of the command line, and what is said of
 // mistakes in them.
 #include "support/bad_input.hpp"
@@ -123,10 +124,10 @@ TEST(CommandLine, NodesInNoCellAreTold) {
         {{"mesh_file", (place / "layer.msh").string()}, {"modes_count", "2"}, {"dry_run", ""}});
     const ProgramRun run = runProgram("command_line/nodes_run", 2, commandLine(options));
     EXPECT_EQ(run.exitCode, 0) << run.error;
-    const std::string told =
+    const std::string note =
         extra == 1 ? "; 1 node in no cell is not used\n" : "; 2 nodes in no cell are not used\n";
     EXPECT_EQ(run.out.find("in no cell") != std::string::npos, extra > 0) << run.out;
-    EXPECT_EQ(run.out.find(told) != std::string::npos, extra > 0) << run.out;
+    EXPECT_EQ(run.out.find(note) != std::string::npos, extra > 0) << run.out;
   }
 }
 
@@ -218,7 +219,7 @@ TEST(CommandLine, ScriptRunsAnOptionsFileOfAnyFolder) {
                              small + " >out"),
             0);
   EXPECT_TRUE(fs::exists(place / "my results/eigenvalues.csv"));
-  // The folder of the script replaces the one of the case, which is told.
+  // The folder of the script replaces the one of the case, and a message reports it.
   writeText(place / "with folder.yaml",
             contentOf(place / "my case.yaml") + "report:\n  dir: mine\n");
   EXPECT_EQ(shell(place, "NP=1 '" + run.string() +

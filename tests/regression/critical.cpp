@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The tables of followed eigenvalues and of critical frictions, as a run leaves them behind.
 #include <gtest/gtest.h>
 

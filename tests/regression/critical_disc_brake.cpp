@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The critical frictions of the disc brake at its full size, confirmed by direct solves on all
 // unknowns just below and above. Minutes, so not part of the usual run.
 #include "support/ranks.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A disc that is full: one line and exit code 1 on any number of ranks, the earlier results as they
 // were, nothing of the new ones left.
 #include <cstring>
@@ -7,7 +8,7 @@
 namespace squeal::test {
 namespace {
 
-// A limit of the file size for one rank alone, while the others can write: none waits for it.
+// The file size is limited for only one rank, while the others can write: none waits for it.
 TEST(DiscFull, OfOneRankAlone) {
   earlierResults();
   std::vector<std::future<void>> runs;
@@ -43,8 +44,8 @@ TEST(DiscFull, ForExportedMatrices) {
   }
 }
 
-// The results are not lost for a terminal that cannot be written; a reader that has seen enough, as
-// head has, is no error.
+// No results are lost if the terminal cannot be written. A reader that closes the pipe early, as
+// head does, is not an error.
 TEST(DiscFull, OfTheStandardOutput) {
   struct Output {
     const char *name, *where;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The program on the committed matrices, as users start it: exact eigenvalues, vectors in the order
 // of the file's rows, exports and the converter.
 #include <gtest/gtest.h>

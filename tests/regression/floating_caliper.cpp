@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The case floating_caliper with coarse linear cells: ten parts meshed apart, fifteen contacts and
 // four ties.
 #include "support/ranks.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A disc with a collar so thin that quadratic tetrahedra on its curved surface fold: it runs with a
 // few of them, or the error says how it can be made to.
 #include <gtest/gtest.h>

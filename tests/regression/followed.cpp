@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Which sweeps are followed without being asked to, and over which frictions.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// Too little memory, wherever it runs out, is told in one line: no trace, no stall, no results.
+// SPDX-License-Identifier: BSD-2-Clause
+// Wherever memory runs out, the program reports it in one line: no trace, no stall, no results.
 #include <gtest/gtest.h>
 
 #include "support/bad_input.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Notes that a run prints beside its numbers: options it had no use for, and what they do not
 // show.
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What a run leaves behind: tables, summary, recipe, fields.
 #include <hdf5.h>
 
@@ -12,7 +13,7 @@
 namespace squeal::test {
 namespace {
 
-// The case as it stands in options/, on a coarser mesh with fewer modes.
+// The case in options/, on a coarser mesh with fewer modes.
 const std::string layer = "-options_file options/layer.yaml -mesh_set nx=12,ny=4 -modes_count 21 ";
 const std::string frictions = "-flutter_friction 0.4,0,0.2 ";
 constexpr double period = 3;  // m
@@ -151,7 +152,7 @@ TEST(Outputs, SteadyTables) {
   }
 }
 
-// The same balance where the pressure is given: pad held along x alone.
+// The same balance where the pressure is given: the pad is held only along x.
 TEST(Outputs, ContactCarriesTheLoad) {
   const ProgramRun run = runProgram(
       "outputs/loaded", 2,

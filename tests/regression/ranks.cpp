@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The number of ranks does not show in the results.
 #include "support/ranks.hpp"
 

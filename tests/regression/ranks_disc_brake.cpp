@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The disc brake at its full size on 1, 2 and 3 ranks: minutes, so not part of the usual run.
 #include "support/ranks.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What becomes of the unstable mode of a coarse disc brake: the reduced model has the certified
 // eigenvalue, and the march its growth; bad input is refused by name.
 #include <gtest/gtest.h>
@@ -10,7 +11,8 @@ namespace squeal::test {
 namespace {
 
 // The start is a thousandth of the onset, so that all is linear. The rule is of first order: half
-// the step, half the error, but for rounding and for what the start excites besides: 10 %.
+// the step gives half the error within 10 %, which covers round-off and the other modes that the
+// start excites.
 TEST(Regime, GrowsAsCertified) {
   std::vector<double> errors;
   for (const std::string step : {"1e-6", "5e-7"}) {

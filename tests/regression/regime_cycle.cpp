@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Periodic motions of a coarse disc brake after flutter, and the branch that they form over the
 // friction: it turns back below the onset of flutter and ends there.
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ const Options shortMarch = with(coarse, {{"flutter_friction", "0.3,0.34"},
                                          {"regime_cycle", "on"},
                                          {"regime_cycle_steps", "128"}});
 
-// Motions of the smallest amplitude are linear but for the friction force, which turns with the
+// Motions of the smallest amplitude are linear except for the friction force, which turns with the
 // velocity, so that the branch ends near the friction at which the mode is neutral.
 TEST(RegimeCycle, BranchTurnsBackAndEndsAtTheOnset) {
   const ProgramRun run = runProgram(

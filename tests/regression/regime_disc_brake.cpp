@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The disc brake on its full mesh after flutter, against figures of another program: errors of the
 // growth rate, and the periodic motion at friction 0.24.
 #include <gtest/gtest.h>

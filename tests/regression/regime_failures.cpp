@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What a march cannot do is refused before it, by name and bound; what fails at one point or start
 // leaves the others, and the certified stages, as they are; a request to stop is obeyed at once.
 #include <gtest/gtest.h>
@@ -141,8 +142,8 @@ TEST(RegimeFailures, OpenNodesAreFollowed) {
   EXPECT_GT(valueOf(table, "open_nodes"), 0);
 }
 
-// 10 s are 5e7 steps, hours of marching by rank 0 alone; rank 1, which waits, is asked to stop. The
-// longest pause of a rank between two looks is a step.
+// 10 s are 5e7 steps, hours of time integration on rank 0 only; rank 1, which waits, receives the
+// request to stop. Each rank checks for it at least once per step.
 TEST(RegimeFailures, StopsWithinASecond) {
   const std::string name = "regime_failures_stop";
   fs::remove_all(placeFor(name));

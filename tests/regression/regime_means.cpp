@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The regime after flutter depends neither on ranks nor on the mass of the boundary.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What a run leaves of the motion after flutter beside the contact: sound, spectra at points,
 // fields and an animation; on 1 and 2 ranks, of which the last writes into the folder of the first.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Every way to end a run at five moments of it: the earlier results stay as they were, no process
 // is left, the next run works.
 #include "support/disc.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Results of an earlier run, and files of the user, against everything that can happen to a run.
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,5 @@
-// The speed enters by the product of -flutter_speed and the motions in the options alone.
+// SPDX-License-Identifier: BSD-2-Clause
+// The speed enters only as the product of -flutter_speed and the motions in the options.
 #include <gtest/gtest.h>
 
 #include "base/system/text.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A brake of three steel parts, tet10 with some 42,000 unknowns, from a contact that is closed to
 // one that opens: steady sliding is found at all frictions on any number of ranks, with the same
 // forces.

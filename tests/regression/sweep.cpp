@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A point of a sweep over four parameters is what a run with these values in the options gives.
 #include <gtest/gtest.h>
 
@@ -43,11 +44,11 @@ TEST(Sweep, PointsOfTheGridAreRunsOfTheirOwn) {
   const auto points = grid.sweep.points();
   ASSERT_EQ(points.size(), 16U);
   for (const auto& at : points) ASSERT_NE(grid.pointAt(at), nullptr) << sweep::parameterText(at);
-  const analysis::Analysis alone =
+  const analysis::Analysis single =
       run(3, 2, 2, "-flutter_speed 1 -flutter_pressure 1 -flutter_damping 1");
   for (const double friction : {0.2, 0.5}) {
     const sweep::Parameters at{friction, 3, 2, 2};
-    const auto& wanted = *alone.pointAt({friction, 1, 1, 1});
+    const auto& wanted = *single.pointAt({friction, 1, 1, 1});
     const double same = difference(wanted, *grid.pointAt(at));
     print("%s: eigenvalues differ by %.1e\n", sweep::parameterText(at).c_str(), same);
     EXPECT_LT(same,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The same case in metres, kilograms and seconds, and in millimetres, tonnes and seconds (N, MPa):
 // nothing in the program is tied to the size of a number. Frequencies and growth rates are in Hz
 // and 1/s in both.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Features that meet: contact that closes within a step, a third eigenvalue beside two that merge,
 // eigenvalues that are exactly zero, a body that is held weakly or at some frictions only. Nothing
 // crashes, and no verdict stands without a result behind it.
@@ -57,10 +58,10 @@ TEST(Verdicts, ContactThatChangesWithinAStep) {
                                 caseFile("closing_contact/case"), 60);
     ASSERT_EQ(run.exitCode, 0) << run.error;
     EXPECT_EQ(run.error.find("defect"), std::string::npos) << run.error;
-    const auto alone = runProgram("verdicts_contact_alone", ranks,
-                                  caseFile("closing_contact/case") + "-flutter_track off", 60);
+    const auto single = runProgram("verdicts_contact_alone", ranks,
+                                   caseFile("closing_contact/case") + "-flutter_track off", 60);
     const auto found = eigenvaluesOf(readCsv(run.folder / "eigenvalues.csv")),
-               wanted = eigenvaluesOf(readCsv(alone.folder / "eigenvalues.csv"));
+               wanted = eigenvaluesOf(readCsv(single.folder / "eigenvalues.csv"));
     ASSERT_EQ(found.size(), wanted.size());
     for (std::size_t i = 0; i < found.size(); ++i)  // -flutter_tolerance is 1e-8
       EXPECT_LE(std::abs(found[i] - wanted[i]), 2e-8 * std::abs(wanted[i]));
@@ -78,11 +79,11 @@ TEST(Verdicts, PointListsTheSameAloneAndInASweep) {
     return eigenvaluesOf(readCsv(run.folder / "eigenvalues.csv"));
   };
   const auto swept = eigenvaluesAt("sweep", "0,0.2");
-  auto alone = eigenvaluesAt("first", "0");
-  for (const auto& s : eigenvaluesAt("second", "0.2")) alone.push_back(s);
-  ASSERT_EQ(swept.size(), alone.size());
+  auto single = eigenvaluesAt("first", "0");
+  for (const auto& s : eigenvaluesAt("second", "0.2")) single.push_back(s);
+  ASSERT_EQ(swept.size(), single.size());
   for (std::size_t i = 0; i < swept.size(); ++i)  // -flutter_tolerance is 1e-8
-    EXPECT_LE(std::abs(swept[i] - alone[i]), 2e-8 * std::abs(alone[i]));
+    EXPECT_LE(std::abs(swept[i] - single[i]), 2e-8 * std::abs(single[i]));
 }
 
 // Two eigenvalues merge at 0.029666628 while a third one passes by. The same model with the slave
@@ -201,7 +202,7 @@ TEST(Verdicts, EstimateContainsTheRoundOffOfTheStiffness) {
   EXPECT_EQ(table.column("certified").at(0), 0);
 }
 
-// A damping matrix of zeros is no damping.
+// A damping matrix of zeros counts as none.
 TEST(Verdicts, DampingWithoutEntriesIsNone) {
   const std::string options =
       matrix("none", "m", diagonal({1, 1, 1}), "mass") +

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Sound cases to make mistakes in, and what is expected of the program then: it says what is
 /// wrong, ends on all ranks with exit code 1, and leaves no results behind.

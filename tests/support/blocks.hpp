@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Tall matrices by this rank's rows, one column after the other by PETSc's vectors.
 #include <algorithm>

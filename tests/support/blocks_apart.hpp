@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Two blocks on each other that are meshed apart, with any cells, as texts of gmsh's format.
 #include <gmsh.h>

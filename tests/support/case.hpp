@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Runs the method as a user would: options in, the whole analysis out.
 #include <petscsys.h>
@@ -13,7 +14,7 @@
 
 namespace squeal::test {
 
-/// Collective. Runs with these options alone.
+/// Collective. Runs with only these options.
 inline analysis::Analysis runOptions(const std::string& options) {
   clearOptions();
   insert(settingsOfText("-quiet " + options));

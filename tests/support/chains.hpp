@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Chains of masses whose eigenvalues are known in closed form, of any multiplicity, with and
 /// without damping.

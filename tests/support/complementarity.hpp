@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The complementarity problem of steady sliding at one friction, condensed to the gaps g and the
 /// normal forces F of the contact nodes: F = S g + q >= 0, g >= 0, F g = 0.

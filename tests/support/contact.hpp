@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Steady sliding judged without the program's own residual: from displacements, the bodies'
 /// stiffness and the laws of contact.

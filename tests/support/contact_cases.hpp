@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small cases of contact on plane, cylindrical and spherical faces.
 #include <cerrno>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The change of variables that carries contact, with all gaps unknown and all nodes sliding.
 #include <vector>

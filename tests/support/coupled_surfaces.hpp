@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Couplings of blocks that are meshed apart, with what must hold of any coupling.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small matrices of known and of random entries.
 #include <algorithm>

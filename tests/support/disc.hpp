@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Runs for which the disc is full: by a limit of one rank, or on a small file system of their own.
 #include "support/kept.hpp"

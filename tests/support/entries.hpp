@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Vectors as lists of all their entries, the same on every rank.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Sparse matrices from lists of their entries.
 #include <tuple>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Surfaces made of faces of one type over the unit square, or of lines over the unit interval.
 #include <array>

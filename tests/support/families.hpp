@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small dense problems that depend on the friction, whose eigenvalues are known or cheap.
 #include <gtest/gtest.h>

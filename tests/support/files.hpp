@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// All files of a folder with their contents.
 #include <algorithm>
@@ -32,8 +33,8 @@ inline std::vector<std::string> namesOf(const Files& files) {
   return names;
 }
 
-/// The names of files that are in one of the two alone, or have other content: for messages that
-/// can be read.
+/// The names of files that are in only one of the two or differ in content, for readable
+/// messages.
 inline std::vector<std::string> differing(const Files& a, const Files& b) {
   std::vector<std::string> names;
   for (const auto& [name, content] : a)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The exponential friction law φ(|w|) = 1 + (r − 1) exp(−|w|/v), and a table that is its tangent.
 #include <cmath>

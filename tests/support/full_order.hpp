@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Eigenvalues of a case on all unknowns, and how far those of its reduced problem are from them.
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@ inline constexpr double directError = 3e-13;
 
 struct Comparison {
   double worst = 0;  ///< |s − s*| / |s*|
-  /// The ratio of the true error to the estimate, as far as it can be told from the error of s*
+  /// The ratio of the true error to the estimate, as far as the error of s* resolves it
   double worstRatio = 0;
   int certified = 0;
 };

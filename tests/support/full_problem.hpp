@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small problems of finite elements as dense ones with all unknowns.
 #include "algebra/linalg/quadratic.hpp"

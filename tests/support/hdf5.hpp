@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// What results.h5 holds, read by PETSc itself.
 #include <petscviewerhdf5.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// HDF5 files written by hand, with what other programs put into them. Not collective.
 #include <hdf5.h>

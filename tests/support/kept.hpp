@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Results of an earlier run with files of the user among them, and what is expected of them after
 /// something has happened to a run.
@@ -66,8 +67,8 @@ inline void expectOnly(const fs::path& folder, const std::vector<std::string>& r
   EXPECT_EQ(namesOf(files), expected);
 }
 
-/// A run of which the stages can be told. Its fields alone take seconds: mpirun passes a signal on
-/// after one.
+/// A run with distinguishable stages. Its fields take several seconds, since mpirun forwards a
+/// signal only after one.
 inline const Options slow =
     with(without(layer, {"quiet"}),
          {{"mesh_set", "nx=60,ny=20"}, {"modes_count", "40"}, {"report_frames", "600"}});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Two layers that slide on each other, on a coarse mesh: 156 unknowns, few enough for dense
 /// matrices of the full order.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// MATLAB files of versions 4 and 5, byte by byte as MATLAB writes them: numbers in the smallest
 /// type that holds them, either byte order.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Matrix files to read, sound and damaged.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These checks hold for every distributed mesh. All functions are collective.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// What the mesh reader says of a file.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small meshes as texts of gmsh's format, sound as they stand.
 #include <gmsh.h>
@@ -66,7 +67,7 @@ inline std::string changed(std::string text, const std::string& was, const std::
   return text.replace(at, was.size(), is);
 }
 
-/// Writes a mesh file that gmsh can read anew, binary. Not collective.
+/// Converts a mesh file that gmsh can read to the binary format. Not collective.
 inline void writeBinaryMsh(const std::string& from, const std::string& to, double version) {
   gmsh::clear();
   gmsh::open(from);

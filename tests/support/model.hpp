@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// What tests of single stages share: options in, mesh, bodies and contact out; matrices and
 /// vectors as plain arrays on every rank.
@@ -26,7 +27,7 @@
 
 namespace squeal::test {
 
-/// The options database holds these alone.
+/// Replaces the contents of the options database by these.
 inline void setOptions(const std::string& options) {
   clearOptions();
   insert(settingsOfText("-quiet " + options));
@@ -165,13 +166,13 @@ inline double dot(Vec x, Vec y) {
 
 using mesh::dot;
 
-/// The bodies alone, without contact.
+/// The bodies without contact.
 struct Built {
   mesh::Mesh mesh;
   elasticity::Bodies bodies;
 };
 
-/// Collective. From these options alone.
+/// Collective. Builds the bodies from only these options.
 inline Built buildBodies(const std::string& options) {
   setOptions(options);
   Built built{readMesh(), {}};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Layers whose meshes do not match on the sliding surface: errors of the program's eigenvalues and
 /// the order at which they fall.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A folder of results, as a run replaces it.
 #include <filesystem>

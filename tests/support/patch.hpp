@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Patches of distorted cells of every element, with what a test of their matrices needs.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A block clamped at its foot, which a sliding plate presses: friction lifts its nodes one by one.
 #include <string>

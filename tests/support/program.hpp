@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Starts the program as its users do and reads what it leaves behind. For tests on one rank: the
 /// program has ranks of its own.
@@ -76,7 +77,7 @@ inline ProgramRun runAgain(const std::string& name, int ranks, const std::string
   const fs::path out = placeFor(name) / "stdout.txt", error = placeFor(name) / "stderr.txt";
   const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " +
                               std::to_string(seconds) + " '" SQUEAL_MPIEXEC "' " +
-                              (ranks == 1 ? "alone" : std::to_string(ranks)) + " '" + program +
+                              (ranks == 1 ? "serial" : std::to_string(ranks)) + " '" + program +
                               "' " + options + " -report_dir '" + run.folder.string() + "' >'" +
                               out.string() + "' 2>'" + error.string() + "'";
   const int status = std::system(command.c_str());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// How well eigenpairs solve a dense quadratic problem.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Faces of all types, at random places and curved at random; the same on every rank and machine.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// One case on several numbers of ranks: the partition changes the order of every sum, and nothing
 /// else.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Reduced models made by hand, and the tube on a shaft whose stick-slip waves are known exactly
 /// (after Moirot, Nguyen and Oueslati, Eur. J. Mech. A/Solids 22, 2003).
@@ -174,8 +175,8 @@ inline std::complex<double> harmonic(const std::vector<double>& jump, int row) {
 struct Marched {
   double omega = 0, stick = 0, open = 0;
 };
-/// A node is open that carries no force and lies above the shaft: in a scheme with conditions on
-/// velocities, one that is a rounding of the step below it may carry its force in some steps alone.
+/// A node is open if it carries no force and lies above the shaft: in a scheme with conditions on
+/// velocities, a node that is below it by round-off may carry its force only in some steps.
 inline Marched marched(const ReducedModel& model, const Start& start, double h, double settle,
                        double measure) {
   const auto scheme = march::moreauScheme(model, start, h);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Runs of the coarse disc brake that follow its unstable mode after flutter.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// What the tests of the field writers share: a folder to write to and a small distributed mesh.
 #include <sys/stat.h>

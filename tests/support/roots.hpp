@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Roots of characteristic equations, and whether computed eigenvalues are all of them.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Sensitivities of eigenvalues judged by whole runs: finite differences, and the balance of
 /// friction work.
@@ -24,9 +25,9 @@ struct Material {
   double density;
 };
 
-/// A case, or options alone, and what its parameters are without factors.
+/// A case or only options, and the values of its parameters without factors.
 struct Configuration {
-  std::string name, options;  ///< no name: options alone
+  std::string name, options;  ///< no name: only options
   double friction = 0.4;
   std::map<std::string, Material> materials{{"disc", {{1.0}, 1.0}}, {"pad", {{0.4}, 0.6}}};
 };

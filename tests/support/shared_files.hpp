@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Files in a folder that all ranks see. All functions are collective: nobody writes while others
 /// look.

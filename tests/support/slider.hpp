@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A pad on a disc layer that strains unevenly below it, so that convective terms turn the slip and
 /// change its length; friction follows the speed.

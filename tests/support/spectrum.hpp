@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Comparison of computed eigenvalues with exact ones.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A run of the program that a test does something to while it runs.
 #include <fcntl.h>

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A brake of three steel parts: a pad on either side of a disc, pressed on by a uniform pressure
-/// and held by springs alone.
+/// and held only by springs.
 #include <cmath>
 #include <string>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A shape as a CAD program writes it: a plate with a block on it.
 #include <gmsh.h>

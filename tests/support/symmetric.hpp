@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small symmetric matrices.
 #include <gtest/gtest.h>

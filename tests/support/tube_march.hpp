@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// An independent march of the tube on a shaft: the leapfrog rule node by node, without matrices.
 #include "support/regime_models.hpp"

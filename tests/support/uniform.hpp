@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Steady sliding of layers, whose strain and pressure are uniform, against the closed forms.
 #include <gtest/gtest.h>

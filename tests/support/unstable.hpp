@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The unstable modes of the disc brake on meshes that match and on meshes that do not.
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ inline std::vector<Complex> unstable(const std::string& mesh, const std::string&
             mesh.find("apart=1") == std::string::npos);
   std::vector<Complex> found;
   for (Complex s : eigenvaluesOf(analysis.segments.at(0).points.at(0)))
-    if (s.real() > 1) found.push_back(s);  // 1/s: others are stable but for rounding
+    if (s.real() > 1) found.push_back(s);  // 1/s: others are stable within round-off
   print("%s%s\n", mesh.c_str(), options.c_str());
   for (Complex s : found) print("  %.2f Hz, %.2f 1/s\n", s.imag() / (2 * M_PI), s.real());
   return found;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// What a .pvtu file and its pieces hold, read by VTK itself.
 #include <vtkNew.h>

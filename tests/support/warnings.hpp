@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// What parts of the program print as warnings.
 #include <gtest/gtest.h>

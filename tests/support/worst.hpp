@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The largest of several errors. A comparison with NaN is false, so that std::max(worst, NaN) is
 /// `worst`: a NaN would pass a test that accumulates errors by std::max.

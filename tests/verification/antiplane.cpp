@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Layers that slide on each other, as slabs free to move across the sliding direction too: friction
 // damps these motions. The slabs' spectrum holds the waves in the plane as well.
 #include "exact/antiplane.hpp"
@@ -166,7 +167,7 @@ TEST(Antiplane, FrictionFallsWithSpeed) {
                  1e-3, "falling friction");
 }
 
-// The linearised problem sees value and slope at the sliding speed alone.
+// The linearised problem depends only on value and slope at the sliding speed.
 TEST(Antiplane, TangentOfTheFrictionLaw) {
   const ExponentialLaw law{2.5, 0.04};
   for (const char* convective : {"off", "on"}) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Critical frictions of two damped elastic layers: against the problem on all unknowns, and against
 // the exact waves.
 #include <gtest/gtest.h>

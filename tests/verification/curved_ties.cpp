@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Two rings that are meshed apart and tied on a circle, one inside the other: rigid motions are
 // free of strain, and frequencies converge to those of one body.
 #include <gtest/gtest.h>

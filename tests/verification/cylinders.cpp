@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Curved contact with a known pressure: two concentric cylinders, pressed together by pressure in
 // the bore.
 #include <gtest/gtest.h>

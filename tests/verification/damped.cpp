@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Damped, rotating and unsymmetric problems: the reduced problem with all modes against the direct
 // solve; structural damping against closed forms; the speed sweep.
 #include <gtest/gtest.h>
@@ -133,15 +134,15 @@ TEST(Damped, FrictionDampingDominatesAtVanishingSpeed) {
               1e-3);  // relative corrections (impedance / c)² are of the order of 1e-4
 }
 
-// The stress of the first friction of a sweep is in the modes, its change at the others in terms of
-// their own: one friction of a sweep gives what it gives alone. The pressing strain of a percent
-// moves frequencies by about as much.
+// The modes contain the stress at the first friction of a sweep; its change at the others is in
+// separate terms. Each friction of a sweep therefore gives the same as in a run of its own. The
+// pressing strain of a percent moves frequencies by about as much.
 TEST(Prestress, OfASweepIsThatOfEachFriction) {
   const std::string options =
       "-mesh_set nx=8,ny_disc=4,ny_pad=3 -modes_count 40 -elasticity_prestress on "
       "-flutter_accuracy 1e-11 ";
   const analysis::Analysis sweep = runCase("two_layers", options + "-flutter_friction 0.1,0.5"),
-                           alone = runCase("two_layers", options + "-flutter_friction 0.5"),
+                           single = runCase("two_layers", options + "-flutter_friction 0.5"),
                            slack =
                                runCase("two_layers",
                                        options + "-elasticity_prestress off -flutter_friction 0.5");
@@ -152,13 +153,13 @@ TEST(Prestress, OfASweepIsThatOfEachFriction) {
     return list;
   };
   const auto& points = sweep.segments.at(0).points;
-  const auto one = inBand(alone.segments.at(0).points.at(0)), other = inBand(points.at(1));
+  const auto one = inBand(single.segments.at(0).points.at(0)), other = inBand(points.at(1));
   ASSERT_GT(points[1].bandTop, 3.5);
   ASSERT_EQ(one.size(), other.size());
   EXPECT_GT(one.size(), 10U);
   const double difference = worst(errors(one, other).relative),
                effect = std::abs(slack.segments.at(0).modes.angularFrequency[5] /
-                                     alone.segments[0].modes.angularFrequency[5] -
+                                     single.segments[0].modes.angularFrequency[5] -
                                  1);
   print("prestress: sweep against single friction %.1e; effect of the stress %.1e\n", difference,
         effect);

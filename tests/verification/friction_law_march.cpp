@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A block on a belt under a coefficient of friction that falls with the speed: its growth from
 // steady sliding, and the cycle of stick and slip that it ends in.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Hertz contact of a cylinder and of a sphere on a block, whose meshes do not match and which have
 // a gap between them without load: half width and pressure.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // One elastic layer under a rigid sliding plate: frequencies and growth rates against the exact
 // waves.
 #include <gtest/gtest.h>

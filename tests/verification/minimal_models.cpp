@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Two-degree-of-freedom models of the literature, as pencils of 2 × 2 matrices, with critical
 // frictions in closed form.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Two layers of which one carries its displacement along as it moves, and friction that follows the
 // sliding speed: G, K^R and the friction law against exact waves.
 #include "exact/moving_layers.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Layers whose meshes do not match on the sliding surface: convergence of frequencies and growth
 // rates to the exact waves.
 #include <gtest/gtest.h>

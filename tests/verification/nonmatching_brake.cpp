@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A coarse disc brake whose disc is turned under the pad by a third of a cell, and whose pad has
 // three cells on two of the disc: unstable modes are those of meshes that match.
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ const std::string coarse =
     "n_h_lining=1,";
 const std::string band = " -modes_count 60 -flutter_band 9500";
 
-// The disc is a body of revolution, so that turning it changes its mesh alone.
+// The disc is a body of revolution, so turning it changes only its mesh.
 TEST(NonMatchingBrake, DiscTurned) {
   const auto matching = unstable(coarse + "n_pad_theta=12,n_pad_r=5", band);
   for (const char* slave : {"pad", "disc"})

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The disc brake at its full size with meshes that do not match: unstable modes are those of
 // matching meshes, the more so the finer the meshes are. Minutes, so not part of the usual run.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Layers in motion whose meshes do not match on the sliding surface, with the finer side and with
 // the coarser one as slave: convergence of frequencies and growth rates to the exact waves, with
 // convective terms and with friction damping.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Slabs that slide on each other with meshes that do not match, with friction damping and
 // convective terms: convergence to the exact waves on hexahedra of second order.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Contact that opens along one end, on all shapes of cells of second order, with meshes that match
 // and with meshes that do not: equilibrium, and convergence to a fine mesh of quad9 cells.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Standing waves across an orthotropic layer whose axes are turned: both wave speeds, and the order
 // of convergence.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Periodic motions by shooting, stable or not: a mass on a belt, whose cycles and their stability
 // are known exactly.
 #include <gtest/gtest.h>

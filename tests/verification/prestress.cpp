@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Frequencies under tension, through the whole program: a stretched string.
 #include <gtest/gtest.h>
 

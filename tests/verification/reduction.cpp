@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The reduced problem against the one on all unknowns: its eigenvalues, and what it says of their
 // errors.
 #include <gtest/gtest.h>
@@ -50,8 +51,8 @@ TEST(Reduction, TwoLayersFromSixtyModes) {
   expectFullOrder("two_layers", "-flutter_friction 0.1,0.3,0.5", 30);
 }
 
-/// Estimates of the free modes alone, whose eigenvalues are wrong by up to a few thousandths: of
-/// all that are said to be right to 1 %, as far as first order goes.
+/// Checks the estimates of uncorrected free modes, whose eigenvalues are wrong by up to a few
+/// thousandths: for all eigenvalues with an estimate below 1 %, and to first order.
 void expectEstimated(const std::string& name, const std::string& changes) {
   const auto& exact = fullOrder(name, changes);
   const analysis::Analysis modal =

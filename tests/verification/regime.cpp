@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The motion after flutter of minimal models with exact solutions: a mass on a belt that lifts off,
 // a block on a belt with a static and a kinetic coefficient, a bar that hits a wall, and the
 // stick-slip wave of an elastic tube on a rotating shaft.

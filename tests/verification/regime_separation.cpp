@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The wave of stick, slip and separation of an elastic tube on a rotating shaft.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The wave of stick, slip and separation of an elastic tube on a rotating shaft: two marches of one
 // discrete model agree, and the wave converges with the nodes.
 #include <gtest/gtest.h>

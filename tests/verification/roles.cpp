@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Roles of interfaces: coefficients of friction of their own, and interfaces that stick up to their
 // limit of friction, against closed forms, statics, and models that must agree.
 #include <gtest/gtest.h>
@@ -101,7 +102,7 @@ TEST(FixedFriction, CountsOnQuadraticFaces) {
 TEST(FixedFriction, HasTheSensitivitiesOfTheSweptOne) {
   // On several ranks the sums of two runs are rounded differently, and the derivatives of this
   // model then take one of two values, 1e-4 apart.
-  if (sizeOf() > 1) GTEST_SKIP() << "the same sums in both runs on one rank alone";
+  if (sizeOf() > 1) GTEST_SKIP() << "the sums of both runs agree only on one rank";
   const auto sensitivities = [](const std::string& friction) {
     const auto analysis = runOptions(slider::options(1, 0) + direct +
                                      "-flutter_sensitivities -flutter_shapes 3 " + friction);

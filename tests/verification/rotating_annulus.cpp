@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // An annulus that turns: gyroscopic terms and rotation stiffness split its double modes into
 // forward and backward waves.
 #include <gtest/gtest.h>
@@ -123,7 +124,7 @@ int orderOf(const mesh::Mesh& mesh, Vec real, Vec imaginary) {
     for (int i = 0; i < 4; ++i) square += std::pow(sums[4 * (n + range) + i], 2);
     if (square > power) power = square, best = n;
   }
-  // Parseval: all of a pure wave is at its n, but for what the cells of the mesh add.
+  // Parseval: all of a pure wave is at its n, except for the contribution of the mesh cells.
   EXPECT_GT(power, (1 - 1e-3) * sums.back() * sums[sums.size() - 2]);
   return best;
 }

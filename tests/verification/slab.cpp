@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The layer as a solid slab one cell thick, held in z: the plane-strain answers, cell type by cell
 // type.
 #include <gtest/gtest.h>

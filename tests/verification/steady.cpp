@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Steady sliding: uniform strain against the closed forms, and contact that opens against statics.
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
-// Steady sliding of a stiff brake, three steel parts: what the linear solvers leave is rounding,
-// and so is what is accepted. The pads are pressed on by a uniform pressure and held by springs
-// alone, so that statics gives the resultants of contact and springs.
+// SPDX-License-Identifier: BSD-2-Clause
+// Steady sliding of a stiff brake, three steel parts: the linear solvers reach round-off, and only
+// round-off is accepted. The pads are pressed on by a uniform pressure and held only by springs, so
+// that statics gives the resultants of contact and springs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,8 +66,8 @@ TEST(SteelBrake, WeaklyHeldPads) {
              weak = solutions(test::steel_brake::options(2, 0.022, 1e3), {0.25});
   expectBalance(firm[0], 1e-8);
   expectBalance(weak[0], 1e-6);
-  // Both springs are soft beside the pads: what presses is the same but for the share of the
-  // elastic deformation in their motion.
+  // Both springs are soft compared with the pads: the pressure is the same except for the share of
+  // the elastic deformation in their motion.
   EXPECT_NEAR(weak[0].smallestPressure / firm[0].smallestPressure, 1, 1e-2);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Solids against beam and ring theory: cantilever (Timoshenko 1921, Huang 1961), free circular ring
 // (Hoppe 1871, Love).
 #include <gtest/gtest.h>
@@ -149,8 +150,8 @@ TEST(Beam, Hex8WithoutIncompatibleModesIsTooStiff) {
 // n waves around (Love, art. 293):
 //   ω² = E I n² (n² − 1)² / (ρ A R⁴ (n² + 1)),  I / A = t² / 12,
 // each twice, turned by a quarter wave. Out of the plane: ω² = E I' n² (n² − 1)² / (ρ A R⁴ (n² + E
-// I'/(G J))): told apart by u_z. Shear and rotatory inertia lower ω by about ½ (n t/R)²/12 · (1 +
-// E/κG) = 0.17 % at n = 5. Quadratic cells on a thin arc lock against extension until they are
+// I'/(G J))): distinguished by u_z. Shear and rotatory inertia lower ω by about ½ (n t/R)²/12 · (1
+// + E/κG) = 0.17 % at n = 5. Quadratic cells on a thin arc lock against extension until they are
 // short: 2.7 % on 48 cells, 0.18 % on 96, then nothing to be seen.
 TEST(Ring, FlexuralModesComeInPairs) {
   constexpr double radius = 0.1, thickness = 0.002;
@@ -217,7 +218,7 @@ TEST(Ring, FlexuralModesComeInPairs) {
                   100 * (first / theory - 1), twin / first - 1);
       EXPECT_NEAR(100 * (first / theory - 1), 0, tolerance);
       EXPECT_NEAR(twin / first, 1,
-                  1e-8);  // the mesh turns into itself: exactly double, but for gmsh's 11 digits
+                  1e-8);  // the mesh turns into itself: exactly double within gmsh's 11 digits
     }
   }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Bodies that are tied although their meshes do not match, against one body of the same shape, and
 // what the roles of interfaces have in common.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Two elastic layers, deformable on deformable: convergence of frequencies and growth rates to the
 // exact waves.
 #include "exact/two_layers.hpp"

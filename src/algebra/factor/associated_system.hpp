@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The ideal associated system [4.17] that the modes, the reduction and the corrections share.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// This file calls MUMPS for the LDLᵀ factorisation of distributed symmetric matrices. PETSc's own
 /// interface sets up the scatter of the solution at each call, a fifth of the time of a block of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "algebra/factor/symmetric_solver.hpp"
 
 #include <algorithm>

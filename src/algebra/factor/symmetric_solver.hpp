@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions apply MUMPS to symmetric matrices, for solves with one LDLᵀ factorisation and
 /// for the inertia.

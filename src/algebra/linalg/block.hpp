@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions work on tall matrices that are distributed by rows: the basis V and its products
 /// A V. A product of two of them is one BLAS call on the local rows and one reduction.

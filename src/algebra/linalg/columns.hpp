@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// This file gives access to the columns of a SLEPc BV as matrices.
 #include "algebra/linalg/dense.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The complex number of all rooms: PETSc is built with real scalars.
 #include <complex>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions multiply, orthonormalise and diagonalise small dense complex matrices, by BLAS
 /// and LAPACK. Not collective.

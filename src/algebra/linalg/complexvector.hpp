@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Complex vectors for a PETSc that is built with real scalars.
 #include "algebra/linalg/complex.hpp"

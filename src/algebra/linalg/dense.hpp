@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// This file holds small dense matrices, and the blocks of rows of tall ones, stored by columns.
 #include <petscsys.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions copy small distributed matrices to rank 0.
 #include "algebra/linalg/dense.hpp"

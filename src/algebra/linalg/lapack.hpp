@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Calls of LAPACK routines that need a work array.
 #include <petscsys.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// This file solves small dense linear systems by LAPACK's LU with partial pivoting. Not
 /// collective.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "algebra/linalg/qr.hpp"
 
 #include <petscsys.h>  // first: the next header needs it

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// This file holds the QR factorisation of small dense matrices, by LAPACK. Not collective.
 #include "algebra/linalg/dense.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions solve small dense quadratic eigenproblems with real unsymmetric matrices, by
 /// LAPACK.

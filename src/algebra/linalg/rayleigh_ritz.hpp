@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions continue one or two eigenvalues of a dense quadratic problem, with their
 /// invariant subspace, from a neighbouring problem. This takes one to three factorisations; all

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "algebra/linalg/serialization.hpp"
 
 #include <span>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Dense matrices, eigenpairs and complex vectors are written to checkpoints and read back.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Dense quadratic eigenproblems solved on several ranks, and pairs sent to all of them.
 #include <mpi.h>

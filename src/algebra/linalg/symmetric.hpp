@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions solve small dense symmetric eigenproblems by LAPACK. Not collective.
 #include <vector>

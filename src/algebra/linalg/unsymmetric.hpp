@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Unsymmetric dense eigenproblems, linear in the eigenvalue, by LAPACK. Nothing here is
 /// collective.

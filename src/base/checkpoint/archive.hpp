@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A part of the state of a run, to be written to or read from a checkpoint.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Checkpoints, from which a later run resumes an interrupted one.
 #include <mpi.h>

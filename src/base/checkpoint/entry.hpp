@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Reads and writes the file of a checkpoint entry, by MPI, each rank its own part.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The identity of a run, which decides whether it can resume from a checkpoint.
 #include <mpi.h>

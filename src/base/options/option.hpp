@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A declared option of the user interface, and the stages that options belong to. Each option is
 /// declared once, in the room that uses it, with stage, default, unit, meaning and check.

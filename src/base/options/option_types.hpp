@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The types of declared options: numbers, lists, flags, choices, texts and files.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Functions on all options: those of PETSc's solvers, unknown and unused ones, and the manual.
 /// Includes the types of declared options.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Reads the options given on the command line, in options files and in the environment. Rank 0
 /// reads all of them and inserts them into PETSc's options database in the given order: of two

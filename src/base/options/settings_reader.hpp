@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Reads settings from command lines, options files and the environment.
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Checks that a run may write to a folder: one that is new, empty, or its own.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Writes files on one rank. Once termination from outside has started, no write starts
 /// (SignalsBlocked), so that nothing appears after the removal of files.

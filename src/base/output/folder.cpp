@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "base/output/folder.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Replaces the results in a folder as a whole: it always contains one complete run, or nothing
 /// that could be mistaken for one.

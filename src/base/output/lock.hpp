@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A lock that admits one run at a time to a folder.
 #include <mpi.h>

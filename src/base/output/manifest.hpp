@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A list of the files of a run, stored with them. A later run may remove only these files.
 #include <filesystem>

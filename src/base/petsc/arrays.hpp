@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Access to the entries of a vector on this rank.
 #include <petscvec.h>

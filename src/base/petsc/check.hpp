@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Checks PETSc calls, and turns its errors into one-line messages.
 #include <petscsys.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Rejects inf and nan, so that an overflow cannot reach a result.
 #include <petscmat.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Handles of the HDF5 library.
 #include <hdf5.h>

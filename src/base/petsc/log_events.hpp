@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Stages and events of this program in PETSc's -log_view.
 #include <petscsys.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Handles that own PETSc and SLEPc objects. They can be moved, but not copied. A raw `Mat`, `Vec`,
 /// … in a parameter list is borrowed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Reports progress events to other programs, and as a status line on a terminal.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Starts MPI, PETSc, SLEPc and gmsh at the beginning of main() and ends them at its end.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "base/session/stages.hpp"
 
 #include <sys/resource.h>

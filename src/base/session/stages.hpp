@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Writes the log of a run: one line per stage with its wall time, and progress within long stages.
 /// Records them for the summary.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Runs work that may crash or exhaust the memory in a child process.
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Concatenates the parts of a distributed list on every rank.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Errors, and functions that share them between all ranks.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Free memory, and the report of a lack of memory. Functions are collective only if marked so.
 #include <mpi.h>

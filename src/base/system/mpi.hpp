@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Collective operations of MPI on single values, lists and texts. An MPI call that fails ends the
 /// run: the error handler of a communicator is MPI_ERRORS_ARE_FATAL.

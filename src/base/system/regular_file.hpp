@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Opens the program's own files safely in folders where others may have created something under
 /// the same name: a link could lead to another user's file, and a pipe would block.

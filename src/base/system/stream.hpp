@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Serialises values to bytes and back, and broadcasts values of any serialisable type.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Handles termination from outside: signals, MPI_Abort after an error of a library, and exit() in
 /// a library. Termination handlers remove everything that a run must not leave behind.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Formats texts for messages and tables. Not collective.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Finds the reason why a file cannot be read.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The direct method solves the eigenproblem on all unknowns, without reduction.
 #include "eigen/direct/settings.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The eigenvalues nearest to zero of the problem on all unknowns are found by SLEPc.
 #include <memory>

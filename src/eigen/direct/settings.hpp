@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The choices of the direct method.
 #include "eigen/pencil/settings.hpp"

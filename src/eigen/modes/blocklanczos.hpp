@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// This file adds rational block Lanczos to SLEPc, as a type of EPS. It finds the eigenvalues of a
 /// symmetric definite pencil (K, M) nearest to a target below all of them.

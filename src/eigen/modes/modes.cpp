@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/modes/modes.hpp"
 
 #include <algorithm>

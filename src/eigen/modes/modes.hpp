@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// This file computes the free vibration of the ideal associated system [4.17],
 ///   (K0 − ω² M0) d = 0,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 /// A direct solver answers a block of right-hand sides many times faster than as many single ones,
 /// because the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a
 /// time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Rational block Lanczos makes a basis by solves with several shifted matrices (Ruhe 1984, 1998;
 /// Grimes, Lewis and Simon 1994).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/modes/settings.hpp"
 
 #include <petscsys.h>

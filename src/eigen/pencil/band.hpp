@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The band is the set of eigenvalues that a run lists, corrects and follows [M.27].
 #include <vector>

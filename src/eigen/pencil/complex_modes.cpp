@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/pencil/complex_modes.hpp"
 
 #include <algorithm>

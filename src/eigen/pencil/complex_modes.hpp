@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The results of the friction-perturbed eigenproblem (paper, section 4) tell which modes flutter,
 /// at which friction, and how fast they grow.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/pencil/modal_damping.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Damping given by a ratio for each free mode.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The friction-perturbed eigenproblem is that of a sum of terms P [M.23],
 ///   P(s; f, v, c) d = 0,   P = Σ_t α_t f^a_t v^b_t c^d_t s^k_t A_t,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The companion form of a dense quadratic problem, and its operator of shift-and-invert. Nothing
 /// here is collective.

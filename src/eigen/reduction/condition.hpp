@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Condition numbers from left eigenvectors: how far residuals move eigenvalues.
 #include <vector>

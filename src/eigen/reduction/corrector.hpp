@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Corrections of the basis by static responses to friction and to residuals.
 #include <vector>

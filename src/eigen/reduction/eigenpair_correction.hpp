@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Improvement of known eigenpairs of dense quadratic problems after their basis has grown. For
 /// some tens of eigenvalues of some hundred, this takes a small part of the time of a full solve.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Estimates of the errors that the reduced problem leaves in the eigenvalues of the full one.
 #include <vector>

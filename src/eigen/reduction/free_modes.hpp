@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The free modes of points with boundary unknowns, from the reduced problem.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A search for eigenvalues that improvements of known ones have missed.
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Groups of neighbouring eigenpairs of a dense problem that are improved together.
 #include <optional>

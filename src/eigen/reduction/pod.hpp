@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Proper orthogonal decomposition: the basis is reduced to the principal directions of the
 /// eigenvectors of the sweep. Nothing here is collective, except combinations of the basis.

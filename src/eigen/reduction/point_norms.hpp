@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The norms of the matrices of the points of a sweep.
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The terms of a pencil are projected on a growing basis V. Kept are the projections VᵀAV, and
 /// sketches of A V and AᵀV for the norms of residuals [M.39]. The products A V themselves are kept

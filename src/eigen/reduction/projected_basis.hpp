@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The basis of the reduced problem with the terms of the pencil projected on it.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The reduced problem [4.19] is corrected until its eigenvalues are those of the full one.
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Static responses to friction are the beginning of a basis.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/reduction/solved_pairs.hpp"
 
 #include "algebra/linalg/serialization.hpp"

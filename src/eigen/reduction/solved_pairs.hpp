@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The eigenpairs of the points of a sweep, for tracking.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The eigenvalues of the reduced problem of one point, while the basis grows.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions compute the sensitivities of the complex modes that are kept at a point.
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Left eigenvectors y of the full-order problem, yᴴ P(s) = 0, are found for known eigenvalues.
 #include <vector>

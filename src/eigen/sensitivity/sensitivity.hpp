@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Left and right vectors give the derivatives of eigenvalues [M.46],
 ///   ds/dθ = −yᴴ (∂P/∂θ)(s) x / yᴴ P′(s) x,   P′ = dP/ds = 2 s M̄ + Z̄,

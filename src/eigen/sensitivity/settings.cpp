@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/sensitivity/settings.hpp"
 
 #include "base/options/options.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Critical frictions: the frictions at which stability changes, as roots of analytic functions.
 #include <vector>

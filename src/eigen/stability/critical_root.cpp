@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/stability/critical_root.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A whole sweep over friction: its eigenvalues followed from point to point, their critical
 /// frictions, and a statement on the completeness of their number.

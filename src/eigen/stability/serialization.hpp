@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Followed eigenvalues on their way to and from a checkpoint.
 #include "algebra/linalg/serialization.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/stability/settings.hpp"
 
 #include <cmath>

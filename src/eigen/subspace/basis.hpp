@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The basis of the reduced problem grows, and is orthonormal in the energy of the stiffness K0 to
 /// a part in a thousand [M.28]:

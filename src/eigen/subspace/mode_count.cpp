@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/subspace/mode_count.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The number of free modes below a frequency is known for any set of boundary unknowns without
 /// another factorisation [M.61].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions estimate norms of tall vectors from a few random combinations of their entries.
 ///

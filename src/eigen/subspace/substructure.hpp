@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The points of a sweep need not have the same unknowns. All have the interior unknowns y; each
 /// has some of the boundary unknowns w, such as the gaps of contact nodes that open in a part of

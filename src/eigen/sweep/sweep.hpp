@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The grid of parameters of a run, and the order in which its points are solved.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Free modes in the unknowns and displacements that are reported.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/sweep_solver/settings.hpp"
 
 namespace squeal::sweep_solver {

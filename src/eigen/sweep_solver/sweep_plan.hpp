@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The points of a sweep, and the order in which they are solved.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The problem of a sweep: what the terms of its points are, and how their active sets follow on
 /// each other.

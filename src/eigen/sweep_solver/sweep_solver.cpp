@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/sweep_solver/sweep_solver.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The algebraic part of the method leads from K0, M0 and the terms of the pencil to the
 /// eigenvalues of a sweep. It is the same for a mesh and for matrices from files.

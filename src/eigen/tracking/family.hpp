@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Dense problems that depend on the friction: a small model, or a large pencil in a reduced basis
 /// that may grow.

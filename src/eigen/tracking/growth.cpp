@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/tracking/growth.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Signs of growth rates, and their changes over the friction.
 #include <vector>

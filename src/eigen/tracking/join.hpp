@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Identification of the eigenvalues at one friction with those at another.
 #include "algebra/linalg/quadratic.hpp"

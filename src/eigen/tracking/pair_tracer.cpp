@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/tracking/pair_tracer.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Two eigenvalues that mix, followed in their common subspace.
 #include <optional>

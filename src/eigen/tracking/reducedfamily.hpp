@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A sweep over the friction in the reduced basis, as a Family.
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The numbers of the branches in the output.
 #include "eigen/tracking/track.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Pairs of changes of stability within one step: stable at both ends and unstable in between, or
 /// the reverse.

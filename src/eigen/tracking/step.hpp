@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// One step of the continuation of eigenvalues, between two stations.
 #include <optional>

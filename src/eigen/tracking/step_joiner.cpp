@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/tracking/step_joiner.hpp"
 
 #include <algorithm>

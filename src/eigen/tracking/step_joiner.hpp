@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The eigenvalues at both ends of a step are joined group by group.
 #include <optional>

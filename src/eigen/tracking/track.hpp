@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Eigenvalues followed over the friction, through crossings and mergers, by their left and right
 /// vectors.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The state of each contact node, and whether the ranks agree on it.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Contact as a change of variables, with trial functions T and test functions L(f):
 ///   u = T x + p u0 + u_g,   L(f) = T + f Nᵀ S   [3.6].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The matrices of the coupled problem, for every matrix X of the bodies
 /// [M.11]:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Coulomb friction with the coefficient f φ(|w|): f is swept, and φ is a law of the sliding speed.
 #include <vector>

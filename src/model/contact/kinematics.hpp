@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The kinematics u = A z of contact, with a normal and tangents at each contact node.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Rigid-body modes of bodies that nothing holds.
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The matrix B of the change −B w* of the friction forces with a change w* of the
 /// relative velocity [4.7, M.20].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "model/contact/settings.hpp"
 
 #include "base/options/options.hpp"

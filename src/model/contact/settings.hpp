@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Settings of contact. Not collective.
 #include "model/contact/friction.hpp"

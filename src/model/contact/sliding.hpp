@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The matrices of sliding at the contact nodes.
 #include "base/petsc/owned.hpp"

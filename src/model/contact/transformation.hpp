@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The trial functions T, and the unknowns that two active sets share.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A Box bounds faces in space, so that most pairs of faces are known to be apart at little cost.
 #include "model/mortar/face.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A Coupling ties the nodes of a slave surface to a master surface whose mesh does not match:
 ///   u_i = Σ_l P_il u_l + (G J)_i,

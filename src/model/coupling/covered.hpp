@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The covered parts of the faces of a slave surface, and the basis that follows from them.
 #include <string>

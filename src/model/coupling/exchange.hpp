@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A NodeExchange combines values that several ranks have at the same nodes.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "model/coupling/mortar_matrices.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The matrices of a coupling, from sums over its faces.
 #include <vector>

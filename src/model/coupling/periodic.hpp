@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// On a periodic mesh a surface goes on beyond its end: what leaves the mesh there comes in again
 /// at the other end.

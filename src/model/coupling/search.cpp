@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #define BOOST_ALLOW_DEPRECATED_HEADERS  // headers of Boost 1.74 include some, and would say so
 #include "model/coupling/search.hpp"
 

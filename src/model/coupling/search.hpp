@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// For each slave face, the master faces that may touch it, on whichever rank they
 /// are.

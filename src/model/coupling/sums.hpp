@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Sums of the couplings of single slave faces, by nodes of the mesh.
 #include <array>

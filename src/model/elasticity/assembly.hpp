@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Assembly of element arrays into distributed matrices and vectors on nodal
 /// displacements.

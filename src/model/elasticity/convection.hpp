@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Convective terms of moving bodies, in the axes of the vehicle and on Cartesian components [M.2]:
 ///   D u = (V·∇)u.

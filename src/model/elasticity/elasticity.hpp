@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Assembly of the uncoupled elastic bodies: their matrices and loads on all N nodal
 /// displacements u, N = dimension × nodes. A component of a node has the row dimension·node +

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Stiffness matrices of one element. Coordinates and material go in,
 /// and small dense arrays come out. No PETSc object is used here. None is collective.

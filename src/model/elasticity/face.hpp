@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The normals, the mass matrix and the derivatives of the shape functions
 /// of one face, which is a line in the plane. Coordinates go in, and small dense arrays come out.

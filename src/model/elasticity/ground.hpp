@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Springs and dashpots between node groups and the ground.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The terms of one element's inertia: its mass, its centrifugal forces and
 /// the convective terms of matter that moves through it. Coordinates and density go in, and small

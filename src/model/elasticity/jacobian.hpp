@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Maps from reference to physical coordinates of one element; the element routines share
 /// them.

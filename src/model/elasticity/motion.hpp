@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Base motion of a body's matter (paper, section 2), a rotation or a translation [2.1]:
 ///   V = ω k × (x − x0)   or   V = const.

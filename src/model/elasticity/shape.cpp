@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "model/elasticity/shape.hpp"
 
 #include <gmsh.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A ShapeTable holds the shape functions and a quadrature rule of one element type, tabulated by
 /// the gmsh library for any nodal Lagrange or serendipity element that it knows.

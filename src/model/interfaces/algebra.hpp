@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The contact matrices: N×N matrices that consist of a block per pair of
 /// nodes. Only those that say so are collective.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The nodes that an interface would have, and which of them it must leave to
 /// others.

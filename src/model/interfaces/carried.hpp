@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A support may hold components of nodes that are tied. As the node follows its masters, the
 /// support then acts on them: Σ_l P_il u_l = ū in these components.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A chain is a slave that rests on nodes which are slaves themselves. This file puts the
 /// connections in order.

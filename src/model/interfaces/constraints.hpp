@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Constraints: clamped, guided and displaced groups of nodes.
 #include <map>

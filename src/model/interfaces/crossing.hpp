@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Check that the surfaces on which bodies slide do not move through themselves.
 #include "model/coupling/exchange.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The basis of the gaps on tri6 and quad8 faces. A uniform pressure on these faces has nodal
 /// forces that are zero or negative at the corners, so that the sign of a nodal force does not tell

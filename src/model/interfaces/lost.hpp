@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Nodes that an interface has to leave to another one: a node has one gap, and it follows from one
 /// set of masters.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The nodes that touch or are tied, and their masters: from pairs of nodes where
 /// the meshes match, and from the coupling of the surfaces where they do not.

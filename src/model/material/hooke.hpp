@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Hooke's laws, in the axes of the material and of the mesh. No PETSc object is
 /// used here. Not collective.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Materials of the bodies: elastic law, density and damping.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Settings of the materials of the bodies. None of this is collective; all ranks have the same
 /// options, and so the same results and Errors.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The cells of the bodies and their nodes. Not collective: for rank 0 only.
 #include "model/mesh/gmsh_model.hpp"

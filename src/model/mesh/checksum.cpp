@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "base/checkpoint/checkpoint.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/text.hpp"

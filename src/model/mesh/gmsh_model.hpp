@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Interface to the gmsh library: a file that it has read or meshed, and the physical groups. Not
 /// collective: for rank 0 only.

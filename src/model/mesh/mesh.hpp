@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A Mesh is the distributed finite element mesh, with the geometry and the names for all later
 /// stages.

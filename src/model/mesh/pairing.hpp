@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Pairs of nodes: periodic images with their primaries, and contact nodes of pad and
 /// disc. It is for rank 0 only.

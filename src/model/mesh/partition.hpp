@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Division of the cells among the ranks. For rank 0 only.
 #include <vector>

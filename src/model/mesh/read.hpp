@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Reads the mesh and distributes it over the ranks.
 #include "model/mesh/mesh.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Serialisation of a mesh, for its distribution.
 #include "base/system/stream.hpp"

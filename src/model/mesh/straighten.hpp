@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Straightening of the edges of curved cells. Not collective: for rank 0 only.
 #include "model/mesh/settings.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Duplicate elements of a mesh. Not collective: for rank 0 only.
 #include <optional>

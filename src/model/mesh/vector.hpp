@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Algebra of points, vectors and small matrices in space.
 #include <array>

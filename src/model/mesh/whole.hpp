@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The whole mesh, which rank 0 keeps between reading and distribution. Not
 /// collective: for rank 0 only.

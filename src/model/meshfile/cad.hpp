@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Shapes of CAD programs: STEP, IGES and BREP. Not collective.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Kinds of the files that are passed to the gmsh library. Not collective.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The parameters of a geometry, and its mesh. Not collective.
 #include <string>

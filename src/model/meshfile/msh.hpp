@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Checks of files in gmsh's mesh format before gmsh reads them.
 #include <cstdint>

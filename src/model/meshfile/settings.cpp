@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "model/meshfile/settings.hpp"
 
 #include <charconv>

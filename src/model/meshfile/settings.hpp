@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Settings of the file that the mesh is read from or made of. Not collective.
 #include <string>

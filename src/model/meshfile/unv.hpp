@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Checks of I-deas universal files before gmsh reads them.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The shape functions φ of a face at any point, and the basis φ̃ = Eᵀφ of the
 /// slave side, whose integrals are positive. Displacements follow from those of φ̃ by u = E ũ, edge

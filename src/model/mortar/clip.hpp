@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Cuts of convex regions of a plane, which are polygons, or segments of a line. None
 /// is collective.

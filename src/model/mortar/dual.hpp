@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Integrals of the dual functions of one slave face against both sides. A dual function
 /// ψ_p is orthogonal to all φ̃_q of other pivots q, so that each pivot has a condition of its own.

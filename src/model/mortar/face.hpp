@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A Face is a boundary face of the mesh with its geometry, apart from the mesh, so that it can be
 /// sent to the rank that integrates over it.

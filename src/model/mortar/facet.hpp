@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Replacement of a face by flat facets, which can be projected and cut.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Integrals of products of the shape functions of a slave face and of its masters. All
 /// terms of the coupling are linear in these, whatever the basis and the pivots, so that nobody

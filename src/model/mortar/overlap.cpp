@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "model/mortar/overlap.hpp"
 
 #include <algorithm>

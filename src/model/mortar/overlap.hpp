@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The parts of a slave face that the faces of a master surface cover.
 #include <span>

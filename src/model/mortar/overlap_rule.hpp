@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The number of integration points of a part of a slave face.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Maps between the reference coordinates of a face and space. None is collective.
 #include "model/mortar/basis.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Moves the nodes of ties onto their masters.
 #include "model/coupling/exchange.hpp"

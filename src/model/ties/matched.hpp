@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Ties whose meshes match make displacements equal: u_i = u_l. Which of the two nodes follows the
 /// other is free, so that a node that has a gap, or that rests on several nodes of a master, can

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Ties, found before elements are made, and the moves of tied nodes onto their masters.
 /// A tie u_i = Σ P_il u_l is exact for a rotation of both sides together only if its nodes satisfy

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The associated system of a problem from files: K0 and M0 are sums of the terms without
 /// exponents.

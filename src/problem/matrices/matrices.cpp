@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "problem/matrices/matrices.hpp"
 
 #include "base/system/text.hpp"

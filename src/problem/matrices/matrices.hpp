@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The friction-perturbed problem from files: each matrix has a role M, Z or K, a factor, and
 /// exponents of friction, speed and damping [M.23]. Exports of other programs and published models

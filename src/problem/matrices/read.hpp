@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A matrix from a file, distributed over the ranks.
 #include <filesystem>

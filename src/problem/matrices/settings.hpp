@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The settings of problems that are given by matrices: the files to read, and the folder to which
 /// the matrices of a problem are exported.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Export of the matrices of a pencil to the folder of `-report_matrices`, from which another run
 /// can read them.

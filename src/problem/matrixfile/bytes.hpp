@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Numbers in binary files, of either byte order.
 #include <algorithm>

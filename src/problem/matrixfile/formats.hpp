@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Common parts of the readers of matrix files. A reader accepts only files that its format allows:
 /// it ignores nothing in a file, and requires all that the header announces. No function of the

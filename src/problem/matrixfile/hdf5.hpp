@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A matrix from an HDF5 file, or from a MATLAB file of version 7.3, which is one.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "problem/matrixfile/hdf5_file.hpp"
 
 #include <algorithm>

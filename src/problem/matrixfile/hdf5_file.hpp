@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The contents of HDF5 files, with the checks that the HDF5 library leaves to its users.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // MATLAB files are read by hand: in a truncated file, matio 1.5 replaces missing values by zeros
 // and omits the variables after them.
 #include "problem/matrixfile/matlab.hpp"

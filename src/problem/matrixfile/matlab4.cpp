@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A file of MATLAB's version 4 consists of consecutive variables, each with a header of five
 // integers, its name and its values by columns.
 #include "problem/matrixfile/matlab4.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A file of MATLAB's version 5 consists of consecutive elements, each with its type and length. A
 // variable is an element of elements, packed by zlib in files that -v7 writes.
 #include "problem/matrixfile/matlab5.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The variables of MATLAB files of version 5.
 #include <vector>

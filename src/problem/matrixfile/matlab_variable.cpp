@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "problem/matrixfile/matlab_variable.hpp"
 
 namespace squeal::matrixfile {

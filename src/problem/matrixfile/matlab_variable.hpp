@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A variable of a MATLAB file of version 4 or 5.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "problem/matrixfile/matrix_market.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "problem/matrixfile/petsc_binary.hpp"
 
 #include <petscmat.h>

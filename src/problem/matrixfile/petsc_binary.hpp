@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Checks of a file in PETSc's binary format before MatLoad() reads it.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "problem/terms/friction_work.hpp"
 
 #include "base/petsc/arrays.hpp"

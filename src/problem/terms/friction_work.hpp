@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The work of friction on the motion of a mode, by contact node. It shows where friction
 /// destabilises the mode.

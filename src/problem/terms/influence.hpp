@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Derivatives of the eigenvalues with respect to the parameters of the point, and to the moduli
 /// and the density of each body, from the matrices of the pencil.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "problem/terms/settings.hpp"
 
 #include "base/options/option_types.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "problem/terms/terms.hpp"
 
 #include "problem/terms/friction_work.hpp"

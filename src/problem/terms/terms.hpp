@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The terms of the friction-perturbed problem [4.15, 4.16], from the coupled matrices and the
 /// steady state.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Continuation of a branch of periodic motions over the friction, through folds, at which the
 /// branch turns back and its motions lose or regain stability [M.78].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A passage is a march over a single period, from the initial state of its first step to that of
 /// the step after its last one [M.77].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Starting points for shooting. If a march swings about an unstable periodic motion, two states
 /// are near that motion: the mean of the states at which the march passes a section, and the pass

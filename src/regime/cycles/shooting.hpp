@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Periodic motions of the reduced model by shooting, and their Floquet multipliers [M.77]. A brake
 /// can perform only the stable ones.

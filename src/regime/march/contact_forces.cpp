@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "regime/march/contact_forces.hpp"
 
 #include <petscblaslapack.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The contact forces of a time step: unilateral contact and Coulomb's cone at every node, for a
 /// jump that is affine in the forces [M.72].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Bounds on friction laws for a massless boundary, on which friction that depends on the sliding
 /// speed acts at once.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The scheme of the massless boundary [M.72]: the leapfrog rule for q, the backward Euler rule for
 /// z. A step maps an initial state to the next one. The derivative of this map is known, and gives

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The reduced model of the motion about steady sliding keeps the exact conditions of contact and
 /// friction at every contact node [M.70, M.71]:

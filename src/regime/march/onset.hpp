@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The onset of nonlinearity: a growing mode is linear until the first contact node separates or
 /// comes to rest, or a sticking one begins to slide [M.75].

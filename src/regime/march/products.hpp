@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Products of small dense matrices with vectors, by BLAS. None of these functions is collective.
 #include <petscblaslapack.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Time integration of the reduced model, with the conditions of contact at the end of each step.
 #include <memory>

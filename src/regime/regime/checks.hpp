@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Checks of the settings and of the marches of a regime.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Blocks of columns of nodal displacements.
 #include <mpi.h>

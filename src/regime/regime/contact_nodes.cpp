@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "regime/regime/contact_nodes.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The contact nodes of the mesh as nodes of the reduced model.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The periodic motions after flutter, stable or not: by shooting from a march, and by continuation
 /// over the friction [M.77, M.78].

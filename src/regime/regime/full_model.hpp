@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The finite element model at a steady state.
 #include "model/contact/coupled.hpp"

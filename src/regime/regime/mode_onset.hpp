@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The onset of nonlinearity of the unstable modes of a mesh [M.75].
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The record of a march: averages over windows of cycles, the spectrum, and the kind of regime
 /// that follows from them [M.74].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Reduction of the finite elements to the model of the regime [M.70]. V contains free modes and
 /// the unstable modes. Ψ contains the static responses to gaps and to tangential forces at the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The motion after flutter [§ 17]: time integration from a growing unstable mode, on a reduced
 /// model with stick, slip and separation at every contact node, and the kind of the motion.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Samples of the modal velocities of a march, and their spectrum.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The static responses of the bodies to gaps and to tangential forces at the contact nodes.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Statistics of the cycles of a march.
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The marches of one point of the sweep: their starts, steps and times, and the bounds on these
 /// [§ 17].

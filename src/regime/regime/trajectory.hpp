@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Marches of a reduced model, each by one rank, and their records [M.72–M.74].
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Averages of a march over windows of cycles [M.74].
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The boundary faces of all bodies: the faces of cells that no other cell has.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The recent history of a march, from which displacements are computed at its end.
 #include <mpi.h>

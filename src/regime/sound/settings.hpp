@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The settings of the results outside the contact: the latest periods and the sound.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The visible surface, which radiates sound: the boundary faces of all bodies except those in
 /// contact, tied, on the cut of a periodic model, or with a normal velocity that supports hold at

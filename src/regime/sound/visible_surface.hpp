@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The visible surface of the bodies in a regime [M.76]: the sound that it radiates, velocity
 /// spectra at its points, and displacements of the latest cycles.

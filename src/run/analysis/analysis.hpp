@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The stages of the method are called here in their order, from the input to flutter. Reporting
 /// takes the results from here.

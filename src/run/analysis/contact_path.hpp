@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The contact nodes of all ranks that open and close between the points of a sweep.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "run/analysis/dry_run.hpp"
 
 #include <sys/resource.h>

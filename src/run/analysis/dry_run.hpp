@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The option `-dry_run` says what a run would do and take, without a solution and without results.
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// This route leads from matrices of files to eigenvalues; there is neither contact nor steady
 /// state [4.15].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "run/analysis/mesh_route.hpp"
 
 #include <algorithm>

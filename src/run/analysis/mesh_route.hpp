@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// This route leads from a mesh to eigenvalues: mesh, elasticity, contact, steady sliding, and for
 /// each active set its modes and flutter.

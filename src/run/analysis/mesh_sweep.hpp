@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Steady points of a mesh whose active sets differ little share the factorisation and the basis of
 /// the contact that is closed wherever it is closed at any of them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "run/analysis/model_settings.hpp"
 
 namespace squeal::analysis {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Settings of all rooms of the floor `model`, and what they ask of the mesh. Not collective.
 #include "model/contact/settings.hpp"

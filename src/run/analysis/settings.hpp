@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// All settings of a run, read once before anything else.
 #include <optional>

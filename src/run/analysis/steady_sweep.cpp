@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "run/analysis/steady_sweep.hpp"
 
 #include <algorithm>
@@ -134,8 +135,8 @@ std::string betweenText(const Analysis& analysis, const Way& way) {
          sweep::parameterText(analysis.steady[way.to].at) + ": ";
 }
 
-/// Collective. Returns the ways to the points from `begin` on, from their neighbours, that are to
-/// be followed, and tells those that are too long.
+/// Collective. Returns the ways to be followed: those to the points from `begin` on, from their
+/// neighbours. Reports the ways that are too long.
 std::vector<Way> waysToFollow(const Analysis& analysis, std::size_t begin) {
   const MPI_Comm comm = analysis.mesh->comm;
   const int limit = analysis.settings.mesh->steady.path;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Steady sliding is found at all steady points of a sweep, and what the contact does between them.
 #include <memory>
@@ -10,7 +11,7 @@
 
 namespace squeal::analysis {
 
-/// The associated system of the active set in force, which is made anew when the set changes.
+/// The associated system of the active set in force, which is rebuilt when the set changes.
 class CurrentSystem {
  public:
   /// Borrows the analysis during the life of the object.

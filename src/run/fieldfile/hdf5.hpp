@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The results file holds mesh, fields and tables in one HDF5 file.
 #include <hdf5.h>

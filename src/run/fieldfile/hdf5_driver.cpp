@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "run/fieldfile/hdf5_driver.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// HDF5 writes to the disc with this driver.
 #include <hdf5.h>
@@ -10,8 +11,8 @@ namespace squeal::fieldfile {
 /// H5Pclose; negative if it cannot be chosen.
 ///
 /// After a write that fails HDF5 1.10 cannot close its file, and crashes when the program ends.
-/// This driver (one rank, one file at a time) therefore tells the library that all goes well, drops
-/// what comes after the failure, and keeps the reason for keptError().
+/// This driver (one rank, one file at a time) therefore reports success to the library, drops all
+/// writes after the failure, and stores the reason for keptError().
 hid_t keepingErrorsProperties();
 /// Not collective. Returns errno of the first call on the file that failed since it was made, be it
 /// to write, truncate or close it; 0 if none has.

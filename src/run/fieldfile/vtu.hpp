@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Fields on the mesh are written as VTK files, which ParaView opens with all nodes of quadratic
 /// cells.

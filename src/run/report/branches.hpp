@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions return the tables of the followed eigenvalues and of the critical frictions.
 #include <string>

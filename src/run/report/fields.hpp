@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions write fields for ParaView and for other programs: steady displacement and
 /// pressure, free modes, complex modes and the squeal in motion.

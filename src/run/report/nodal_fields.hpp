@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Nodal vectors become fields for VTK files.
 #include <filesystem>
@@ -20,7 +21,7 @@ class Ghosts {
  public:
   explicit Ghosts(const mesh::Mesh& mesh);
   fieldfile::Field vector(const std::string& name, Vec u) const;
-  /// Returns the field of one component alone.
+  /// Returns the field of only one component.
   fieldfile::Field scalar(const std::string& name, Vec u, std::size_t component = 0) const;
 
  private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The options of a run as an options file that repeats it.
 #include <mpi.h>

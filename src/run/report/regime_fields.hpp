@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions write the fields of the motion after flutter: means at the contact nodes, and
 /// the latest cycles in motion.

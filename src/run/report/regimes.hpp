@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Tables of what becomes of unstable modes after flutter.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions write the output of a run: tables, fields, the summary and the stability table
 /// on the terminal.

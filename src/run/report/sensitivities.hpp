@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// These functions return tables of what the complex modes kept depend on, and of what feeds them.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "run/report/stability_table.hpp"
 
 #include <algorithm>
@@ -99,7 +100,7 @@ std::string strongDampingText(const analysis::Analysis& analysis) {
       "\n%s: %d of the %d free modes in the band have no eigenvalue there: their damping ratio "
       "exceeds -flutter_band_damping, or "
       "damping has moved them. Modes that such damping changes much may take a larger "
-      "-modes_count; -flutter_method direct tells.",
+      "-modes_count; check with -flutter_method direct.",
       sweep::parameterText(most->at).c_str(), most->modesWithoutEigenvalue(),
       most->freeModesInBand);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The shape of each table is kept in the summary, so that a table of which a part is lost is
 /// known.

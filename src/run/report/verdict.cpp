@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "run/report/verdict.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The verdict of a whole run: one sentence, and the counts that it rests on.
 #include <optional>

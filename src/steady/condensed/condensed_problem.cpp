@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "steady/condensed/condensed_problem.hpp"
 
 #include <algorithm>

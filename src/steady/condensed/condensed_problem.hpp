@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Steady sliding is solved in the unknowns of the contact, since everything else is linear or
 /// nearly so [3.10–3.13, M.59].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "steady/condensed/contact_path.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The path of the contact: the points between those of a sweep at which nodes open and close.
 #include <string>

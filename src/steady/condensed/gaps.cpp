@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "steady/condensed/gaps.hpp"
 
 #include <petscsnes.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The condensed complementarity problem of steady sliding, solved by PETSc's SNES VI.
 #include <vector>

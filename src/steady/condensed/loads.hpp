@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The closed contact without friction under the loads of a point.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Complementary pivots lead to a solution of the condensed problem where Newton's method does not.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "steady/impedance/contact_solver.hpp"
 
 #include <slepcblaslapack.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The condensed contact problem is solved for a given choice of open and held nodes.
 #include <memory>

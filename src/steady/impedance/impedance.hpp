@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The contact is condensed to its own unknowns with the factorised stiffness K0 of the closed,
 /// frictionless contact [M.58].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The equations of steady.hpp differentiated on one active set: the first-order change
 /// of the steady state with its data [M.48, M.49].

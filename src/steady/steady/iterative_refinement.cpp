@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "steady/steady/iterative_refinement.hpp"
 
 #include <algorithm>

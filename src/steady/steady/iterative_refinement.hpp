@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Iterative refinement solves nearly linear equations to rounding with an inexact solver.
 #include <functional>

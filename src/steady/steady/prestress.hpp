@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The geometric stiffness of a steady state.
 #include "base/petsc/owned.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The forces at the interfaces of a steady state, and their sums.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Steady states on their way to and from a checkpoint.
 #include "base/checkpoint/archive.hpp"

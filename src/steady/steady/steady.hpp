@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Steady sliding (paper, section 3) is equilibrium with
 ///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Nodes of sticking interfaces are held along their master. The steady state frees them where they
 /// open, and where the force that holds them exceeds their limit of friction and they may slide.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The steady problem is condensed to the contact [3.10–3.18]: it says which gaps nodal normal
 /// forces open.

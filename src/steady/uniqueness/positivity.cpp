@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "steady/uniqueness/positivity.hpp"
 
 #include <petscsys.h>  // first: the next header needs it

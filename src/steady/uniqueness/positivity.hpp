@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small dense tests of the condensed matrix A of the contact decide on the solutions of the linear
 /// complementarity problem

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Settings of the examination of existence and uniqueness. Not collective.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Existence and uniqueness of the steady sliding state for all loads (paper, section 3) follow
 /// from the condensed matrix A(f) of g = A(f) R + F. There is one solution if sym(A) is positive

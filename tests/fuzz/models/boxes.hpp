@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Meshes of a few boxes, or of sectors of a ring, written in gmsh's format 2.2.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The element types of the generated meshes, as patterns within a cell of a lattice.
 #include <array>
@@ -40,7 +41,8 @@ struct Element {
 
 /// Returns the elements that fill the cell whose lowest corner is `low`.
 std::vector<Element> elementsOf(Shape shape, const Place& low);
-/// Returns the faces of an element, in the plane its edges; the normal by node order is not told.
+/// Returns the faces of an element (in the plane, its edges). The order of their nodes does not
+/// define the direction of the normal.
 std::vector<Element> facesOf(Shape shape, const Element& element);
 
 }  // namespace squeal::fuzz

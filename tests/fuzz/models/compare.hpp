@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Two ways to the same result, compared within what their error estimates allow.
 #include <string>

@@ -1,6 +1,6 @@
-/// main() of the program that solves random models. A process of its own, which is started anew
-/// where it crashes or hangs, solves a batch of them; every fourth model is solved on two ranks
-/// too.
+// SPDX-License-Identifier: BSD-2-Clause
+/// main() of the program that solves random models. A separate process, which is restarted if it
+/// crashes or hangs, solves a batch of them; every fourth model is also solved on two ranks.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -152,12 +152,12 @@ class Driver {
 
  private:
   void runBatch(std::uint64_t begin, std::uint64_t count) {
-    const auto alone = solved(begin, count, 1);
-    for (const auto& [seed, line] : alone) take(seed, line);
+    const auto onOne = solved(begin, count, 1);
+    for (const auto& [seed, line] : onOne) take(seed, line);
     for (const auto& [seed, line] : solved(begin, count, 2)) {
-      const auto other = alone.find(seed);
+      const auto other = onOne.find(seed);
       if (line.contains("failure")) fail(seed, "2 ranks: " + line["failure"].get<std::string>());
-      if (!line.contains("base") || other == alone.end() || !other->second.contains("base"))
+      if (!line.contains("base") || other == onOne.end() || !other->second.contains("base"))
         continue;
       const Outcome onTwo = fromJson(line["base"]);
       if (onTwo.refusal.starts_with("the mesh has ")) continue;  // fewer cells than ranks

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 /// What a model is made of: a pad on something that moves, and beside or above it, at random, a
 /// back plate, a holder and a second pad.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small brakes of random features: the n-th is the same on every machine.
 #include <cstdint>

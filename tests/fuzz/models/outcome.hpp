@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// What a run finds, as far as two ways to the same result are compared by it.
 #include <nlohmann/json_fwd.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "fuzz/models/paths.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ class Paths {
     }
     add("own_basis", [this] { return compared({}, {{"reduction_released", "0"}}, {}); });
     add("steady_full", [this] { return steadyFull(); });
-    add("alone", [this] { return alone(); });
+    add("single", [this] { return single(); });
     add("shuffled", [this] { return compared({true, 0, {}}, {}, {}); });
     if (model_.mesh.dimension == 3)
       add("turned", [this] { return compared({false, random_.between(1, 2), {}}, {}, {}); });
@@ -94,7 +95,7 @@ class Paths {
   }
 
   /// Each friction by itself; two of them, since each is a run.
-  std::string alone() {
+  std::string single() {
     for (const double friction :
          {model_.frictions.back(), model_.frictions[random_.below(model_.frictions.size())]}) {
       const Outcome found =
@@ -154,7 +155,7 @@ class Paths {
   }
 
   /// The number of unstable eigenvalues of a frequency within a hundredth of the critical one; −1
-  /// if it cannot be told.
+  /// if it cannot be determined.
   int unstableAt(const FoundCritical& c, double friction) {
     Changes changes = direct;
     changes.emplace_back("flutter_friction", formatted("%.17g", friction));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The options of a generated model, which turn with its axes.
 #include <optional>

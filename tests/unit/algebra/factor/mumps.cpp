@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The factorisation of a chain of springs, whose eigenvalues are known:
 //   A = tridiag(−1, 2, −1) of order n,   λ_k = 2 − 2 cos(kπ/(n + 1)).
 #include "algebra/factor/mumps.hpp"

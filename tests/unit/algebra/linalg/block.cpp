@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Tall matrices distributed by rows, with all rows on the last rank and with rows on every rank.
 #include "algebra/linalg/block.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The dense matrix, its parts and its products, against numbers known by hand.
 #include "algebra/linalg/dense.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Small dense linear systems, real and complex, with their adjoints, and singular ones.
 #include "algebra/linalg/lu.hpp"
 

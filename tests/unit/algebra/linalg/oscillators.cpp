@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Small quadratic problems with answers in closed form: two coupled oscillators, damping, rotation,
 // divergence, a motion without mass.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The QR factorisation of a Vandermonde matrix.
 #include "algebra/linalg/qr.hpp"
 

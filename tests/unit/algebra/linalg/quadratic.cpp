@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Dense quadratic problems whose spectrum is known: proportional damping with multiple eigenvalues,
 // overdamped modes, gyroscopic forces.
 #include "algebra/linalg/quadratic.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Dense quadratic problems of random matrices: sums of powers of all eigenvalues, left vectors, and
 // the time that a large problem takes.
 #include <gtest/gtest.h>

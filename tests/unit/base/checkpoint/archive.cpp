@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A checkpoint is read back as it was written, on any number of ranks; a damaged one is rejected.
 #include "base/checkpoint/archive.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The options database as the user interface: parsing, checks, names with a placeholder, and the
 // messages for mistakes.
 #include "base/options/options.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Options as they are given: words of the command line, options files in YAML and in lines, and
 // the messages on mistakes in them.
 #include "base/options/settings.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Folders that a run may write to, and its reaction if anything except a regular file has the name
 // of one of its own files.
 #include "base/output/folder.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // A run replaces a folder of results as a whole: its content before and after, and after
 // termination at each step between.
 #include "base/output/folder.hpp"

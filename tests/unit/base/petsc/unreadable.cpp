@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Files that exist and cannot be read: the error gives the reason, and does not report an error of
 // the file system as a mistake in the file.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Values are read back as they were written, and broadcast from any rank; bytes that end too early
 // are rejected.
 #include "base/system/stream.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The direct solve on all unknowns, with and without damping, of chains whose eigenvalues are known
 // in closed form.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Where LAPACK cannot sort a Schur form, the direct method begins again from another vector. The
 // failure is a matter of rounding, so this program puts its own dtrexc before that of LAPACK, which
 // refuses to swap as often as a test asks it to.

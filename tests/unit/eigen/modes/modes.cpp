@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Free modes: block Lanczos against SLEPc's EPS, its restarts, and what both promise of their
 // vectors.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Norms of the terms of a pencil, and backward errors of eigenpairs.
 #include "eigen/pencil/pencil.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The verdicts follow from growth rates and errors that are known.
 #include <gtest/gtest.h>
 

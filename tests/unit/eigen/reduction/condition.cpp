@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Condition numbers of eigenvalues against the eigenvalues of perturbed matrices, and of multiple
 // ones by hand.
 #include "eigen/reduction/condition.hpp"

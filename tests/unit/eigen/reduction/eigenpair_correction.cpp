@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Eigenpairs of a problem of a smaller basis improved in a larger one, and eigenvalues that are
 // missing in a list. The answers are those of LAPACK for the whole problem.
 #include "eigen/reduction/eigenpair_correction.hpp"

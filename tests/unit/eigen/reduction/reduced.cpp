@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What the reduced problem is made of: where its band ends, the responses it begins with, the
 // projections of its terms.
 #include "eigen/reduction/reduced.hpp"

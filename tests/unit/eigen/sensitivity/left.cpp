@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Left eigenvectors of full problems against LAPACK, and derivatives of two coupled oscillators in
 // closed form.
 #include "eigen/sensitivity/left.hpp"

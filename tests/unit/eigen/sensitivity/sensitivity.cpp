@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Derivatives of eigenvalues against finite differences of whole runs, and the balance of friction
 // work.
 #include "eigen/sensitivity/sensitivity.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Derivatives of eigenvalues against closed forms and by their sums, of matrices from files, and in
 // tables.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Critical frictions of small dense families against closed forms and brute force.
 #include "eigen/stability/critical.hpp"
 

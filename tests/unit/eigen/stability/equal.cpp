@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Equal eigenvalues, at an end of a step or within it, against closed forms: they hide no change of
 // stability, and what cannot be decided is reported.
 #include <gtest/gtest.h>

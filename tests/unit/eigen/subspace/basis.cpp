@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The growing basis of the reduced problem: orthonormal in the energy of K0, whatever is added.
 #include "eigen/subspace/basis.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Norms of vectors by their sketches.
 #include "eigen/subspace/sketch.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // One basis for several active sets: each has constraint modes of its own gaps, and its eigenvalues
 // and the number of its free modes are those of a system in which just these gaps are open.
 #include "eigen/subspace/substructure.hpp"

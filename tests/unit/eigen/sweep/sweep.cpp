@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The grid of a sweep, its order and what each parameter scales.
 #include <gtest/gtest.h>
 

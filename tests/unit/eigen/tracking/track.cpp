@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Eigenvalues of small dense families followed over the friction: their number and their order.
 #include "eigen/tracking/track.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The change of variables that carries contact: kinematics T and friction E.
 #include <gtest/gtest.h>
 

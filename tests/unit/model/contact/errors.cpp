@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Cases that contact must refuse: bodies that nothing holds, constraints and interfaces that
 // contradict each other.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Frames of the contact nodes, their areas and the directions of slip.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The basis of the gaps on faces where nodal forces of a pressure are not positive.
 #include "model/interfaces/gap_basis.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Contact between surfaces that are meshed apart: the constant-pressure patch test through all
 // stages up to steady sliding, and what is reported of the interface.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What a coupling costs on 2 ranks: time and memory are proportional to the number of faces.
 #include <gtest/gtest.h>
 #include <malloc.h>

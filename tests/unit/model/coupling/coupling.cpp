@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The coupling of two surfaces that are meshed apart: what it reproduces exactly, with faces of all
 // types, with partial cover, with periodic images, on any number of ranks.
 #include <gtest/gtest.h>

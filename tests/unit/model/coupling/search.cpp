@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The search for nearby faces: against comparison of all pairs, whatever the number of ranks; who
 // receives what; how long it takes.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // G and K^R of moving bodies: D u = (V·∇)u of linear fields is exact, and so are its integrals on
 // regular polygons and rectangles.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // C of the materials, springs and dashpots to the ground.
 #include <gtest/gtest.h>
 #include <petscsys.h>  // before the next header, which needs it

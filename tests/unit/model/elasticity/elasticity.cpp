@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // K, M and loads of every element on distorted cells: what holds exactly whatever the shape.
 #include <gtest/gtest.h>
 

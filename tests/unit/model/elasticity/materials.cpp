@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Orthotropic bodies: energies of affine displacements, and the same law said in two ways.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // K_σ: ∫ ∇v·σ∇v for stresses known exactly, and what a spinning body owes to its centrifugal
 // stress.
 #include <gtest/gtest.h>

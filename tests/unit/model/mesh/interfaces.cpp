@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The two sides of contact interfaces: their faces, and how meshes that do not match are marked.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The distributed mesh: numbering, groups, pairs, images and partition, whatever the number of
 // ranks.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // -mesh_straighten: where nodes go, who follows, and what is reported.
 #include <gmsh.h>
 #include <gtest/gtest.h>

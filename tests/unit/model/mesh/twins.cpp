@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Elements that a mesh holds twice: what they contribute would be doubled, so they are errors.
 #include <gtest/gtest.h>
 

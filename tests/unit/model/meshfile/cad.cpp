@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Shapes of CAD programs: their labels are groups, they are meshed as asked, and solids that touch
 // share nodes.
 #include <gmsh.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Files that are handed to gmsh: none is taken for a script that is none by its name, none brings
 // the program down, and the contents of a damaged or doubtful one are reported.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Shape functions of faces against gmsh's, and the basis of the slave side with its weights.
 #include "model/mortar/basis.hpp"
 

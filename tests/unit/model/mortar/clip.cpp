@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Cutting of convex polygons and segments against exact areas, and the rules of integration.
 #include "model/mortar/clip.hpp"
 

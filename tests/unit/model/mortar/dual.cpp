@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Dual functions of slave faces: biorthogonality, the patch test of constant pressure, fields that
 // are transferred exactly, matching faces, pivots, and small covered parts.
 #include "model/mortar/dual.hpp"

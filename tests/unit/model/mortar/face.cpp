@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Faces of a mesh with their bodies, and the boxes around curved faces.
 #include <gmsh.h>
 #include <gtest/gtest.h>

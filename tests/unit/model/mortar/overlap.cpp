@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Integration points over the part of slave faces that master faces cover: areas, polynomials,
 // gaps, and what counts as covered.
 #include "model/mortar/overlap.hpp"

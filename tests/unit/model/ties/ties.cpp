@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Nodes of ties that are moved onto their masters.
 #include "model/ties/ties.hpp"
 

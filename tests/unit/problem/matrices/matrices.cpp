@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Problems of matrices from files: what they mean, and what cannot be a problem of vibration is
 // said. The formats: matrices_*.cpp.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // PETSc's binary format and HDF5: whole files, and those whose parts do not fit together.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Matrix Market files: read as the format says, or refused by line; and which file is of which
 // format.
 #include <gtest/gtest.h>

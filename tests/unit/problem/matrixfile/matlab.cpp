@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // MATLAB files of all versions, those of matio and those as MATLAB itself writes them, whole and
 // cut short.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Flutter of problems whose eigenvalues are known: pairs of oscillators in closed form, layers by
 // LAPACK on all their unknowns.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Passages of one model at several frictions.
 #include "regime/cycles/passage.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Contact forces of time steps, against Siconos, a library for non-smooth dynamics, and what a
 // march conserves.
 #include "regime/march/contact_forces.hpp"

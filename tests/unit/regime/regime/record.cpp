@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // What a recorder says of motions that are made by hand, and first events in closed form.
 #include "regime/regime/record.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The visible surface: areas and mean squares of normal velocities of bodies whose faces are known.
 #include "regime/sound/surface.hpp"
 

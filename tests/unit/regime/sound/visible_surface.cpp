@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // The visible surface in prescribed motions.
 #include "regime/sound/visible_surface.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // results.h5: what PETSc's own reader finds in it is what was given.
 #include <gtest/gtest.h>
 
@@ -122,7 +123,7 @@ TEST(Hdf5, HoldsTablesAndAttributes) {
 
 TEST(Hdf5, NamesTheOptionWhereTheFileCannotBeMade) {
   const Folder folder;
-  const fs::path file = folder.path / "file";  // a file is no folder, for root as well
+  const fs::path file = folder.path / "file";  // a file is not a folder, even for root
   if (rankOf(PETSC_COMM_WORLD) == 0) std::ofstream(file) << "x";
   MPI_Barrier(PETSC_COMM_WORLD);
   EXPECT_NE(errorOf([&] { Hdf5File(PETSC_COMM_WORLD, file / "inside", option); }).find("-folder"),

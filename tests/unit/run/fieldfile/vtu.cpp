@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // VTU and PVD files: what VTK's own reader finds in them is what was given.
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -248,7 +249,7 @@ TEST(Vtu, RejectsCellTypeWithoutVtkCellOnAnyRank) {
 TEST(Vtu, NamesTheOptionWhereAFileCannotBeMade) {
   const Folder folder;
   const fs::path file = folder.path / "file",
-                 inside = file / "inside";  // a file is no folder, for root as well
+                 inside = file / "inside";  // a file is not a folder, even for root
   if (rankOf(PETSC_COMM_WORLD) == 0) std::ofstream(file) << "x";
   MPI_Barrier(PETSC_COMM_WORLD);
   EXPECT_NE(errorOf([&] { writeVtu(bar(), inside, {}, option); }).find("-folder"),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Eigenvalue tables and friction work in results.h5 and in the files for ParaView, read back as
 // numbers.
 #include <gtest/gtest.h>

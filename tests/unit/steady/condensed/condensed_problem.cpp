@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Steady sliding in the unknowns of the contact against the same in all unknowns, and what a sweep
 // of it costs.
 #include "steady/condensed/condensed_problem.hpp"

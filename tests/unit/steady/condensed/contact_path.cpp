@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Where along a sweep nodes open and close, against dense algebra on the condensed problem.
 #include "steady/condensed/contact_path.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Lemke's method against the solutions of steady sliding in all unknowns.
 #include "steady/condensed/pivots.hpp"
 

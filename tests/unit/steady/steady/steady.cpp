@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Steady sliding with convective terms: w = −V − D u_D turns and changes its length with the
 // unknown displacement.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Existence and uniqueness of the steady sliding state: the condensed matrix A(f) of the contact,
 // and what is concluded from it.
 #include <petscsys.h>  // first: the next header needs it
