@@ -66,7 +66,7 @@ _squeal() {
       ;;
   esac
   _squeal_words "-options_file -dry_run -help -help_json -version -checkpoint
-    -checkpoint_interval -resume -log_json -progress -quiet -mesh_straighten
+    -checkpoint_interval -resume -quiet -log_json -progress -mesh_straighten
     -mesh_file -mesh_scale -mesh_set -mesh_size -mesh_order -elasticity_mass
     -elasticity_incompatible_modes -elasticity_prestress -elasticity_plane
     -load_centrifugal -motion_convective -friction_law -friction_static_ratio
@@ -86,7 +86,7 @@ _squeal() {
     -regime_cycle_steps -regime_cycle_tolerance -regime_cycle_range
     -regime_cycle_motions -regime_cycles_kept -regime_frames
     -regime_air_impedance -regime_spectrum_points -report_matrices
-    -report_matrices_format -report_animated -report_pieces -report_frames
-    -report_dir -report_fields -report_modes"
+    -report_matrices_format -report_dir -report_fields -report_modes
+    -report_animated -report_pieces -report_frames"
 }
 complete -o default -F _squeal squeal

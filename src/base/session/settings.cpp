@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #include "base/session/settings.hpp"
 
 #include "base/options/options.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The settings of the output on the terminal and of the event log.
 #include <string>

@@ -471,8 +471,8 @@ TEST(Child, ItsEndIsAnErrorHere) {
     });
   };
   EXPECT_EQ(end([] {}), "");
-  expectMessage(end([] { std::abort(); }), {"the work: ", "crashes", "Aborted"});
-  expectMessage(end([] { raise(SIGSEGV); }), {"crashes", "Segmentation fault"});
+  expectMessage(end([] { std::abort(); }), {"the work: ", "crashed", "Aborted"});
+  expectMessage(end([] { raise(SIGSEGV); }), {"crashed", "Segmentation fault"});
   expectMessage(end([] { _exit(3); }), {"exit code 3"});
   expectMessage(end([] { raise(SIGKILL); }), {"was killed"});
   expectMessage(end([] { throw Error("so it is"); }), {"so it is"});
