@@ -96,19 +96,19 @@ void expectAsWritten(Checkpoint& checkpoint, double first) {
 TEST(Checkpoint, IsReadAsItWasWritten) {
   const fs::path place = folder("read");
   const Identity identity{{"a", "1"}};
-  Checkpoint first(PETSC_COMM_WORLD, place, identity, false);
+  Checkpoint first(PETSC_COMM_WORLD, place, identity, everyEntry(false));
   EXPECT_TRUE(first.due());
   EXPECT_FALSE(first.next("log"));
   write(first, 1);
   write(first, 2);
-  Checkpoint second(PETSC_COMM_WORLD, place, identity, true);
+  Checkpoint second(PETSC_COMM_WORLD, place, identity, everyEntry(true));
   EXPECT_TRUE(second.resumed());
   expectAsWritten(second, 1);
   expectAsWritten(second, 2);
   EXPECT_FALSE(second.next("log"));
   EXPECT_FALSE(second.next("other"));
   write(second, 3);  // after those that it has read
-  Checkpoint third(PETSC_COMM_WORLD, place, identity, true);
+  Checkpoint third(PETSC_COMM_WORLD, place, identity, everyEntry(true));
   for (const double value : {1., 2., 3.}) expectAsWritten(third, value);
   third.remove();
   MPI_Barrier(PETSC_COMM_WORLD);  // rank 0 removes it
@@ -117,7 +117,7 @@ TEST(Checkpoint, IsReadAsItWasWritten) {
 
 TEST(Checkpoint, OfAnotherRunIsRefused) {
   const fs::path place = folder("other");
-  Checkpoint first(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "2"}}, false);
+  Checkpoint first(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "2"}}, everyEntry(false));
   write(first, 1);
   try {
     Checkpoint(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, everyEntry(true));
@@ -128,9 +128,9 @@ TEST(Checkpoint, OfAnotherRunIsRefused) {
         << error.what();
   }
   // A run that does not resume it leaves it there until its own first entry.
-  Checkpoint fresh(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, false);
+  Checkpoint fresh(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, everyEntry(false));
   EXPECT_FALSE(fresh.next("log"));
-  Checkpoint old(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "2"}}, true);
+  Checkpoint old(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "2"}}, everyEntry(true));
   expectAsWritten(old, 1);
   write(fresh, 5);
   Checkpoint again(PETSC_COMM_WORLD, place, {{"a", "1"}, {"b", "3"}}, everyEntry(true));
@@ -143,7 +143,7 @@ TEST(Checkpoint, OfAnotherRunIsRefused) {
 TEST(Checkpoint, DamageIsFound) {
   const fs::path place = folder("damaged"), file = place / "log_0000.entry";
   const Identity identity{{"a", "1"}};
-  Checkpoint first(PETSC_COMM_WORLD, place, identity, false);
+  Checkpoint first(PETSC_COMM_WORLD, place, identity, everyEntry(false));
   write(first, 1);
   const auto size = fs::file_size(file);
   MPI_Barrier(PETSC_COMM_WORLD);
@@ -162,14 +162,14 @@ TEST(Checkpoint, DamageIsFound) {
       MPI_Barrier(PETSC_COMM_WORLD);
     };
     change();
-    Checkpoint second(PETSC_COMM_WORLD, place, identity, true);
+    Checkpoint second(PETSC_COMM_WORLD, place, identity, everyEntry(true));
     EXPECT_THROW(second.next("log"), Error) << part;
     MPI_Barrier(PETSC_COMM_WORLD);
     change();
   }
   if (rankHere() == 0) fs::resize_file(file, size - 1);
   MPI_Barrier(PETSC_COMM_WORLD);
-  Checkpoint cut(PETSC_COMM_WORLD, place, identity, true);
+  Checkpoint cut(PETSC_COMM_WORLD, place, identity, everyEntry(true));
   EXPECT_THROW(cut.next("log"), Error);
   cut.remove();
   MPI_Barrier(PETSC_COMM_WORLD);

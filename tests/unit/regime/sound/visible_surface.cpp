@@ -140,7 +140,10 @@ TEST(Spectrum, AtPointsAskedFor) {
 
 std::string refusal(const std::string& options) {
   test::setOptions(options);
-  return test::errorOf([] { regime::checkOptions(regime::Settings::given(), true); });
+  return test::errorOf([] {
+    const auto terms = terms::Settings::given();
+    regime::checkOptions(regime::Settings::given(), pencil::Settings::given(), &terms);
+  });
 }
 
 TEST(Options, PointsThatAreNone) {

@@ -145,7 +145,7 @@ TEST(Fields, FrictionWorkIsThatOfTheTable) {
   const auto table = tabled(analysis);
   const Folder folder;
   writeHdf5(analysis, folder.path);
-  writeFields(analysis, folder.path);
+  writeFields(analysis, {}, folder.path);
   Reader reader(folder.path / "results.h5");
   const auto tags = reader.integers("/mesh", "node_tag").first;
   EXPECT_EQ(tags.size(), nodes.interface.size());
