@@ -473,7 +473,7 @@ TEST(Child, ItsEndIsAnErrorHere) {
   EXPECT_EQ(end([] {}), "");
   expectMessage(end([] { std::abort(); }), {"the work: ", "crashed", "Aborted"});
   expectMessage(end([] { raise(SIGSEGV); }), {"crashed", "Segmentation fault"});
-  expectMessage(end([] { _exit(3); }), {"exit code 3"});
+  expectMessage(end([] { _exit(3); }), {"exited with code 3"});
   expectMessage(end([] { raise(SIGKILL); }), {"was killed"});
   expectMessage(end([] { throw Error("so it is"); }), {"so it is"});
   expectMessage(end([] { throw std::bad_alloc(); }), {"the work: it is too large"});
