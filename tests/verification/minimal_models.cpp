@@ -45,7 +45,8 @@ struct Model : exact::minimal_models::Matrices {
     terms.push_back({matrix(mass), 2, 0, 1});
     if (damping != Matrix2{}) terms.push_back({matrix(damping), 1, 0, 1});
     const pencil::Pencil pencil(std::move(terms));
-    return direct::solveDirect(pencil, {mu, 1.0}, matrix({1, 0, 0, 1}), direct::Settings::given());
+    return direct::solveDirect(pencil, {mu, 1.0}, matrix({1, 0, 0, 1}),
+                               direct::Settings::given(pencil::Settings::given()));
   }
   std::vector<Complex> eigenvalues(double mu) const { return test::eigenvaluesOf(at(mu)); }
   double growth(double mu) const {

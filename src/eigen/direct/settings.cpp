@@ -27,7 +27,7 @@ const FlagOption confirmOption(
 
 }  // namespace
 
-Settings Settings::given() {
+Settings Settings::given(const pencil::Settings& problem) {
   const auto band = bandOption.get();
   const bool off = band == std::vector<double>{0, 0};
   if (band.size() != 2 || (!off && band[0] >= band[1]))
@@ -37,7 +37,7 @@ Settings Settings::given() {
           .low = 2 * M_PI * band[0],
           .high = 2 * M_PI * band[1],
           .confirmed = confirmOption.get(),
-          .criteria = pencil::Settings::given().criteria};
+          .criteria = problem.criteria};
 }
 
 }  // namespace squeal::direct

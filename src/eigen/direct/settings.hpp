@@ -14,7 +14,7 @@ struct Settings {
   bool confirmed = true;  ///< `-flutter_direct_confirm`: repeat until no new eigenvalue is found
   pencil::Criteria criteria;
   /// Not collective. Reads the options. Throws Error if the band is not two ascending frequencies.
-  static Settings given();
+  static Settings given(const pencil::Settings& problem);
 };
 
 }  // namespace squeal::direct

@@ -21,9 +21,8 @@ const IntegerOption growthOption(
 
 }  // namespace
 
-Settings Settings::given() {
+Settings Settings::given(const pencil::Settings& problem) {
   const std::string basis = basisOption.get();
-  const auto problem = pencil::Settings::given();
   return {.corrected = basis != "modal",
           .compressed = basis == "pod",
           .tolerance = toleranceOption.get(),

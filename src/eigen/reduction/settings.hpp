@@ -15,7 +15,7 @@ struct Settings {
   pencil::Criteria criteria;
   pencil::BandLimits band;
   /// Not collective. Reads the options.
-  static Settings given();
+  static Settings given(const pencil::Settings& problem);
 };
 
 }  // namespace squeal::reduction

@@ -27,12 +27,12 @@ const IntegerOption halvingsOption(
 
 }  // namespace
 
-Settings Settings::given() {
+Settings Settings::given(const pencil::Settings& problem) {
   Settings settings;
   settings.track = trackOption.get();
   if (!settings.track) return settings;
   settings.requested = trackOption.given() || (criticalOption.given() && criticalOption.get());
-  if (pencil::Settings::given().method == pencil::Method::direct) return settings;
+  if (problem.method == pencil::Method::direct) return settings;
   settings.smallest = std::ldexp(1.0, -halvingsOption.get());
   settings.critical = criticalOption.get();
   if (settings.critical) settings.tolerance = toleranceOption.get();

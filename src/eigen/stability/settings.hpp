@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The choices of tracking and of the search for critical frictions.
+#include "eigen/pencil/settings.hpp"
 
 namespace squeal::stability {
 
@@ -13,7 +14,7 @@ struct Settings {
   double tolerance = 1e-8;      ///< `-flutter_critical_tolerance`: relative change of a friction
   double smallest = 1. / 1024;  ///< 2^-h for h = `-flutter_track_halvings`: smallest part of a step
   /// Not collective. Reads the options, those of the reduced method only with it.
-  static Settings given();
+  static Settings given(const pencil::Settings& problem);
 };
 
 }  // namespace squeal::stability

@@ -3,16 +3,15 @@
 
 namespace squeal::sweep_solver {
 
-Settings Settings::given() {
-  const auto problem = pencil::Settings::given();
+Settings Settings::given(const pencil::Settings& problem) {
   Settings settings;
   settings.modalDamping = problem.modalDamping;
-  settings.stability = stability::Settings::given();
+  settings.stability = stability::Settings::given(problem);
   settings.sensitivity = sensitivity::Settings::given();
   if (problem.method == pencil::Method::direct)
-    settings.direct = direct::Settings::given();
+    settings.direct = direct::Settings::given(problem);
   else
-    settings.reduction = reduction::Settings::given();
+    settings.reduction = reduction::Settings::given(problem);
   // With the direct method, left vectors start from the free modes.
   if (settings.reduction || settings.sensitivity.wanted) settings.modes = modes::Settings::given();
   return settings;

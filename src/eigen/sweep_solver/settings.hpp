@@ -21,7 +21,7 @@ struct Settings {
   stability::Settings stability;
   sensitivity::Settings sensitivity;
   /// Not collective. Reads the options, those of a method only if it is chosen.
-  static Settings given();
+  static Settings given(const pencil::Settings& problem);
 };
 
 }  // namespace squeal::sweep_solver

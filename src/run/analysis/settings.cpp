@@ -71,7 +71,7 @@ Settings Settings::given() {
         "-flutter_method reduced");
   settings.sweep = sweep::Settings::given();
   settings.frictionGiven = givenOptions().contains("flutter_friction");
-  settings.solver = sweep_solver::Settings::given();
+  settings.solver = sweep_solver::Settings::given(settings.pencil);
   settings.matrices = matrices::Settings::given();
   settings.matrixExport = matrices::ExportSettings::given();
   settings.regime = regime::Settings::given();

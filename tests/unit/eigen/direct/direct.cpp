@@ -24,7 +24,7 @@ using test::Complex;
 pencil::ComplexModes solve(const Chains& problem, const std::string& options) {
   test::setOptions(options);
   return direct::solveDirect(problem.pencil(), {0.0, 1.0}, problem.tridiagonal(1, 0),
-                             direct::Settings::given());
+                             direct::Settings::given(pencil::Settings::given()));
 }
 
 /// The found eigenvalues are the wanted ones, as often.

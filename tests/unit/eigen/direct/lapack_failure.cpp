@@ -54,7 +54,7 @@ void expectSpectrumAfter(int failures, double alpha) {
   refusals = failures;
   refused = 0;
   const auto point = direct::solveDirect(problem.pencil(), {0.0, 1.0}, problem.tridiagonal(1, 0),
-                                         direct::Settings::given());
+                                         direct::Settings::given(pencil::Settings::given()));
   EXPECT_EQ(refused, failures);
   auto exact = problem.exact();
   const double last = (1 + 1e-9) * std::abs(exact.at(19));

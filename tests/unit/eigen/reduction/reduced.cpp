@@ -32,7 +32,7 @@ struct Fixture : test::Layers {
       : Layers(options),
         pencil(terms::affineTerms(model.contact, *system)),
         free(modes()),
-        reduced(pencil, *system, free, reduction::Settings::given()) {}
+        reduced(pencil, *system, free, reduction::Settings::given(pencil::Settings::given())) {}
 
   std::vector<pencil::ComplexModes> solve(double friction) {
     std::vector<reduction::PointProblem> batch;

@@ -40,7 +40,7 @@ struct Fixture : test::Layers {
     terms = std::make_unique<pencil::Pencil>(terms::affineTerms(model.contact, *all));
     substructure = analysis::substructureOf(*all, *system);
     reduced = std::make_unique<reduction::ReducedProblem>(
-        *terms, *system, free, reduction::Settings::given(), substructure);
+        *terms, *system, free, reduction::Settings::given(pencil::Settings::given()), substructure);
   }
 
   /// The nodes outside of this range of x.

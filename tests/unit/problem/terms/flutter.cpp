@@ -30,7 +30,8 @@ TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
   const Layers layers("-modes_count 60");
   const auto pencil = terms::affineTerms(layers.model.contact, *layers.system);
   const auto basis = layers.modes();
-  reduction::ReducedProblem reduced(pencil, *layers.system, basis, reduction::Settings::given());
+  reduction::ReducedProblem reduced(pencil, *layers.system, basis,
+                                    reduction::Settings::given(pencil::Settings::given()));
   for (const double f : {0.0, 0.2, 0.5}) {
     std::vector<reduction::PointProblem> problem;
     problem.push_back({{f}, pencil.with({})});
@@ -69,7 +70,8 @@ TEST(Sweep, BandEndsWithTheFreeModes) {
   const auto basis = layers.modes();
   const auto& w = basis.angularFrequency;
   for (const double f : {0.0, 0.05, 0.5}) {
-    reduction::ReducedProblem reduced(pencil, *layers.system, basis, reduction::Settings::given());
+    reduction::ReducedProblem reduced(pencil, *layers.system, basis,
+                                      reduction::Settings::given(pencil::Settings::given()));
     std::vector<reduction::PointProblem> problem;
     problem.push_back({{f}, pencil.with({})});
     const auto points = reduced.solve(problem, layers.system->transformation().trial);
@@ -134,7 +136,8 @@ TEST(Sweep, DirectMethodIsExact) {
   const auto pencil = chain();
   const auto trial = identity();
   for (const double f : {0.0, 0.12, 0.2, 0.6})
-    expectChain(direct::solveDirect(pencil, {f}, trial, direct::Settings::given()));
+    expectChain(direct::solveDirect(pencil, {f}, trial,
+                                    direct::Settings::given(pencil::Settings::given())));
 }
 
 }  // namespace
