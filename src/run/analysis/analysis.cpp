@@ -3,16 +3,11 @@
 
 #include <algorithm>
 
-#include "base/options/options.hpp"
 #include "base/session/events.hpp"
 #include "base/system/termination.hpp"
-#include "eigen/direct/nearest.hpp"
-#include "eigen/pencil/settings.hpp"
-#include "problem/matrices/matrices.hpp"
 #include "run/analysis/checks.hpp"
 #include "run/analysis/matrix_route.hpp"
 #include "run/analysis/mesh_route.hpp"
-#include "run/analysis/model_settings.hpp"
 
 namespace squeal::analysis {
 

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "run/report/report.hpp"
 
-#include <algorithm>
 #include <memory>
 
-#include "base/options/options.hpp"
-#include "base/options/settings.hpp"
 #include "base/output/file.hpp"
-#include "base/session/events.hpp"
 #include "base/session/stages.hpp"
-#include "eigen/sweep/sweep.hpp"
 #include "run/report/fields.hpp"
 #include "run/report/names.hpp"
 #include "run/report/recipe.hpp"
@@ -45,7 +40,7 @@ output::Naming namingOfPart(const std::vector<sweep::Parameters>& points) {
   return naming;
 }
 
-/// Collective. Writes all reports into the folder, which has been staged.
+/// Collective. Writes all reports into the folder, which has been staged and has the recipe.
 void writeInto(const analysis::Analysis& analysis, const Settings& settings,
                output::Folder& folder) {
   {
@@ -57,7 +52,6 @@ void writeInto(const analysis::Analysis& analysis, const Settings& settings,
     }
     stage.finish("results in " + folder.path().string());
   }
-  writeRecipe(analysis.comm, folder.staging());
   writeSummary(analysis, folder.staging());  // after the last stage: it holds the times
   folder.commit();
 }
@@ -91,6 +85,7 @@ void write(const analysis::Analysis& analysis, const Settings& settings, Directo
   try {
     output::Folder part(comm, namingOfPart(directory.points()), directory.interrupted());
     part.stage();
+    writeRecipe(comm, part.staging());
     writeInto(analysis, settings, part);
   } catch (const Error& error) {
     return complain(comm, std::string("interrupted; what was found so far is not written: ") +
