@@ -17,9 +17,10 @@ import unittest
 from pathlib import Path
 
 repository = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(repository / "python"))
+sys.path[:0] = [str(repository / "python"), str(repository / "tests/support")]
 sys.dont_write_bytecode = True
 import squeal
+from pressed_block import pressed_block
 from squeal import schema
 from squeal.agreement import require_agreement
 from squeal.tables import read_table
@@ -84,32 +85,7 @@ RUNS = {
         "-modes_count",
         "20",
     ],
-    "opening": [
-        "-mesh_file",
-        repository / "meshes/layer.geo",
-        "-mesh_set",
-        "Lx=0.5,nx=8,ny=8",
-        "-material_layer_young",
-        "1e9",
-        "-material_layer_poisson",
-        "0.3",
-        "-material_layer_density",
-        "1000",
-        "-constraint_bottom_clamped",
-        "xy",
-        "-contact_plate_pad",
-        "top",
-        "-contact_plate_obstacle_velocity",
-        "1,0,0",
-        "-contact_plate_obstacle_displacement",
-        "0,-0.001,0",
-        "-report_fields",
-        "off",
-        "-modes_count",
-        "20",
-        "-flutter_friction",
-        "0:0.5:0.1",
-    ],
+    "opening": pressed_block("nx=8,ny=8", modes=20, frictions="0:0.5:0.1"),
 }
 
 

@@ -20,9 +20,10 @@ from pathlib import Path
 import numpy as np
 
 repository = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(repository / "python"))
+sys.path[:0] = [str(repository / "python"), str(repository / "tests/support")]
 sys.dont_write_bytecode = True
 import squeal
+from pressed_block import pressed_block
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 MPIEXEC = sys.argv.pop(1) if len(sys.argv) > 1 else "mpirun -n"
@@ -46,33 +47,7 @@ BRAKE = [
     "-flutter_friction",
     "0:0.6:0.03",
 ]
-# A block that a sliding plate presses from above: friction lifts its nodes one after the other.
-BLOCK = [
-    "-mesh_file",
-    repository / "meshes/layer.geo",
-    "-mesh_set",
-    "Lx=0.5,nx=12,ny=24",
-    "-material_layer_young",
-    "1e9",
-    "-material_layer_poisson",
-    "0.3",
-    "-material_layer_density",
-    "1000",
-    "-constraint_bottom_clamped",
-    "xy",
-    "-contact_plate_pad",
-    "top",
-    "-contact_plate_obstacle_velocity",
-    "1,0,0",
-    "-contact_plate_obstacle_displacement",
-    "0,-0.001,0",
-    "-report_fields",
-    "off",
-    "-modes_count",
-    "60",
-    "-flutter_friction",
-    "0:0.5:0.02",
-]
+BLOCK = pressed_block("nx=12,ny=24", modes=60, frictions="0:0.5:0.02")
 BELT = ["-options_file", repository / "options/external.yaml", "-report_fields", "off"]
 
 

@@ -364,7 +364,9 @@ TEST(Sticking, PartOfABlockSlides) {
           jumps[2 * static_cast<std::size_t>(analysis.contact.interfaces.nodes[i].globalNode)];
       EXPECT_LE(std::abs(state.frictionForce[0]), 0.12 * state.normalForce + 1e-9) << mesh;
       EXPECT_LE(slid * state.frictionForce[0], 1e-15) << mesh;
-      if (solution.sticking.holds[i] == steady::Hold::held) EXPECT_LT(std::abs(slid), 1e-14);
+      if (solution.sticking.holds[i] == steady::Hold::held) {
+        EXPECT_LT(std::abs(slid), 1e-14);
+      }
     }
   }
 }

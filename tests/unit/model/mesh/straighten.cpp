@@ -183,7 +183,7 @@ TEST(Straighten, MovesNothingThatIsStraight) {
   test::setOptions("-mesh_file meshes/beam.geo -mesh_set nx=4,order=2,recombine=0 " +
                    test::material("beam", "1", "0.3", "1"));
   const auto before = test::allCoordinates(test::readMesh());
-  insert({{"mesh_straighten", "all"}});
+  insert(settingsOfText("-mesh_straighten all"));
   const Mesh mesh = test::readMesh();
   EXPECT_EQ(mesh.straightened.nodes, 0);
   EXPECT_EQ(test::allCoordinates(mesh), before);

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "base/petsc/object.hpp"
 #include "run/fieldfile/hdf5.hpp"
 #include "support/hdf5.hpp"
 #include "support/program.hpp"
@@ -67,7 +68,7 @@ TEST(Hdf5, HoldsNodeVectors) {
   OwnedVec u;
   check(VecCreateMPI(mesh.comm, 2 * mesh.ownedNodes, PETSC_DETERMINE, u.out()));
   check(VecSetBlockSize(u, 2));
-  check(PetscObjectSetName(reinterpret_cast<PetscObject>(u.get()), "mine"));
+  check(PetscObjectSetName(object(u.get()), "mine"));
   for (PetscInt i = 2 * mesh.firstNode; i < 2 * (mesh.firstNode + mesh.ownedNodes); ++i)
     check(VecSetValue(u, i, 1.0 / (1 + i), INSERT_VALUES));
   check(VecAssemblyBegin(u));
@@ -78,7 +79,7 @@ TEST(Hdf5, HoldsNodeVectors) {
     file.writeNodeVector("/flutter/friction_0.4", "shape_0001_real", u);
   }
   const char* name = nullptr;
-  check(PetscObjectGetName(reinterpret_cast<PetscObject>(u.get()), &name));
+  check(PetscObjectGetName(object(u.get()), &name));
   EXPECT_STREQ(name, "mine");
 
   Reader reader(folder.path / "results.h5");
