@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 /// squeal: flutter of the steady sliding state of brakes. The method itself is
-/// squeal::analysis::analyse (src/analysis/analysis.cpp).
+/// squeal::analysis::analyse (src/run/analysis/analysis.cpp).
 #include <cstdio>
 #include <cstring>
 #include <new>

@@ -25,7 +25,7 @@ class Reader {
                                                  const std::string& name) {
     OwnedVec vector;
     check(VecCreate(PETSC_COMM_SELF, vector.out()));
-    check(PetscObjectSetName(reinterpret_cast<PetscObject>(vector.get()), name.c_str()));
+    check(PetscObjectSetName(object(vector.get()), name.c_str()));
     check(PetscViewerHDF5PushGroup(viewer_, group.c_str()));
     check(VecLoad(vector, viewer_));
     check(PetscViewerHDF5PopGroup(viewer_));
@@ -43,7 +43,7 @@ class Reader {
                                                       const std::string& name) {
     OwnedIS set;
     check(ISCreate(PETSC_COMM_SELF, set.out()));
-    check(PetscObjectSetName(reinterpret_cast<PetscObject>(set.get()), name.c_str()));
+    check(PetscObjectSetName(object(set.get()), name.c_str()));
     check(PetscViewerHDF5PushGroup(viewer_, group.c_str()));
     check(ISLoad(set, viewer_));
     check(PetscViewerHDF5PopGroup(viewer_));

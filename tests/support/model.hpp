@@ -184,7 +184,7 @@ inline Built buildBodies(const std::string& options) {
 inline void solveDirectly(Mat matrix, Vec rhs, Vec u) {
   OwnedKSP solver;
   PC pc = nullptr;
-  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), solver.out()));
+  check(KSPCreate(commOf(matrix), solver.out()));
   check(KSPSetOperators(solver, matrix, matrix));
   check(KSPSetType(solver, KSPPREONLY));
   check(KSPGetPC(solver, &pc));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "algebra/factor/associated_system.hpp"
+#include "base/petsc/object.hpp"
 
 namespace squeal::factor {
 
@@ -10,8 +11,6 @@ AssociatedSystem::AssociatedSystem(OwnedMat k0, OwnedMat m0, const std::string& 
   check(MatGetSize(k0_, &size_, nullptr));
 }
 
-MPI_Comm AssociatedSystem::comm() const {
-  return PetscObjectComm(reinterpret_cast<PetscObject>(k0_.get()));
-}
+MPI_Comm AssociatedSystem::comm() const { return commOf(k0_.get()); }
 
 }  // namespace squeal::factor

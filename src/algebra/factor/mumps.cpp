@@ -213,10 +213,8 @@ void MumpsFactor::solve(const double* b, double* x, PetscInt columns) {
     id_.isol_loc = rows.data();
     call(solution);
     rows.resize(id_.info[22]);
-    int same = rows == solutionRows_;
-    if (!toOwners_ || solutionRows_.empty()) same = 0;
-    check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm_));
-    if (!same) {
+    const bool same = toOwners_ && !solutionRows_.empty() && rows == solutionRows_;
+    if (!mpi::all(comm_, same)) {
       solutionRows_ = std::move(rows);
       std::vector<PetscInt> global;
       for (const MUMPS_INT row : solutionRows_) global.push_back(row - 1);

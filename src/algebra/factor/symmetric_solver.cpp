@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "base/petsc/object.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
@@ -60,7 +61,7 @@ void solveOrAbort(PC pc, const Solve& solve) {
     solve(*shellOf(pc)->factor);
   } catch (const Error& error) {
     int rank = 0;
-    MPI_Comm_rank(PetscObjectComm(reinterpret_cast<PetscObject>(pc)), &rank);
+    MPI_Comm_rank(commOf(pc), &rank);
     if (rank == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
     abortRun();
   }
@@ -99,7 +100,7 @@ PetscErrorCode destroy(PC pc) {
 
 bool isOurs(PC pc) {
   PetscBool isShell = PETSC_FALSE;
-  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(pc), PCSHELL, &isShell));
+  check(PetscObjectTypeCompare(object(pc), PCSHELL, &isShell));
   return isShell;
 }
 
@@ -113,8 +114,7 @@ PC preconditionerOf(KSP solver) {
 void setMumps(KSP solver, const SolverPrefix& prefix) {
   const PC pc = preconditionerOf(solver);
   auto shell = std::make_unique<Shell>();
-  shell->factor = std::make_unique<MumpsFactor>(
-      PetscObjectComm(reinterpret_cast<PetscObject>(solver)), prefix.prefix);
+  shell->factor = std::make_unique<MumpsFactor>(commOf(solver), prefix.prefix);
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, shell.release()));
   check(PCShellSetName(pc, "MUMPS, LDLt"));
@@ -130,7 +130,7 @@ void setMumps(KSP solver, const SolverPrefix& prefix) {
 
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
   OwnedKSP solver;
-  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), solver.out()));
+  check(KSPCreate(commOf(matrix), solver.out()));
   check(KSPSetOptionsPrefix(solver, prefix.prefix.c_str()));
   check(KSPSetOperators(solver, matrix, matrix));
   check(KSPSetType(solver, KSPPREONLY));
@@ -170,7 +170,7 @@ KSP SymmetricSolver::get() const {
     factorise();
     return solver_;
   }
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix_));
+  const MPI_Comm comm = commOf(matrix_);
   Stage stage(comm, "factor");
   solver_ = directSolver(matrix_, factorisation);
   factorise();
@@ -190,14 +190,13 @@ void SymmetricSolver::factorise() const {
 void rejectUnusedSolverOptions() { factorisation.rejectUnused(); }
 
 double factorMemory(Mat matrix) {
-  MumpsFactor factor(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), factorisation.prefix);
+  MumpsFactor factor(commOf(matrix), factorisation.prefix);
   factor.analyse(matrix);
   return factor.memory();
 }
 
 std::unique_ptr<MumpsFactor> shiftedFactor(Mat k, Mat m, double sigma, KSP like) {
-  auto factor = std::make_unique<MumpsFactor>(PetscObjectComm(reinterpret_cast<PetscObject>(k)),
-                                              factorisation.prefix);
+  auto factor = std::make_unique<MumpsFactor>(commOf(k), factorisation.prefix);
   factor->wantInertia();
   {
     OwnedMat shifted;
@@ -211,7 +210,7 @@ std::unique_ptr<MumpsFactor> shiftedFactor(Mat k, Mat m, double sigma, KSP like)
 }
 
 Inertia inertia(Mat matrix, double zero) {
-  MumpsFactor factor(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), factorisation.prefix);
+  MumpsFactor factor(commOf(matrix), factorisation.prefix);
   factor.wantInertia(zero);
   factor.analyse(matrix);
   if (const std::string why = factor.factorise(); !why.empty())

@@ -6,6 +6,7 @@
 
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/log_events.hpp"
+#include "base/petsc/object.hpp"
 
 namespace squeal::linalg {
 
@@ -32,7 +33,7 @@ Block solved(KSP solver, const DenseView& columns) {
   PetscInt size = 0;
   check(KSPGetOperators(solver, &matrix, nullptr));
   check(MatGetSize(matrix, &size, nullptr));
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(solver));
+  const MPI_Comm comm = commOf(solver);
   Block result(columns.rows(), columns.columns());
   for (PetscInt begin = 0; begin < columns.columns(); begin += atOnce) {
     const PetscInt end = std::min(begin + atOnce, columns.columns());
@@ -84,7 +85,7 @@ void appendProduct(Mat matrix, const DenseView& x, Block& result) {
   if (count == 0) return;
   result.resizeColumns(first + count);
   if (rows == 0) return;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  const MPI_Comm comm = commOf(matrix);
   const OwnedMat from = borrowed(comm, length, x),
                  to = borrowed(comm, rows, result.columnRange(first, first + count));
   PetscBool assembled = PETSC_FALSE;
@@ -137,10 +138,10 @@ Block RowSet::of(const DenseView& x) const {
 
 OwnedMat RowSet::of(Mat matrix) const {
   if (all_) {
-    check(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+    check(PetscObjectReference(object(matrix)));
     return OwnedMat(matrix);
   }
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  const MPI_Comm comm = commOf(matrix);
   std::vector<PetscInt> global;
   for (PetscInt row : rows_) global.push_back(firstRow_ + row);
   PetscInt begin = 0, end = 0;

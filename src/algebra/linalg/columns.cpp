@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "algebra/linalg/columns.hpp"
+#include "base/petsc/object.hpp"
 
 #include <algorithm>
 
@@ -14,7 +15,7 @@ OwnedBV copiedColumns(Mat like, const DenseView& columns) {
   OwnedBV bv;
   OwnedVec layout;
   check(MatCreateVecs(like, layout.out(), nullptr));
-  check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(like)), bv.out()));
+  check(BVCreate(commOf(like), bv.out()));
   check(BVSetSizesFromVec(bv, layout, columns.columns()));
   check(BVSetType(bv, BVSVEC));
   PetscScalar* to = nullptr;

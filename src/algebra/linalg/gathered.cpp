@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "algebra/linalg/gathered.hpp"
+#include "base/petsc/object.hpp"
 
 namespace squeal::linalg {
 
@@ -9,12 +10,12 @@ OwnedMat onRankZero(Mat matrix) {
   OwnedIS rowSet, columnSet;
   Mat* parts = nullptr;
   check(MatGetSize(matrix, &rows, &columns));
-  check(MPI_Comm_rank(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), &rank));
+  check(MPI_Comm_rank(commOf(matrix), &rank));
   check(ISCreateStride(PETSC_COMM_SELF, rank == 0 ? rows : 0, 0, 1, rowSet.out()));
   check(ISCreateStride(PETSC_COMM_SELF, rank == 0 ? columns : 0, 0, 1, columnSet.out()));
   const IS rowsWanted = rowSet, columnsWanted = columnSet;
   check(MatCreateSubMatrices(matrix, 1, &rowsWanted, &columnsWanted, MAT_INITIAL_MATRIX, &parts));
-  check(PetscObjectReference(reinterpret_cast<PetscObject>(parts[0])));
+  check(PetscObjectReference(object(parts[0])));
   OwnedMat whole(parts[0]);
   check(MatDestroySubMatrices(1, &parts));
   return whole;

@@ -10,6 +10,7 @@
 #include "algebra/linalg/quadratic.hpp"
 #include "algebra/linalg/spread.hpp"
 #include "base/options/options.hpp"
+#include "base/petsc/object.hpp"
 #include "base/system/text.hpp"
 #include "eigen/direct/direct.hpp"
 #include "eigen/pencil/complex_modes.hpp"
@@ -292,9 +293,7 @@ std::string NearestSolver::lapackFailure() {
   return error.message();
 }
 
-MPI_Comm NearestSolver::comm() const {
-  return PetscObjectComm(reinterpret_cast<PetscObject>(terms_[0].get()));
-}
+MPI_Comm NearestSolver::comm() const { return commOf(terms_[0].get()); }
 
 /// Returns all eigenvalues with Im s ≥ 0, by LAPACK on rank 0.
 NearestPairs NearestSolver::whole() const {

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "algebra/factor/symmetric_solver.hpp"
+#include "base/petsc/object.hpp"
 #include "eigen/modes/rational_lanczos.hpp"
 
 namespace squeal::modes {
@@ -182,16 +183,15 @@ PetscErrorCode setUp(EPS eps) {
   EPSCheckSinvert(eps);
   EPSCheckUnsupported(eps, EPS_FEATURE_ARBITRARY | EPS_FEATURE_REGION | EPS_FEATURE_EXTRACTION);
   EPSCheckIgnored(eps, EPS_FEATURE_BALANCE);
-  PetscCheck(eps->isgeneralized, PetscObjectComm(reinterpret_cast<PetscObject>(eps)), PETSC_ERR_SUP,
+  PetscCheck(eps->isgeneralized, commOf(eps), PETSC_ERR_SUP,
              "This solver is for generalized problems");
   if (!eps->which) eps->which = EPS_TARGET_MAGNITUDE;
-  PetscCheck(eps->which == EPS_TARGET_MAGNITUDE,
-             PetscObjectComm(reinterpret_cast<PetscObject>(eps)), PETSC_ERR_SUP,
+  PetscCheck(eps->which == EPS_TARGET_MAGNITUDE, commOf(eps), PETSC_ERR_SUP,
              "This solver finds the eigenvalues nearest to a target");
   if (eps->ncv == PETSC_DEFAULT)
     eps->ncv = std::min<PetscInt>(eps->n, lanczosVectors(eps->nev, width));
-  PetscCheck(eps->ncv >= eps->nev + 3 * width && eps->ncv <= eps->n,
-             PetscObjectComm(reinterpret_cast<PetscObject>(eps)), PETSC_ERR_USER_INPUT,
+  PetscCheck(eps->ncv >= eps->nev + 3 * width && eps->ncv <= eps->n, commOf(eps),
+             PETSC_ERR_USER_INPUT,
              "The value of ncv must be at least nev + 3 block sizes, at most the problem size");
   if (eps->mpd == PETSC_DEFAULT) eps->mpd = eps->ncv;
   if (eps->max_it == PETSC_DEFAULT) eps->max_it = 20;
@@ -242,8 +242,8 @@ PetscErrorCode setFromOptions(EPS eps, PetscOptionItems* PetscOptionsObject) {
                              "a second pole below the last wanted eigenvalue", "",
                              solver.secondPole, &solver.secondPole, nullptr));
   PetscOptionsHeadEnd();
-  PetscCheck(solver.blockSize > 0, PetscObjectComm(reinterpret_cast<PetscObject>(eps)),
-             PETSC_ERR_USER_INPUT, "-eps_blocklanczos_blocksize must be positive");
+  PetscCheck(solver.blockSize > 0, commOf(eps), PETSC_ERR_USER_INPUT,
+             "-eps_blocklanczos_blocksize must be positive");
   PetscFunctionReturn(0);
 }
 

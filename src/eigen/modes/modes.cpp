@@ -11,6 +11,7 @@
 #include "algebra/linalg/symmetric.hpp"
 #include "base/options/options.hpp"
 #include "base/petsc/arrays.hpp"
+#include "base/petsc/object.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/text.hpp"
 #include "eigen/modes/blocklanczos.hpp"
@@ -40,7 +41,7 @@ OwnedEPS solver(const factor::AssociatedSystem& system, const Settings& settings
   const Mat k = system.k0();
   OwnedEPS eps;
   registerBlockLanczos();
-  check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), eps.out()));
+  check(EPSCreate(commOf(k), eps.out()));
   check(EPSSetOptionsPrefix(eps, "modes_"));
   check(EPSSetOperators(eps, k, system.m0()));
   check(EPSSetProblemType(eps, EPS_GHEP));
@@ -114,7 +115,7 @@ void takeModes(EPS eps, int count, Modes& modes) {
   Mat k = nullptr;
   check(EPSGetOperators(eps, &k, nullptr));
   const OwnedVec d = rightVector(k);
-  check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), modes.vectors.out()));
+  check(BVCreate(commOf(k), modes.vectors.out()));
   check(BVSetSizesFromVec(modes.vectors, d, count));
   check(BVSetType(modes.vectors, BVSVEC));
   PetscInt converged = 0;
@@ -188,7 +189,7 @@ bool solveByLanczos(const factor::AssociatedSystem& system, const Settings& sett
 /// by LAPACK on rank 0, so that the ranks agree. It gets the largest eigenvalues best, those of the
 /// lowest modes.
 void solveDense(const factor::AssociatedSystem& system, int count, Modes& modes) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
+  const MPI_Comm comm = commOf(system.k0());
   const PetscInt n = rowsOf(system.k0());
   linalg::DenseMatrix all = linalg::gathered(system.m0()),
                       stiffness = linalg::gathered(system.k0()), vectors(n, count);
@@ -332,7 +333,7 @@ Modes computeBy(const factor::AssociatedSystem& system, const Settings& settings
 Modes compute(const factor::AssociatedSystem& system, const Settings& given) {
   Settings settings = given;
   const PetscInt size = rowsOf(system.k0());
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
+  const MPI_Comm comm = commOf(system.k0());
   if (settings.count > size) {
     if (settings.countGiven)
       throw Error(formatted("option -modes_count %d: the problem has only %" PetscInt_FMT

@@ -11,6 +11,7 @@
 #include "algebra/linalg/qr.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/log_events.hpp"
+#include "base/petsc/object.hpp"
 
 namespace squeal::modes {
 
@@ -18,10 +19,7 @@ using linalg::DenseMatrix;
 using linalg::DenseView;
 
 RationalLanczos::RationalLanczos(Mat m, BV basis, PetscInt blockSize)
-    : m_(m),
-      basis_(basis),
-      comm_(PetscObjectComm(reinterpret_cast<PetscObject>(m))),
-      width_(blockSize) {
+    : m_(m), basis_(basis), comm_(commOf(m)), width_(blockSize) {
   PetscInt n = 0;
   check(BVGetSizes(basis, &rows_, &n, &limit_));
   w_ = linalg::Block(rows_, width_);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/pencil/modal_damping.hpp"
+#include "base/petsc/object.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,7 @@ std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass,
   const PetscInt count = modes.angularFrequency.size();
   check(BVGetSizes(modes.vectors, &local, &global, nullptr));
   OwnedMat factors, product;
-  check(MatCreateDense(PetscObjectComm(reinterpret_cast<PetscObject>(mass)), local, PETSC_DECIDE,
-                       global, count, nullptr, factors.out()));
+  check(MatCreateDense(commOf(mass), local, PETSC_DECIDE, global, count, nullptr, factors.out()));
   for (PetscInt i = 0; i < count; ++i) {
     Vec d = nullptr, column = nullptr;
     check(BVGetColumn(modes.vectors, i, &d));

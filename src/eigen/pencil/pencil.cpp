@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/pencil/pencil.hpp"
+#include "base/petsc/object.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -73,9 +74,7 @@ bool Pencil::hasPower(int power) const {
                      [&](const Term& term) { return term.power == power; });
 }
 
-MPI_Comm Pencil::comm() const {
-  return PetscObjectComm(reinterpret_cast<PetscObject>(terms_.at(0).matrix.get()));
-}
+MPI_Comm Pencil::comm() const { return commOf(terms_.at(0).matrix.get()); }
 
 OwnedMat Pencil::assembled(int power, const sweep::Parameters& at) const {
   OwnedMat sum;

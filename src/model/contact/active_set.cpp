@@ -9,4 +9,17 @@ bool sameOnAllRanks(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b) {
   return mpi::all(comm, a == b);
 }
 
+PetscInt countDifferent(MPI_Comm comm, const Mask& a, const Mask& b) {
+  PetscInt count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+  return mpi::sum(comm, count);
+}
+
+PetscInt countDifferent(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b) {
+  PetscInt count = 0;
+  for (std::size_t i = 0; i < a.closed.size(); ++i)
+    count += a.closed[i] != b.closed[i] || a.released[i] != b.released[i];
+  return mpi::sum(comm, count);
+}
+
 }  // namespace squeal::contact

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The state of each contact node, and whether the ranks agree on it.
-#include <mpi.h>
+#include <petscsys.h>
 
 #include <cstddef>
 #include <vector>
@@ -26,5 +26,9 @@ struct ActiveSet {
 
 /// Collective. Returns true if the two sets agree on every rank.
 bool sameOnAllRanks(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b);
+/// Collective. Returns the number of contact nodes whose flags differ.
+PetscInt countDifferent(MPI_Comm comm, const Mask& a, const Mask& b);
+/// Collective. Returns the number of contact nodes that differ in either flag.
+PetscInt countDifferent(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b);
 
 }  // namespace squeal::contact

@@ -204,11 +204,11 @@ SlaveBasis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
     for (PetscInt node : face.local)
       if (excluded[node]) basis.dropped[node] = true, basis.alpha[node] = 0;
   // Without a node, D and W of its neighbours change, of which more may have to go.
-  int again = true;
+  bool again = true;
   while (again) {
     again = drop(nodalSums(exchange, nodes, faces, coveredOf), basis);
     again = drop(nodalSums(exchange, nodes, faces, weightOf), basis) || again;
-    check(MPI_Allreduce(MPI_IN_PLACE, &again, 1, MPI_INT, MPI_LOR, mesh.comm));
+    again = mpi::any(mesh.comm, again);
   }
   basis.droppedOwned = droppedOwned(mesh, exchange, faces, basis);
   basis.droppedNodes = basis.droppedOwned.size();

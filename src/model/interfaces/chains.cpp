@@ -85,15 +85,15 @@ void setLevels(const mesh::Mesh& mesh, Interfaces& all) {
   // tied.
   for (int pass = 0; pass <= 2 * std::ssize(all.options); ++pass) {
     masters.set(slaves);
-    int changed = 0;
+    bool changed = false;
     all.levels = 1;
     for (auto* slave : slaves) {
       const int level = masters.above(*slave);
-      changed |= level != slave->level;
+      changed = changed || level != slave->level;
       slave->level = level;
       all.levels = std::max(all.levels, level);
     }
-    check(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_LOR, mesh.comm));
+    changed = mpi::any(mesh.comm, changed);
     all.levels = mpi::max(mesh.comm, all.levels);
     if (!changed) return;
   }

@@ -58,9 +58,8 @@ GapBasis gapBasis(const mesh::Mesh& mesh, const std::vector<std::string>& surfac
   const auto row = [&](PetscInt globalNode) { return mesh.dimension * globalNode + gap; };
   const auto edges = combinedEdges(mesh, surfaces, interfaceOf);
   GapBasis basis;
-  int needed = !edges.empty() || !allAreIdentity(mesh, given);
-  check(MPI_Allreduce(MPI_IN_PLACE, &needed, 1, MPI_INT, MPI_LOR, mesh.comm));
-  if (!needed) return basis;
+  const bool needed = !edges.empty() || !allAreIdentity(mesh, given);
+  if (!mpi::any(mesh.comm, needed)) return basis;
   const OwnedVec isGiven = elasticity::nodalVector(mesh);  // the rows that are not the identity
   for (const auto& edge : edges)
     check(VecSetValue(isGiven, row(mesh.globalNode[edge.middle]), 1, INSERT_VALUES));

@@ -35,7 +35,7 @@ std::array<double, 2> areasOf(const mesh::Mesh& mesh, const coupling::NodeExchan
       if (marks[exchange.local(face.nodes[i])] > 0) areas[0] += integrals[i];
     }
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, areas.data(), 2, MPI_DOUBLE, MPI_SUM, mesh.comm));
+  mpi::reduce<double>(mesh.comm, areas, MPI_SUM);
   return areas;
 }
 
@@ -154,9 +154,8 @@ double areaOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange
 
 void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all,
                 Role role) {
-  int any = !all.lost.empty();
-  check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, mesh.comm));
-  if (!any) return;  // as nearly always: the owners of all nodes are not gathered
+  if (!mpi::any(mesh.comm, !all.lost.empty()))
+    return;  // as nearly always: the owners of all nodes are not gathered
   const Owners owners(mesh, all);
   for (int i = 0; i < std::ssize(all.options); ++i) {
     const auto& options = all.options[i];

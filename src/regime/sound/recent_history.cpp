@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/system/stream.hpp"
-
 namespace squeal::sound {
 namespace {
 
@@ -52,16 +50,10 @@ std::vector<Sample> RecentHistory::samples() const {
   return result;
 }
 
-/// The stream finds it by its argument. All members are named, so that a new one does not compile
-/// until it is broadcast too.
-void fields(Stream& stream, Sample& sample);
 void fields(Stream& stream, Sample& sample) {
+  // All members are named, so that a new one does not compile until it is broadcast too.
   auto& [time, q, z, gap, force] = sample;
   stream(time, q, z, gap, force);
-}
-
-void broadcast(MPI_Comm comm, int root, std::vector<Sample>& samples) {
-  squeal::broadcast(comm, samples, root);
 }
 
 }  // namespace squeal::sound

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The recent history of a march, from which displacements are computed at its end.
-#include <mpi.h>
-
 #include <deque>
 #include <vector>
 
+#include "base/system/stream.hpp"
 #include "regime/march/model.hpp"
 #include "regime/march/scheme.hpp"
 #include "regime/sound/settings.hpp"
@@ -31,8 +30,8 @@ struct Trace {
   std::vector<Sample> samples;  ///< of the latest cycles
 };
 
-/// Collective. Sends samples from the rank `root` to all ranks.
-void broadcast(MPI_Comm comm, int root, std::vector<Sample>& samples);
+/// Not collective. Writes a sample, or sets it.
+void fields(Stream& stream, Sample& sample);
 
 /// Stores the samples of the latest `-regime_cycles_kept` periods.
 class RecentHistory {

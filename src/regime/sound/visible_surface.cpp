@@ -204,7 +204,7 @@ VisibleSurface Observer::of(int root, const Trace& trace) const {
   auto samples = trace.samples;
   VisibleSurface result{.sound = soundOf(meanSquares),
                         .points = spectrumPoints(root, trace, meanSquares)};
-  broadcast(comm, root, samples);
+  broadcast(comm, samples, root);
   result.frames = framesOf(samples);
   return result;
 }

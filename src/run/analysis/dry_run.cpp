@@ -20,12 +20,6 @@
 namespace squeal::analysis {
 namespace {
 
-/// Collective. Returns the sum over all ranks.
-double total(MPI_Comm comm, double value) {
-  check(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm));
-  return value;
-}
-
 std::string counted(const std::string& name, double count, const std::string& what) {
   return formatted("%s (%.0f %s)", name.c_str(), count, what.c_str());
 }
@@ -41,18 +35,18 @@ void sayMesh(const mesh::Mesh& mesh, const elasticity::Settings& settings,
     double cells = 0;
     for (const auto& block : mesh.cells)
       cells += std::count(block.body.begin(), block.body.end(), b);
-    bodies.push_back(counted(mesh.bodies[b], total(mesh.comm, cells), "cells"));
+    bodies.push_back(counted(mesh.bodies[b], mpi::sum(mesh.comm, cells), "cells"));
   }
   for (const auto& [group, ground] : settings.ground) held.push_back(group);
   for (const auto& [name, members] : mesh.nodeGroups)
     if (std::ranges::find(held, name) != held.end())
-      nodes.push_back(counted(name, total(mesh.comm, members.size()), "nodes"));
+      nodes.push_back(counted(name, mpi::sum(mesh.comm, members.size()), "nodes"));
   for (int i = 0; i < std::ssize(mesh.surfaces); ++i) {
     if (!settings.pressure.contains(mesh.surfaces[i])) continue;
     double faces = 0;
     for (const auto& block : mesh.faces)
       faces += std::count(block.surface.begin(), block.surface.end(), i);
-    loads.push_back(counted(mesh.surfaces[i], total(mesh.comm, faces), "faces"));
+    loads.push_back(counted(mesh.surfaces[i], mpi::sum(mesh.comm, faces), "faces"));
   }
   sayList(mesh.comm, "bodies", bodies);
   sayList(mesh.comm, "held", nodes);
@@ -97,7 +91,7 @@ void sayMemory(MPI_Comm comm, const Settings& settings, Mat k0) {
   const double factor = factor::factorMemory(k0);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const double held = total(comm, 1024.0 * usage.ru_maxrss);
+  const double held = mpi::sum(comm, 1024.0 * usage.ru_maxrss);
   const double vectors = 8.0 * vectorsPerMode * modes * unknowns;
   const double machine = 1.0 * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
   say(comm, formatted("%-12s %" PetscInt_FMT ", %.0f entries in the stiffness", "unknowns",

@@ -143,9 +143,7 @@ void followAfterFlutter(Analysis& analysis, const MeshSweep& problem, CurrentSys
                         const sweep_solver::ModalSegment& segment,
                         const pencil::ComplexModes& point) try {
   stopIfAsked(analysis.comm);
-  contact::ActiveSet held;
-  held.closed.assign(analysis.contact.interfaces.nodes.size(), 1);
-  held.released.assign(analysis.contact.interfaces.nodes.size(), 0);
+  const auto held = contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size());
   analysis.regimes.push_back(regime::study({analysis.bodies, analysis.contact, current.of(held),
                                             steadyAt(analysis, point.at), point.at.damping},
                                            analysis.settings.regime,

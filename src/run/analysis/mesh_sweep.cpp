@@ -34,15 +34,6 @@ void openLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
   }
 }
 
-/// Collective. Returns the number of nodes in which two sets differ.
-PetscInt countDifferent(MPI_Comm comm, const contact::ActiveSet& a, const contact::ActiveSet& b) {
-  PetscInt count = 0;
-  for (std::size_t i = 0; i < a.closed.size(); ++i)
-    count += a.closed[i] != b.closed[i] || a.released[i] != b.released[i];
-  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
-  return count;
-}
-
 /// Collective. Computes the friction work of the shapes and, if wanted, the sensitivities of their
 /// eigenvalues.
 void examineShapes(const Analysis& analysis, const contact::CoupledSystem& system,
@@ -89,7 +80,7 @@ std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
     const contact::ActiveSet set = steady::activeSet(analysis.steady[last]);
     closeLike(set, anywhere);
     openLike(set, everywhere);
-    if (countDifferent(analysis.comm, anywhere, everywhere) > most) break;
+    if (contact::countDifferent(analysis.comm, anywhere, everywhere) > most) break;
   }
   return last;
 }
@@ -117,9 +108,9 @@ MeshSweep::MeshSweep(const Analysis& analysis, std::size_t first, std::size_t la
     released_ = systemOf(everywhere);
     all_ = released_.get();
     substructure = substructureOf(*all_, *interior_);
-    stage.finish(formatted("%" PetscInt_FMT
-                           " nodes open or slide in some of %zu active sets that share a basis",
-                           countDifferent(analysis.comm, anywhere_, everywhere), sets_.size()));
+    stage.finish(formatted(
+        "%" PetscInt_FMT " nodes open or slide in some of %zu active sets that share a basis",
+        contact::countDifferent(analysis.comm, anywhere_, everywhere), sets_.size()));
   }
   system = interior_;
   trial = all_->transformation().trial;
@@ -214,7 +205,7 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
     sweep_solver::PointRange range;
     range.first = first, range.last = last;
     range.openNodes = std::ranges::count(set.closed, 0);
-    check(MPI_Allreduce(MPI_IN_PLACE, &range.openNodes, 1, MPIU_INT, MPI_SUM, analysis_.comm));
+    range.openNodes = mpi::sum(analysis_.comm, range.openNodes);
     std::vector<unsigned char> own;
     for (const PetscInt k : substructure.boundary) {
       const PetscInt i = contactNode[rows[k] / dimension];

@@ -44,15 +44,6 @@ void tellSticking(const Analysis& analysis, const steady::Solution& solution) {
   }
 }
 
-/// Collective. Returns the number of contact nodes that are closed in one set and not in the other.
-PetscInt countDifferent(MPI_Comm comm, const std::vector<unsigned char>& a,
-                        const std::vector<unsigned char>& b) {
-  PetscInt count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
-  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
-  return count;
-}
-
 std::string endText(const condensed::ContactPath& path) {
   constexpr int digits = 9;  // it is solved for to 1e-8
   return sweep::parameterText(path.end, digits) + ": " + path.obstacle;
@@ -146,7 +137,8 @@ std::vector<Way> waysToFollow(const Analysis& analysis, std::size_t begin) {
     if (!neighbour) continue;
     const auto &from = analysis.steady[*neighbour], &to = analysis.steady[k];
     if (!from.converged || !to.converged) continue;
-    if (const PetscInt changes = countDifferent(comm, from.closed, to.closed); changes <= limit)
+    if (const PetscInt changes = contact::countDifferent(comm, from.closed, to.closed);
+        changes <= limit)
       ways.push_back({*neighbour, k});
     else
       say(comm, betweenText(analysis, {*neighbour, k}) +
@@ -185,11 +177,11 @@ void followPath(Analysis& analysis, condensed::CondensedProblem& condensed, cons
   }
   analysis.contactEvents += path.count;
   const PetscInt others =
-      path.obstacle.empty() ? countDifferent(comm, path.closed, solution.closed) : 0;
+      path.obstacle.empty() ? contact::countDifferent(comm, path.closed, solution.closed) : 0;
   if (others > 0) {
     condensed.beginWith(std::move(path.gaps), std::move(path.sticking));
     auto ahead = condensed.solve(solution.at);
-    if (ahead.converged && countDifferent(comm, ahead.closed, path.closed) == 0) {
+    if (ahead.converged && contact::countDifferent(comm, ahead.closed, path.closed) == 0) {
       solution = std::move(ahead);
       solution.nodesOfAnother = others;
       complain(comm,
@@ -223,8 +215,7 @@ const contact::CoupledSystem& CurrentSystem::of(const contact::ActiveSet& active
 namespace {
 
 contact::ActiveSet bonded(const Analysis& analysis) {
-  const std::size_t nodes = analysis.contact.interfaces.nodes.size();
-  return {std::vector<unsigned char>(nodes, 1), std::vector<unsigned char>(nodes, 0)};
+  return contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size());
 }
 
 /// The largest number of steady points that are solved for together.

@@ -9,6 +9,7 @@
 
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/symmetric.hpp"
+#include "base/petsc/object.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/mpi.hpp"
 
@@ -176,7 +177,7 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
   DenseMatrix stiffness = linalg::symmetricPart(gathered(ranks, rows));
   OwnedMat direct;
   if (conditions.direct) {
-    check(PetscObjectReference(reinterpret_cast<PetscObject>(conditions.direct)));
+    check(PetscObjectReference(object(conditions.direct)));
     direct = OwnedMat(conditions.direct);
   }
   blocks_.insert(

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/petsc/arrays.hpp"
+#include "base/petsc/object.hpp"
 
 namespace squeal::impedance {
 
@@ -94,8 +95,7 @@ OwnedMat transposedProductOf(Mat a, Mat b) {
 OwnedMat transposedRowsOf(Mat matrix, IS rows) {
   PetscInt local = 0;
   check(MatGetLocalSize(matrix, &local, nullptr));
-  return transposedProductOf(
-      matrix, picks(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), local, rows));
+  return transposedProductOf(matrix, picks(commOf(matrix), local, rows));
 }
 
 }  // namespace

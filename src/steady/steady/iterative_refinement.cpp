@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "steady/steady/iterative_refinement.hpp"
+#include "base/petsc/object.hpp"
 
 #include <algorithm>
 
@@ -69,7 +70,7 @@ Refinement refine(KSP inner, const std::function<Residual(Vec)>& residual, Vec y
 
 OwnedKSP innerSolver(Mat matrix, KSP factorised) {
   OwnedKSP solver;
-  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), solver.out()));
+  check(KSPCreate(commOf(matrix), solver.out()));
   check(KSPSetOperators(solver, matrix, matrix));
   check(KSPSetType(solver, KSPGMRES));
   // Eight digits per step: GMRES stagnates some digits above rounding, refinement does not.

@@ -102,9 +102,7 @@ std::optional<Sticking> revised(const contact::Contact& contact, const Solution&
       next.direction[i] = mesh::scaled(mesh::unit(solution.contact[i].frictionForce), -1);
     }
   }
-  int same = next.holds == solution.sticking.holds;
-  check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm));
-  if (same) return {};
+  if (mpi::all(comm, next.holds == solution.sticking.holds)) return {};
   return next;
 }
 
