@@ -15,12 +15,12 @@ enum class MassKind { consistent, higherOrder };
 
 /// The base motion of one body.
 struct MotionSettings {
-  std::string option;    ///< an option that gives it, with its dash, for messages
-  bool moves = false;    ///< a velocity or a speed is given
-  VectorValue velocity;  ///< of a translation, m/s
-  double speed = 0;      ///< of a rotation, rad/s
-  VectorValue axis;      ///< direction of the rotation axis
-  VectorValue origin;    ///< a point of the rotation axis, m
+  std::string option;         ///< an option that gives it, with its dash, for messages
+  bool moves = false;         ///< a velocity or a speed is given
+  VectorValue velocity = {};  ///< of a translation, m/s
+  double speed = 0;           ///< of a rotation, rad/s
+  VectorValue axis = {};      ///< direction of the rotation axis
+  VectorValue origin = {};    ///< a point of the rotation axis, m
 };
 
 /// Springs and dashpots from the nodes of one group to the ground, totals of the group.

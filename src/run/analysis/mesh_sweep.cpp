@@ -34,33 +34,6 @@ void openLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
   }
 }
 
-/// Collective. Computes the friction work of the shapes and, if wanted, the sensitivities of their
-/// eigenvalues.
-void examineShapes(const Analysis& analysis, const contact::CoupledSystem& system,
-                   const steady::Solution& solution, const pencil::Pencil& pencil,
-                   const sensitivity::StartSpace& start, terms::Influences& influences,
-                   pencil::ComplexModes& point) {
-  if (point.shapes.empty()) return;
-  const OwnedMat prestress = steady::prestressOf(*analysis.mesh, analysis.bodies, solution);
-  const auto friction =
-      terms::frictionState(analysis.contact, solution, analysis.settings.mesh->terms);
-  for (auto& shape : point.shapes) {
-    const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
-    shape.frictionWork =
-        terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction,
-                            {point.at, point.eigenvalues[shape.index].s, u, prestress});
-  }
-  if (!analysis.settings.solver.sensitivity.wanted) return;
-  Stage stage(analysis.mesh->comm, "flutter");
-  influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
-  double error = 0;
-  for (const auto& sensitivity : point.sensitivities)
-    error = std::max(error, sensitivity.leftBackwardError);
-  stage.finish(formatted("%s: sensitivities of %zu eigenvalues, worst left backward error %.1e",
-                         sweep::parameterText(point.at).c_str(), point.sensitivities.size(),
-                         error));
-}
-
 }  // namespace
 
 subspace::Substructure substructureOf(const contact::CoupledSystem& all,
@@ -256,7 +229,26 @@ std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Paramet
 
 void MeshSweep::examine(std::size_t i, const pencil::Pencil& ofPoint,
                         const sensitivity::StartSpace& start, pencil::ComplexModes& point) {
-  examineShapes(analysis_, *interior_, steadyAt(i), ofPoint, start, influences_, point);
+  if (point.shapes.empty()) return;
+  const steady::Solution& solution = steadyAt(i);
+  const OwnedMat prestress = steady::prestressOf(*analysis_.mesh, analysis_.bodies, solution);
+  const auto friction =
+      terms::frictionState(analysis_.contact, solution, analysis_.settings.mesh->terms);
+  for (auto& shape : point.shapes) {
+    const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
+    shape.frictionWork =
+        terms::frictionWork(analysis_.contact, analysis_.bodies, solution.closed, friction,
+                            {point.at, point.eigenvalues[shape.index].s, u, prestress});
+  }
+  if (!analysis_.settings.solver.sensitivity.wanted) return;
+  Stage stage(analysis_.mesh->comm, "flutter");
+  influences_.derive(point, ofPoint, {point.at, *interior_, solution, prestress}, start);
+  double error = 0;
+  for (const auto& sensitivity : point.sensitivities)
+    error = std::max(error, sensitivity.leftBackwardError);
+  stage.finish(formatted("%s: sensitivities of %zu eigenvalues, worst left backward error %.1e",
+                         sweep::parameterText(point.at).c_str(), point.sensitivities.size(),
+                         error));
 }
 
 }  // namespace squeal::analysis

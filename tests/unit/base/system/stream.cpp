@@ -23,7 +23,7 @@ struct Shape {
   Kind kind = Kind::none;
   std::vector<Edge> edges;
   std::optional<std::vector<double>> weights;
-  std::vector<Shape> parts;
+  std::vector<Shape> parts = {};
   bool operator==(const Shape&) const = default;
 };
 
