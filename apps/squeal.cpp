@@ -70,7 +70,7 @@ int run(const squeal::Session& session) try {
       squeal::report::Settings::given(settings.pencil.method == squeal::pencil::Method::reduced,
                                       settings.mesh.has_value(), settings.output.eventLog);
   squeal::setQuiet(settings.output.quiet);
-  for (const auto& line : squeal::replacedSettings()) squeal::say(session.comm(), line);
+  for (const auto& line : squeal::replacedSettings()) squeal::printLine(session.comm(), line);
   if (settings.dryRun) {
     squeal::analysis::dryRun(session.comm(), settings);
     return 0;
@@ -86,15 +86,15 @@ int run(const squeal::Session& session) try {
     squeal::report::write(analysis, reporting, directory);
   } catch (const squeal::Error&) {
     if (analysis.checkpoint.exists())
-      squeal::complain(session.comm(),
-                       "the checkpoint stays: -resume writes the results again; they need "
-                       "additional disk space");
+      squeal::printWarning(session.comm(),
+                           "the checkpoint stays: -resume writes the results again; they need "
+                           "additional disk space");
     throw;
   }
   if (analysis.interrupted) return 3;
   analysis.checkpoint.remove();
   squeal::report::removeInterrupted(session.comm(), directory);
-  for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
+  for (const auto& line : squeal::unusedOptions()) squeal::printLine(session.comm(), line);
   // Instability is a result; a failed point or one without a steady state is not.
   return analysis.converged() ? 0 : 2;
 } catch (const squeal::Error& error) {

@@ -8,8 +8,8 @@ _squeal() {
       return
       ;;
     -help)
-      _squeal_words "general mesh matrices elasticity constraint load motion contact tie steady
-        modes flutter regime report"
+      _squeal_words "general mesh matrices material elasticity ground constraint load motion
+        friction contact tie steady modes flutter regime report"
       return
       ;;
     -checkpoint | -resume | -quiet | -dry_run | -elasticity_prestress | \
@@ -48,7 +48,7 @@ _squeal() {
       _squeal_words "reduced direct"
       return
       ;;
-    -reduction_basis)
+    -flutter_basis)
       _squeal_words "corrected modal pod"
       return
       ;;
@@ -77,11 +77,11 @@ _squeal() {
     -flutter_direct_limit -flutter_direct_confirm -flutter_method
     -flutter_modal_damping -flutter_band -flutter_band_damping -flutter_accuracy
     -flutter_unstable_tolerance -flutter_shapes -flutter_shapes_below
-    -reduction_basis -flutter_tolerance -flutter_rounds -flutter_growth
+    -flutter_basis -flutter_tolerance -flutter_rounds -flutter_growth
     -flutter_sensitivities -flutter_track -flutter_critical
     -flutter_critical_tolerance -flutter_track_halvings -flutter_friction
     -flutter_speed -flutter_pressure -flutter_damping -flutter_friction_damping
-    -reduction_released -regime_friction -regime_time -regime_step
+    -flutter_released -regime_friction -regime_time -regime_step
     -regime_start_factor -regime_starts -regime_boundary -regime_cycle
     -regime_cycle_steps -regime_cycle_tolerance -regime_cycle_range
     -regime_cycle_motions -regime_cycles_kept -regime_frames

@@ -110,7 +110,7 @@ TEST(ActiveSet, OneBasisServesAllSets) {
   const ProgramRun each = runProgram("active_set/each", 1,
                                      block +
                                          "-modes_count 21 -flutter_friction 0:0.7:0.1 -quiet "
-                                         "-reduction_released 0");
+                                         "-flutter_released 0");
   ASSERT_EQ(one.exitCode, 0) << one.error;
   ASSERT_EQ(each.exitCode, 0) << each.error;
   const auto listOf = [](const ProgramRun& run) {

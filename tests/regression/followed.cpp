@@ -40,7 +40,7 @@ TEST(Followed, WhichSweepsAre) {
       {"two_layers", plane + single + "-flutter_critical", true},
       {"two_layers", plane + "-flutter_friction 0 -flutter_track", false},
       {"two_layers", plane + sweep + "-material_pad_rayleigh_mass 0.01 -flutter_speed 1,2", true},
-      {"two_layers", plane + sweep + "-reduction_basis modal -flutter_track", false},
+      {"two_layers", plane + sweep + "-flutter_basis modal -flutter_track", false},
       {"two_layers",
        plane + sweep + "-flutter_method direct -flutter_direct_count 10 -flutter_track", false},
       // terms that follow the steady state

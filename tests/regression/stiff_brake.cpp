@@ -11,7 +11,7 @@ namespace {
 TEST(StiffBrake, HasTheSameForcesOnAnyNumberOfRanks) {
   const std::string options =
       steel_brake::options(2, 0.0105, 1e7) +
-      " -flutter_friction 0:0.6:0.1 -modes_count 5 -reduction_basis modal -report_fields off ";
+      " -flutter_friction 0:0.6:0.1 -modes_count 5 -flutter_basis modal -report_fields off ";
   std::vector<Findings> found;
   for (int ranks : {1, 2, 3}) {
     const ProgramRun run =

@@ -363,7 +363,7 @@ class Resumed(unittest.TestCase):
                 ],
             ),
             "opening": (2, BLOCK),
-            "sets by themselves": (2, [*BLOCK, "-reduction_released", "0"]),
+            "sets by themselves": (2, [*BLOCK, "-flutter_released", "0"]),
             "in all unknowns": (2, [*BLOCK, "-steady_full", "on", "-report_fields", "on"]),
             "speeds": (2, ["-options_file", repository / "options/two_layers_moving.yaml"]),
             "direct": (

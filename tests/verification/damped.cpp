@@ -34,7 +34,7 @@ TEST(Damped, DirectIsTheReducedProblemWithAllModes) {
   const auto unknowns = direct.segments.at(0).unknowns;
   const analysis::Analysis reduced =
       runCase("two_layers_antiplane",
-              full + "-reduction_basis modal -modes_count " + std::to_string(unknowns));
+              full + "-flutter_basis modal -modes_count " + std::to_string(unknowns));
   const auto& found = direct.segments[0].points.at(0);
   double top = 0;
   for (const auto& e : found.eigenvalues) top = worse(top, std::abs(e.s));

@@ -24,7 +24,7 @@ void expectFullOrder(const std::string& name, const std::string& changes, std::s
                      const std::string& method = "corrected") {
   const auto& exact = fullOrder(name, changes);
   const analysis::Analysis reduced =
-      runCase(name, changes + " -modes_count 60 -flutter_track off -reduction_basis " + method);
+      runCase(name, changes + " -modes_count 60 -flutter_track off -flutter_basis " + method);
   const auto& segment = reduced.segments.at(0);
   ASSERT_EQ(segment.points.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -56,7 +56,7 @@ TEST(Reduction, TwoLayersFromSixtyModes) {
 void expectEstimated(const std::string& name, const std::string& changes) {
   const auto& exact = fullOrder(name, changes);
   const analysis::Analysis modal =
-      runCase(name, changes + " -modes_count 60 -reduction_basis modal -flutter_track off");
+      runCase(name, changes + " -modes_count 60 -flutter_basis modal -flutter_track off");
   const auto& points = modal.segments.at(0).points;
   ASSERT_EQ(points.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {

@@ -167,11 +167,12 @@ void MumpsFactor::fitIntoMemory() {
                 1e-9 * sizes[onDiskByOption ? 1 : 0], 1e-9 * sizes[2]);
   if (sizes[1] > hopeless * sizes[2]) throw Error(text + ": " + lessMemory);
   icntl(22) = 1;
-  complain(comm_, "warning: " + text +
-                      (onDiskByOption ? std::string("; it is tried all the same")
-                                      : formatted("; with the factor on disk, in %s, it needs %.3g "
-                                                  "GB",
-                                                  id_.ooc_tmpdir, 1e-9 * sizes[1])));
+  printWarning(comm_,
+               "warning: " + text +
+                   (onDiskByOption ? std::string("; it is tried all the same")
+                                   : formatted("; with the factor on disk, in %s, it needs %.3g "
+                                               "GB",
+                                               id_.ooc_tmpdir, 1e-9 * sizes[1])));
 }
 
 std::string MumpsFactor::factorise(Mat matrix) {

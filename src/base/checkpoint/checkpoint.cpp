@@ -90,21 +90,21 @@ Checkpoint::Checkpoint(MPI_Comm comm, fs::path folder, Identity identity, const 
   mpi::broadcast(comm_, found);
   if (found == 0) {
     if (settings.resume)
-      say(comm_, "resume: there is no checkpoint in " + folder_.string() +
-                     "; the run starts from scratch");
+      printLine(comm_, "resume: there is no checkpoint in " + folder_.string() +
+                           "; the run starts from scratch");
     return;
   }
   exists_ = true;
   if (!settings.resume) {
-    complain(comm_,
-             "warning: " + folder_.string() + " contains the checkpoint of " +
-                 (different.empty() ? "this case, which -resume would have used" : "another run") +
-                 "; this run replaces it with its first entry or its results");
+    printWarning(comm_, "warning: " + folder_.string() + " contains the checkpoint of " +
+                            (different.empty() ? "this case, which -resume would have used"
+                                               : "another run") +
+                            "; this run replaces it with its first entry or its results");
     return;
   }
   resumed_ = begun_ = true;
-  say(comm_,
-      formatted("resume: %d %s in %s", found, found == 1 ? "entry" : "entries", folder_.c_str()));
+  printLine(comm_, formatted("resume: %d %s in %s", found, found == 1 ? "entry" : "entries",
+                             folder_.c_str()));
 }
 
 fs::path Checkpoint::fileOf(const std::string& log, int number) const {
@@ -171,7 +171,8 @@ void Checkpoint::write(const std::string& log, const Archive& archive) {
       output::sync(folder_);
     });
   } catch (const Error& error) {
-    complain(comm_, std::string("warning: the run writes no more checkpoints: ") + error.what());
+    printWarning(comm_,
+                 std::string("warning: the run writes no more checkpoints: ") + error.what());
     std::error_code ignored;
     if (mpi::rank(comm_) == 0 && whyNotRegular(partial).empty()) fs::remove(partial, ignored);
     settings_.enabled = false;
@@ -205,7 +206,7 @@ void Checkpoint::remove() {
     fs::remove(folder_, ignored);
     fs::remove(folder_.parent_path(), ignored);
   } catch (const std::exception& error) {
-    complain(comm_, std::string("warning: cannot remove the checkpoint: ") + error.what());
+    printWarning(comm_, std::string("warning: cannot remove the checkpoint: ") + error.what());
   }
 }
 

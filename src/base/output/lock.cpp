@@ -41,7 +41,7 @@ void Lock::take(MPI_Comm comm, const std::filesystem::path& folder, const std::s
   check(MPI_Barrier(comm));  // all ranks have released an earlier lock of this run
   std::string warning;
   onFirstRank(comm, head, [&] { takeAlone(folder, warning); });
-  if (!warning.empty()) complain(comm, warning);
+  if (!warning.empty()) printWarning(comm, warning);
   bool held = state_ == State::held;
   mpi::broadcast(comm, held);
   if (mpi::rank(comm) != 0 && held) join();

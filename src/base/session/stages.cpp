@@ -54,10 +54,10 @@ Stage::~Stage() {
 }
 
 void Stage::progress(const std::string& text) {
-  if (MPI_Wtime() - lastProgress_ >= 2) say(text);
+  if (MPI_Wtime() - lastProgress_ >= 2) printLine(text);
 }
 
-void Stage::say(const std::string& text) {
+void Stage::printLine(const std::string& text) {
   lastProgress_ = MPI_Wtime();
   logEvent("progress", {{"stage", name_}, {"text", text}});
   if (!prints(comm_)) return;
@@ -93,7 +93,7 @@ void setQuiet(bool quiet) { quietSlot() = quiet; }
 
 bool isQuiet() { return quietSlot(); }
 
-void say(MPI_Comm comm, const std::string& text) {
+void printLine(MPI_Comm comm, const std::string& text) {
   logEvent("message", {{"text", text}});
   if (!prints(comm)) return;
   print(text + "\n");
@@ -108,7 +108,7 @@ void print(const std::string& text) {
 
 int outputError() { return outputErrorSlot() == EPIPE ? 0 : outputErrorSlot(); }
 
-void complain(MPI_Comm comm, const std::string& text) {
+void printWarning(MPI_Comm comm, const std::string& text) {
   if (mpi::rank(comm) > 0) return;
   logEvent("warning", {{"text", text}});
   const ClearedLine away;

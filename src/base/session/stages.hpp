@@ -36,7 +36,7 @@ class Stage {
   /// Prints progress of long work (on rank 0, unless -quiet), at most one line every two seconds.
   void progress(const std::string& text);
   /// Immediately prints the result of one of several tasks of the stage (on rank 0, unless -quiet).
-  void say(const std::string& text);
+  void printLine(const std::string& text);
 
  private:
   MPI_Comm comm_;
@@ -51,7 +51,7 @@ void setQuiet(bool quiet);
 /// Returns true if only warnings and errors are printed.
 bool isQuiet();
 /// Not collective. Prints text on rank 0, unless -quiet is given.
-void say(MPI_Comm comm, const std::string& text);
+void printLine(MPI_Comm comm, const std::string& text);
 /// Not collective. Immediately prints text on the standard output. A failure to write does not end
 /// the run; outputError() returns it.
 void print(const std::string& text);
@@ -59,7 +59,7 @@ void print(const std::string& text);
 /// reader has closed the pipe, as `head` does.
 int outputError();
 /// Not collective. Prints a warning on the standard error output of rank 0, also with -quiet.
-void complain(MPI_Comm comm, const std::string& text);
+void printWarning(MPI_Comm comm, const std::string& text);
 /// Not collective. Returns all finished stages in order; borrowed. If a stage was finished several
 /// times, such as once per friction, its times are summed, and its memory is the last one.
 const std::vector<StageRecord>& stageRecords();

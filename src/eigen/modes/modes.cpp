@@ -344,10 +344,11 @@ Modes compute(const factor::AssociatedSystem& system, const Settings& given) {
   Stage stage(comm, "modes");
   Modes modes = computeBy(system, settings, stage);
   if (modes.rounding > 1e-6)
-    complain(comm, formatted("free vibration: rounding of the entries of the stiffness may change "
-                             "the lowest eigenvalues by %.0e of their "
-                             "size; is a body nearly loose, or a spring very stiff?",
-                             modes.rounding));
+    printWarning(comm,
+                 formatted("free vibration: rounding of the entries of the stiffness may change "
+                           "the lowest eigenvalues by %.0e of their "
+                           "size; is a body nearly loose, or a spring very stiff?",
+                           modes.rounding));
   stage.finish(formatted(
       "%d modes to %.4g Hz, worst relative residual %.1e%s", settings.count,
       modes.angularFrequency.back() / (2 * M_PI),

@@ -23,7 +23,7 @@ linalg::DenseMatrix leadingDirections(linalg::DenseMatrix columns, double small)
                  work, &length, &info);
   });
   if (info != 0)
-    throw Error("LAPACK dgesvd failed on the vectors of -reduction_basis pod (info " +
+    throw Error("LAPACK dgesvd failed on the vectors of -flutter_basis pod (info " +
                 std::to_string(info) + ")");
   left.resizeColumns(std::ranges::count_if(sizes, [&](double size) { return size > small; }));
   return left;

@@ -38,7 +38,7 @@ struct Improvement {
   std::vector<double> roundOff;
 };
 
-/// The reduced problem makes Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`,
+/// The reduced problem makes Rayleigh–Ritz on the free modes and, unless `-flutter_basis modal`,
 /// on static responses to friction forces and to its own residuals. The modes alone miss unstable
 /// eigenvalues and invent others. A round adds K0⁻¹ r for the residuals r of all bad pairs, solved
 /// for together with the real symmetric factorisation that the modes used, and gains about a

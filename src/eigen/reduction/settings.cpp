@@ -7,7 +7,7 @@ namespace squeal::reduction {
 namespace {
 
 const ChoiceOption basisOption(
-    "flutter", "reduction_basis", {"corrected", "modal", "pod"}, "corrected",
+    "flutter", "flutter_basis", {"corrected", "modal", "pod"}, "corrected",
     "corrected: free modes, static responses to friction and to residuals; pod: principal "
     "directions of the eigenvectors after each batch of points; modal: free modes only");
 const RealOption toleranceOption("flutter", "flutter_tolerance", 1e-8, "", positive,

@@ -7,8 +7,8 @@ namespace squeal::reduction {
 
 /// Options of the reduced problem.
 struct Settings {
-  bool corrected = true;    ///< `-reduction_basis` is not modal
-  bool compressed = false;  ///< `-reduction_basis` is pod
+  bool corrected = true;    ///< `-flutter_basis` is not modal
+  bool compressed = false;  ///< `-flutter_basis` is pod
   double tolerance = 1e-8;  ///< `-flutter_tolerance`: target of the estimate of |δs|/|s|
   int rounds = 15;          ///< `-flutter_rounds`: largest number of correction rounds per batch
   int growth = 1000;  ///< `-flutter_growth`: no round starts once a batch has added so many vectors

@@ -42,7 +42,7 @@ bool worthFollowing(const Line& line, bool requested) {
 
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
                             const std::vector<Line>& lines) {
-  if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
+  if (reduced.band().top == 0) return "-flutter_basis modal corrects no eigenvalue";
   return lines.empty() ? "single frictions" : "";
 }
 

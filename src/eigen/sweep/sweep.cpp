@@ -36,10 +36,11 @@ void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes) {
   // QZ on the linearised problem takes some 25 (2 m)³ operations for a basis of m vectors; m is
   // taken as twice the number of modes.
   const double hours = sweep.pointCount() * 25 * std::pow(4.0 * modes, 3) / perSecond / 3600;
-  complain(comm,
-           formatted("a sweep of %.0f points, %.0f steady states: about %.2g hours for their "
-                     "dense eigenvalue problems alone (%d free modes)",
-                     sweep.pointCount(), sweep.pointCount() / sweep.dampings.size(), hours, modes));
+  printWarning(
+      comm,
+      formatted("a sweep of %.0f points, %.0f steady states: about %.2g hours for their "
+                "dense eigenvalue problems alone (%d free modes)",
+                sweep.pointCount(), sweep.pointCount() / sweep.dampings.size(), hours, modes));
 }
 
 std::vector<Parameters> Sweep::steadyPoints() const {

@@ -283,12 +283,13 @@ class SweepSolver {
     const std::string nothing =
         reduced_ ? stability::nothingToFollow(*reduced_, all) : "-flutter_method direct";
     if (!nothing.empty()) {
-      if (settings.requested) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
+      if (settings.requested)
+        printLine(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
       return;
     }
     if (!state_.affine && !settings.requested)  // each friction put in between costs a steady state
                                                 // and terms of its own
-      return say(
+      return printLine(
           pencil_.comm(),
           "track: not done where terms follow the steady state, unless -flutter_track is given");
     Stage stage(pencil_.comm(), "track");
@@ -354,7 +355,7 @@ class SweepSolver {
       }
     }
     for (const std::size_t i : batch)
-      if (isSolved(pointAt(i))) stage.say(pointText(pointAt(i)));
+      if (isSolved(pointAt(i))) stage.printLine(pointText(pointAt(i)));
     std::string text = formatted("%zu points", batch.size());
     if (reduced_)
       text += formatted(", basis of %" PetscInt_FMT ", %ld solves", reduced_->basisSize(),

@@ -7,19 +7,19 @@
 namespace squeal::contact {
 namespace {
 
-const ChoiceOption lawOption("contact", "friction_law", {"constant", "exponential", "table"},
+const ChoiceOption lawOption("friction", "friction_law", {"constant", "exponential", "table"},
                              "constant",
                              "factor on -flutter_friction at the sliding speed |w|: 1, or "
                              "1 + (r - 1) exp(-|w|/v), or that of a table");
-const RealOption ratioOption("contact", "friction_static_ratio", 1, "", nonNegative,
+const RealOption ratioOption("friction", "friction_static_ratio", 1, "", nonNegative,
                              "ratio r of the exponential law: coefficient at rest over that at "
                              "high speed");
-const RealOption decayOption("contact", "friction_decay_speed", 1, "m/s", positive,
+const RealOption decayOption("friction", "friction_decay_speed", 1, "m/s", positive,
                              "decay speed v of the exponential law");
-const RealListOption tableSpeedOption("contact", "friction_table_speed", "0", "m/s", nonNegative,
+const RealListOption tableSpeedOption("friction", "friction_table_speed", "0", "m/s", nonNegative,
                                       "ascending sliding speeds of the table");
 const RealListOption tableFactorOption(
-    "contact", "friction_table_factor", "1", "", nonNegative,
+    "friction", "friction_table_factor", "1", "", nonNegative,
     "factors at the speeds of the table, linear between them and constant beyond");
 
 /// Throws Error for a given option of another law.

@@ -234,12 +234,13 @@ void warnOfFoldedCells(const mesh::Mesh& mesh) {
   });
   const auto [count, words] = named(mesh, cells);
   if (count > 0)
-    complain(mesh.comm, "warning: " + std::to_string(count) +
-                            (count == 1 ? " curved cell has" : " curved cells have") +
-                            " a Jacobian that is not positive near an edge; stiffness is "
-                            "integrated at fewer points there (-mesh_straighten bad straightens "
-                            "such cells): " +
-                            words);
+    printWarning(mesh.comm,
+                 "warning: " + std::to_string(count) +
+                     (count == 1 ? " curved cell has" : " curved cells have") +
+                     " a Jacobian that is not positive near an edge; stiffness is "
+                     "integrated at fewer points there (-mesh_straighten bad straightens "
+                     "such cells): " +
+                     words);
 }
 
 }  // namespace squeal::elasticity

@@ -56,11 +56,12 @@ void warnOfLocking(const mesh::Mesh& mesh, const Bodies& bodies) {
   mpi::reduce<PetscInt>(mesh.comm, counts, MPI_SUM);
   for (std::size_t b = 0; b < counts.size(); ++b)
     if (counts[b] > 0 && materials[b].poisson > least)
-      complain(mesh.comm,
-               formatted("warning: body '%s', with a Poisson's ratio of %.6g, has %" PetscInt_FMT
-                         " linear cells, which lock above %g: they are too stiff; use a mesh of "
-                         "second order",
-                         mesh.bodies[b].c_str(), materials[b].poisson, counts[b], least));
+      printWarning(
+          mesh.comm,
+          formatted("warning: body '%s', with a Poisson's ratio of %.6g, has %" PetscInt_FMT
+                    " linear cells, which lock above %g: they are too stiff; use a mesh of "
+                    "second order",
+                    mesh.bodies[b].c_str(), materials[b].poisson, counts[b], least));
 }
 
 /// The matrices of all cells, or of those of one body.

@@ -20,11 +20,11 @@ const TextOption incompatibleOption(
 const FlagOption prestressOption(
     "elasticity", "elasticity_prestress", false,
     "geometric stiffness: the stress of steady sliding stiffens or softens the vibrations");
-const RealListOption stiffnessOption("constraint", "ground_<group>_stiffness", "0,0,0", "N/m",
+const RealListOption stiffnessOption("ground", "ground_<group>_stiffness", "0,0,0", "N/m",
                                      nonNegative,
                                      "springs along x, y, z to the ground, total of the group, "
                                      "shared equally by its nodes (per m of depth in the plane)");
-const RealListOption dampingOption("constraint", "ground_<group>_damping", "0,0,0", "N s/m",
+const RealListOption dampingOption("ground", "ground_<group>_damping", "0,0,0", "N s/m",
                                    nonNegative,
                                    "dashpots along x, y, z to the ground, shared like springs");
 const RealOption pressureOption("load", "load_<group>_pressure", 0.0, "Pa", anyReal,

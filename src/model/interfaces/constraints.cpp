@@ -25,9 +25,9 @@ void warnOfUnheld(MPI_Comm comm, const std::string& group, const std::string& co
                   const mesh::Point& displacement) {
   for (const char letter : std::string("xyz"))
     if (displacement[letter - 'x'] != 0 && components.find(letter) == std::string::npos)
-      complain(comm, "option " + displacementName(group) + ": the displacement of " + letter +
-                         " was not used, as " + clampedName(group) + " " + components +
-                         " does not hold it");
+      printWarning(comm, "option " + displacementName(group) + ": the displacement of " + letter +
+                             " was not used, as " + clampedName(group) + " " + components +
+                             " does not hold it");
 }
 
 }  // namespace

@@ -132,8 +132,9 @@ void checkCrossing(const mesh::Mesh& mesh, const coupling::NodeExchange& exchang
     const Crossing crossing = crossingOf(mesh, exchange, integrals(mesh, exchange, bodies, all, i));
     if (crossing.mean == 0) continue;
     if (crossing.body < 0) {
-      complain(mesh.comm, "warning: " + describe(crossing, "the rigid obstacle", options.label()) +
-                              "; check " + obstacleVelocityName(options.surfaces.name));
+      printWarning(mesh.comm,
+                   "warning: " + describe(crossing, "the rigid obstacle", options.label()) +
+                       "; check " + obstacleVelocityName(options.surfaces.name));
       continue;
     }
     const std::string &name = mesh.bodies[crossing.body], option = "-motion_" + name;
@@ -141,9 +142,10 @@ void checkCrossing(const mesh::Mesh& mesh, const coupling::NodeExchange& exchang
     if (bodies.settings.convective)
       throw Error("option -motion_convective: " + what +
                   "; use -motion_convective off (approximation A)");
-    complain(mesh.comm, "warning: " + what + "; check " +
-                            (bodies.motions[crossing.body].speed != 0 ? option + "_origin and _axis"
-                                                                      : option + "_velocity"));
+    printWarning(mesh.comm,
+                 "warning: " + what + "; check " +
+                     (bodies.motions[crossing.body].speed != 0 ? option + "_origin and _axis"
+                                                               : option + "_velocity"));
   }
 }
 

@@ -163,7 +163,7 @@ void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, 
     const Loss loss = lossOf(mesh, exchange, all, i, owners);
     if (loss.count == 0) continue;
     if (all.reports[i].matching && !options.isTied()) all.reports[i].dropped = loss.count;
-    complain(
+    printWarning(
         mesh.comm,
         formatted("warning: %s: %" PetscInt_FMT " nodes of '%s', %.3g of %.4g m2, first that "
                   "at %s, follow from %s and %s; %s",

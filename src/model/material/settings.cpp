@@ -16,40 +16,40 @@ using mesh::unit;
 
 namespace {
 
-const RealOption youngOption("elasticity", "material_<group>_young", std::nullopt, "Pa", positive,
+const RealOption youngOption("material", "material_<group>_young", std::nullopt, "Pa", positive,
                              "Young's modulus of the body");
-const RealOption poissonOption("elasticity", "material_<group>_poisson", std::nullopt, "",
+const RealOption poissonOption("material", "material_<group>_poisson", std::nullopt, "",
                                {-1, 0.5, true, true}, "Poisson's ratio of the body");
 const RealListOption engineeringOption(
-    "elasticity", "material_<group>_engineering_constants", "", "Pa", anyReal,
+    "material", "material_<group>_engineering_constants", "", "Pa", anyReal,
     "constants of an orthotropic body, instead of _young and _poisson: "
     "E1,E2,E3,nu12,nu13,nu23,G12,G13,G23; nu_ij is the contraction along j per stretch along i, "
     "nu_ij/Ei = nu_ji/Ej");
 const RealListOption transverseOption(
-    "elasticity", "material_<group>_transverse", "", "Pa", anyReal,
+    "material", "material_<group>_transverse", "", "Pa", anyReal,
     "constants of a transversely isotropic body, instead of _young and _poisson: "
     "Ep,Et,nup,nupt,Gt; Ep and nup in the isotropic plane 1-2, Et along axis 3, nupt the "
     "contraction along 3 per stretch in the plane, Gt the shear modulus between 3 and the plane");
 const RealListOption orientationOption(
-    "elasticity", "material_<group>_orientation", "1,0,0,0,1,0", "", anyReal,
+    "material", "material_<group>_orientation", "1,0,0,0,1,0", "", anyReal,
     "axes of an orthotropic body: a1,a2,a3,b1,b2,b3 with axis 1 along a and b in the plane 1-2");
 const RealListOption cylindricalOption(
-    "elasticity", "material_<group>_cylindrical", "", "m", anyReal,
+    "material", "material_<group>_cylindrical", "", "m", anyReal,
     "axis of a body with cylindrical orthotropy, instead of _orientation: ox,oy,oz,kx,ky,kz, a "
     "point and a direction; axis 1 radial, 2 tangential, 3 along k");
-const RealOption densityOption("elasticity", "material_<group>_density", std::nullopt, "kg/m3",
+const RealOption densityOption("material", "material_<group>_density", std::nullopt, "kg/m3",
                                positive, "mass density of the body");
-const RealOption rayleighMassOption("elasticity", "material_<group>_rayleigh_mass", 0.0, "1/s",
+const RealOption rayleighMassOption("material", "material_<group>_rayleigh_mass", 0.0, "1/s",
                                     nonNegative,
                                     "alpha of the damping matrix C = alpha M + beta K of the body");
 const RealOption rayleighStiffnessOption(
-    "elasticity", "material_<group>_rayleigh_stiffness", 0.0, "s", nonNegative,
+    "material", "material_<group>_rayleigh_stiffness", 0.0, "s", nonNegative,
     "beta of the damping matrix C = alpha M + beta K of the body");
 const RealOption lossFactorOption(
-    "elasticity", "material_<group>_loss_factor", 0.0, "", nonNegative,
+    "material", "material_<group>_loss_factor", 0.0, "", nonNegative,
     "loss factor eta, as equivalent viscous damping C = eta / (2 pi f) K; exact only at the "
     "frequency f = _loss_frequency, larger above it and smaller below");
-const RealOption lossFrequencyOption("elasticity", "material_<group>_loss_frequency", std::nullopt,
+const RealOption lossFrequencyOption("material", "material_<group>_loss_frequency", std::nullopt,
                                      "Hz", positive, "frequency at which _loss_factor applies");
 const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
                                "assumption of plane problems: plane strain or plane stress");

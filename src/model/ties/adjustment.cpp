@@ -234,14 +234,15 @@ void warnOfStrain(const mesh::Mesh& mesh, const std::vector<Point>& file, const 
     if (count == 0) continue;
     const auto& options = ties.options[i];
     const std::string adjust = adjustName(options.surfaces.name);
-    complain(mesh.comm,
-             formatted("warning: %s: moving '%s' onto '%s' changes distances in %" PetscInt_FMT
-                       " cells by more than %g %%, at most by %.3g %% at %s; give a smaller %s, "
-                       "or %s off",
-                       options.label().c_str(), options.surfaces.pad.name.c_str(),
-                       options.surfaces.disc.name.c_str(), count, 100 * largestChange,
-                       100 * worst.change, text(worst.where).c_str(), searchName(options).c_str(),
-                       adjust.c_str()));
+    printWarning(
+        mesh.comm,
+        formatted("warning: %s: moving '%s' onto '%s' changes distances in %" PetscInt_FMT
+                  " cells by more than %g %%, at most by %.3g %% at %s; give a smaller %s, "
+                  "or %s off",
+                  options.label().c_str(), options.surfaces.pad.name.c_str(),
+                  options.surfaces.disc.name.c_str(), count, 100 * largestChange,
+                  100 * worst.change, text(worst.where).c_str(), searchName(options).c_str(),
+                  adjust.c_str()));
   }
 }
 

@@ -68,12 +68,13 @@ void warnOfLittleCover(const mesh::Mesh& mesh, const Interfaces& all) {
     const auto& options = all.options[i];
     const auto& report = all.reports[i];
     if (!options.isTie() || report.coveredArea >= 0.5 * report.slave.area) continue;
-    complain(mesh.comm,
-             formatted("warning: %s ties %.3g %% of the area of its slave '%s', %.4g of %.4g m2; "
-                       "nothing of '%s' faces the rest within %s",
-                       options.label().c_str(), 100 * report.coveredArea / report.slave.area,
-                       options.surfaces.pad.name.c_str(), report.coveredArea, report.slave.area,
-                       options.surfaces.disc.name.c_str(), searchText(options).c_str()));
+    printWarning(
+        mesh.comm,
+        formatted("warning: %s ties %.3g %% of the area of its slave '%s', %.4g of %.4g m2; "
+                  "nothing of '%s' faces the rest within %s",
+                  options.label().c_str(), 100 * report.coveredArea / report.slave.area,
+                  options.surfaces.pad.name.c_str(), report.coveredArea, report.slave.area,
+                  options.surfaces.disc.name.c_str(), searchText(options).c_str()));
   }
 }
 

@@ -66,8 +66,9 @@ void rejectOrphans() {
 }
 
 void rejectMeshOptions() {
-  const std::set<std::string> ofMesh{"mesh",   "elasticity", "constraint", "load",
-                                     "motion", "contact",    "tie",        "steady"};
+  const std::set<std::string> ofMesh{"mesh",       "material", "elasticity", "ground",
+                                     "constraint", "load",     "motion",     "friction",
+                                     "contact",    "tie",      "steady"};
   const auto reject = [&](const std::string& name) {
     throw Error("option -" + name + ": a run is of a mesh or of matrices (-" +
                 fileOptionOf(fileOption.subjects()[0]) + "), not of both");

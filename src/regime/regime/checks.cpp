@@ -59,14 +59,16 @@ void warnAboutSteps(MPI_Comm comm, const Settings& settings, std::span<const Tas
     step = std::max(step, task.step);
     if (const int frames = settings.sound.framesOfPeriod(task.shortestPeriod, task.step);
         frames < wanted)
-      complain(comm, formatted("warning: -regime_frames %d: a period of %.5g Hz has %d steps, and "
-                               "as many frames are written",
-                               wanted, 1 / task.shortestPeriod, frames));
+      printWarning(comm,
+                   formatted("warning: -regime_frames %d: a period of %.5g Hz has %d steps, and "
+                             "as many frames are written",
+                             wanted, 1 / task.shortestPeriod, frames));
   }
   if (settings.march.massless && step > stableStep)
-    complain(comm, formatted("warning: -regime_step %g s exceeds %.3g s, the stable step while all "
-                             "contact sticks; the motion may grow without bound",
-                             step, stableStep));
+    printWarning(comm,
+                 formatted("warning: -regime_step %g s exceeds %.3g s, the stable step while all "
+                           "contact sticks; the motion may grow without bound",
+                           step, stableStep));
 }
 
 void warnAboutDamping(const FullModel& full) {
@@ -74,9 +76,10 @@ void warnAboutDamping(const FullModel& full) {
   PetscReal size = 0;
   if (full.bodies.damping) check(MatNorm(full.bodies.damping, NORM_FROBENIUS, &size));
   if (size * full.damping == 0)
-    complain(comm,
-             "warning: the bodies are undamped, so that a motion that never separates or sticks "
-             "grows without bound; give -material_<group>_loss_factor");
+    printWarning(
+        comm,
+        "warning: the bodies are undamped, so that a motion that never separates or sticks "
+        "grows without bound; give -material_<group>_loss_factor");
 }
 
 void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks) {
@@ -93,15 +96,17 @@ void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> ta
                   "%g s (-friction_law); give -regime_boundary mass",
                   gain, step));
   if (!(march::lawGain(model, 0, slopes) < 1))
-    complain(comm,
-             "warning: the coefficient of friction falls with the speed faster than the damping of "
-             "the massless boundary holds its slips, so that the motion does not converge with "
-             "-regime_step; give the materials at the contact damping, or -regime_boundary mass");
+    printWarning(
+        comm,
+        "warning: the coefficient of friction falls with the speed faster than the damping of "
+        "the massless boundary holds its slips, so that the motion does not converge with "
+        "-regime_step; give the materials at the contact damping, or -regime_boundary mass");
   for (const bool lowest : {true, false})
     if (!(march::lawGain(model, step, march::steepestSlopes(model, lowest)) < 1))
-      complain(comm,
-               "warning: near the steepest part of -friction_law slips of the massless boundary "
-               "may alternate from step to step; compare with -regime_boundary mass");
+      printWarning(
+          comm,
+          "warning: near the steepest part of -friction_law slips of the massless boundary "
+          "may alternate from step to step; compare with -regime_boundary mass");
 }
 
 }  // namespace squeal::regime

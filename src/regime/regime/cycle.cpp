@@ -76,15 +76,16 @@ void followBranch(const cycles::Period& period, const cycles::ShootingResult& fi
   const cycles::ContinuationLimits limits{range[0], range[1], settings.motions, settings.tolerance};
   const auto inspect = [&](const cycles::ShootingResult& found) {
     cycles.motions.push_back(motionOf(found));
-    stage.say(describe(cycles.motions.back()));
+    stage.printLine(describe(cycles.motions.back()));
   };
   for (const bool upwards : {false, true}) {
     cycles.routes.push_back(cycles::follow(period, first, upwards, limits, progress, inspect));
     const auto& route = cycles.routes.back();
     for (const double fold : route.folds)
-      stage.say(formatted("the branch of periodic motions turns back at friction %.6g", fold));
-    stage.say(formatted("towards %s friction the branch ends at %.6g: %s",
-                        upwards ? "larger" : "smaller", route.end, route.reason.c_str()));
+      stage.printLine(
+          formatted("the branch of periodic motions turns back at friction %.6g", fold));
+    stage.printLine(formatted("towards %s friction the branch ends at %.6g: %s",
+                              upwards ? "larger" : "smaller", route.end, route.reason.c_str()));
   }
 }
 
@@ -116,7 +117,7 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSe
                   const CycleStart& start, Stage& stage) {
   Cycles cycles;
   if (start.passes.count == 0) {
-    complain(
+    printWarning(
         comm,
         "warning: -regime_cycle: no node separated or stuck during a full window of the march, "
         "so shooting has no starting point");
@@ -139,13 +140,13 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSe
   try {
     cycles.motions.push_back(motionOf(first));
     if (first.converged)
-      stage.say(describe(cycles.motions.back()));
+      stage.printLine(describe(cycles.motions.back()));
     else
-      complain(comm,
-               formatted("warning: -regime_cycle: no periodic motion is found near the march: "
-                         "Newton's method ends with a change of %.1e over a period, more than "
-                         "the %.1e of -regime_cycle_tolerance",
-                         first.change, settings.tolerance));
+      printWarning(comm,
+                   formatted("warning: -regime_cycle: no periodic motion is found near the march: "
+                             "Newton's method ends with a change of %.1e over a period, more than "
+                             "the %.1e of -regime_cycle_tolerance",
+                             first.change, settings.tolerance));
     if (first.converged && settings.range)
       followBranch(period, first, settings, progress, stage, cycles);
   } catch (const Error& error) {

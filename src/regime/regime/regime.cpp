@@ -76,7 +76,7 @@ struct StudiedPoint {
 
 /// Collective. Prints a failure and adds it to the study.
 void fail(const StudiedPoint& point, const std::string& failure, Study& study) {
-  complain(point.comm(), failure);
+  printWarning(point.comm(), failure);
   study.failures.push_back(failure);
 }
 
@@ -153,8 +153,9 @@ sound::VisibleSurface surfaceOf(const sound::Observer& observer, int root,
   auto surface = observer.of(root, trajectory.trace);
   const sound::Sound& heard = surface.sound;
   if (std::isfinite(heard.power))
-    stage.say(formatted("%s: sound power about %.3g W (%.1f dB) from %.4g m2 of visible surface",
-                        name.c_str(), heard.power, heard.level, heard.area));
+    stage.printLine(
+        formatted("%s: sound power about %.3g W (%.1f dB) from %.4g m2 of visible surface",
+                  name.c_str(), heard.power, heard.level, heard.area));
   return surface;
 }
 
@@ -163,11 +164,11 @@ void checkGrowth(MPI_Comm comm, const Run& run) {
   const double growth = run.s.real();
   if (run.start == "all") return;  // several modes grow, each at its own rate
   if (std::abs(run.regime.growth - growth) > 0.2 * growth)
-    complain(comm,
-             formatted("warning: in the linear range the march grows by %.4g 1/s, the mode by "
-                       "%.4g 1/s: the error of the step, which a shorter -regime_step makes "
-                       "smaller in proportion",
-                       run.regime.growth, growth));
+    printWarning(comm,
+                 formatted("warning: in the linear range the march grows by %.4g 1/s, the mode by "
+                           "%.4g 1/s: the error of the step, which a shorter -regime_step makes "
+                           "smaller in proportion",
+                           run.regime.growth, growth));
 }
 
 /// Collective. Returns the periodic motions of a run. Their failure leaves the march as it is.
@@ -201,8 +202,8 @@ std::vector<Task> tasksOf(const StudiedPoint& point, const ReducedModel& model, 
   if (!unstable.failure.empty()) throw Error(unstable.failure);
   study.stableStep = march::stableStep(model);
   auto tasks = tasksOn(model, point.settings.march, unstable.modes, study.stableStep);
-  stage.say(formatted("%s: %d modes, %d gaps and slips; unstable eigenvalues to %.1e",
-                      point.name().c_str(), study.modes, study.rows, study.modelError));
+  stage.printLine(formatted("%s: %d modes, %d gaps and slips; unstable eigenvalues to %.1e",
+                            point.name().c_str(), study.modes, study.rows, study.modelError));
   warnAboutSteps(point.comm(), point.settings, tasks, study.stableStep);
   warnAboutDamping(point.full);
   if (point.settings.march.massless) checkLaw(point.comm(), model, tasks);
@@ -235,7 +236,7 @@ void addRuns(const StudiedPoint& point, linalg::Block free, Study& study) {
       fail(point, point.nameOf(run.start) + ": nothing measured: " + run.failure, study);
       continue;
     }
-    if (!last.empty()) stage.say(last);
+    if (!last.empty()) stage.printLine(last);
     run.regime = marched[i].regime;
     run.surface = surfaceOf(*observer, rankOf(comm, i), marched[i], point.nameOf(run), stage);
     checkGrowth(comm, run);
@@ -254,11 +255,13 @@ Study study(const FullModel& full, const Settings& settings, linalg::Block free,
   result.at = modes.at;
   result.unstable = modes.unstableCount();
   if (result.unstable == 0) {
-    say(point.comm(), point.name() + ": no mode is unstable, and none is followed after flutter");
+    printLine(point.comm(),
+              point.name() + ": no mode is unstable, and none is followed after flutter");
     return result;
   }
   if (!point.shapes.empty() && std::ssize(point.shapes) < result.unstable)
-    say(point.comm(),
+    printLine(
+        point.comm(),
         formatted("%s: the shapes of %zu of %d unstable modes are stored (-flutter_shapes); the "
                   "reduced model of the regime contains only these exactly",
                   point.name().c_str(), point.shapes.size(), result.unstable));

@@ -42,9 +42,10 @@ Observer::Observer(const contact::Contact& contact, const Shapes& shapes, const 
   linalg::appendProduct(surface_.normalMass, shapes.modes, product);
   radiation_ = linalg::transposedProduct(contact.mesh->comm, shapes.modes, product);
   if (surface_.area == 0)
-    complain(contact.mesh->comm,
-             "warning: no face of the bodies is visible after flutter: all are in contact, tied, "
-             "cut or held; the sound power and the spectra at points are omitted");
+    printWarning(
+        contact.mesh->comm,
+        "warning: no face of the bodies is visible after flutter: all are in contact, tied, "
+        "cut or held; the sound power and the spectra at points are omitted");
 }
 
 /// Returns the estimate of the sound power [M.76],

@@ -29,7 +29,7 @@ sweep_solver::Request requestOf(const Analysis& analysis) {
 }
 
 void addFailure(Analysis& analysis, const std::string& reason) {
-  complain(analysis.comm, reason);
+  printWarning(analysis.comm, reason);
   analysis.failures.push_back(reason);
 }
 

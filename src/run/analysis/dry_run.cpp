@@ -24,12 +24,12 @@ std::string counted(const std::string& name, double count, const std::string& wh
   return formatted("%s (%.0f %s)", name.c_str(), count, what.c_str());
 }
 
-void sayList(MPI_Comm comm, const char* head, const std::vector<std::string>& items) {
-  say(comm, formatted("%-12s %s", head, items.empty() ? "none" : joined(items).c_str()));
+void printList(MPI_Comm comm, const char* head, const std::vector<std::string>& items) {
+  printLine(comm, formatted("%-12s %s", head, items.empty() ? "none" : joined(items).c_str()));
 }
 
-void sayMesh(const mesh::Mesh& mesh, const elasticity::Settings& settings,
-             std::vector<std::string> held) {
+void printMesh(const mesh::Mesh& mesh, const elasticity::Settings& settings,
+               std::vector<std::string> held) {
   std::vector<std::string> bodies, nodes, loads;
   for (int b = 0; b < std::ssize(mesh.bodies); ++b) {
     double cells = 0;
@@ -48,12 +48,12 @@ void sayMesh(const mesh::Mesh& mesh, const elasticity::Settings& settings,
       faces += std::count(block.surface.begin(), block.surface.end(), i);
     loads.push_back(counted(mesh.surfaces[i], mpi::sum(mesh.comm, faces), "faces"));
   }
-  sayList(mesh.comm, "bodies", bodies);
-  sayList(mesh.comm, "held", nodes);
-  sayList(mesh.comm, "loads", loads);
+  printList(mesh.comm, "bodies", bodies);
+  printList(mesh.comm, "held", nodes);
+  printList(mesh.comm, "loads", loads);
 }
 
-void sayContact(const contact::Contact& contact, MPI_Comm comm) {
+void printContact(const contact::Contact& contact, MPI_Comm comm) {
   std::vector<std::string> interfaces;
   for (std::size_t i = 0; i < contact.interfaces.names.size(); ++i) {
     const auto& report = contact.interfaces.reports[i];
@@ -63,24 +63,24 @@ void sayContact(const contact::Contact& contact, MPI_Comm comm) {
     if (contact.interfaces.options[i].isTied()) what += ", tied";
     interfaces.push_back(counted(contact.interfaces.names[i], report.nodes, what));
   }
-  sayList(comm, "contact", interfaces);
+  printList(comm, "contact", interfaces);
 }
 
-void saySweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
+void printSweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
   const std::size_t states = sweep.frictions.size() * sweep.speeds.size() * sweep.pressures.size();
   std::string text =
       formatted("%-12s %zu points: %zu frictions x %zu speeds x %zu pressures x %zu dampings",
                 "sweep", states * sweep.dampings.size(), sweep.frictions.size(),
                 sweep.speeds.size(), sweep.pressures.size(), sweep.dampings.size());
   if (steady) text += formatted("; %zu steady states", states);
-  say(comm, text);
+  printLine(comm, text);
 }
 
 /// Collective. Prints what is held now (mesh, matrices, libraries), the factor of K0 as the
 /// analysis of MUMPS foresees it, and the vectors of the basis with what is computed from them:
 /// about `vectorsPerMode` for each free mode, as measured of 53,151 to 225,715 unknowns in three
 /// dimensions and of 119,600 in the plane.
-void sayMemory(MPI_Comm comm, const Settings& settings, Mat k0) {
+void printMemory(MPI_Comm comm, const Settings& settings, Mat k0) {
   constexpr double vectorsPerMode = 12;
   PetscInt unknowns = 0;
   MatInfo info;
@@ -94,9 +94,10 @@ void sayMemory(MPI_Comm comm, const Settings& settings, Mat k0) {
   const double held = mpi::sum(comm, 1024.0 * usage.ru_maxrss);
   const double vectors = 8.0 * vectorsPerMode * modes * unknowns;
   const double machine = 1.0 * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
-  say(comm, formatted("%-12s %" PetscInt_FMT ", %.0f entries in the stiffness", "unknowns",
-                      unknowns, info.nz_used));
-  say(comm, formatted("%-12s about %.2g GB on all ranks: %.2g held now, %.2g for the factor, %.2g "
+  printLine(comm, formatted("%-12s %" PetscInt_FMT ", %.0f entries in the stiffness", "unknowns",
+                            unknowns, info.nz_used));
+  printLine(comm,
+            formatted("%-12s about %.2g GB on all ranks: %.2g held now, %.2g for the factor, %.2g "
                       "for vectors of %d modes; this machine "
                       "has %.3g GB",
                       "memory", 1e-9 * (held + factor + vectors), 1e-9 * held, 1e-9 * factor,
@@ -111,22 +112,22 @@ void ofMatrices(const Analysis& analysis) {
     PetscInt rows = 0;
     check(MatGetInfo(term.matrix, MAT_GLOBAL_SUM, &info));
     check(MatGetSize(term.matrix, &rows, nullptr));
-    say(analysis.comm,
-        formatted("%-12s %s: %" PetscInt_FMT
-                  " rows, %.0f entries, with s^%d, friction^%d, speed^%d, damping^%d",
-                  "matrix", name.c_str(), rows, info.nz_used, term.power, term.frictionExponent,
-                  term.speedExponent, term.dampingExponent));
+    printLine(analysis.comm,
+              formatted("%-12s %s: %" PetscInt_FMT
+                        " rows, %.0f entries, with s^%d, friction^%d, speed^%d, damping^%d",
+                        "matrix", name.c_str(), rows, info.nz_used, term.power,
+                        term.frictionExponent, term.speedExponent, term.dampingExponent));
     if (term.power != 0) continue;
     if (!pattern)
       check(MatDuplicate(term.matrix, MAT_COPY_VALUES, pattern.out()));
     else
       check(MatAXPY(pattern, 1, term.matrix, DIFFERENT_NONZERO_PATTERN));
   }
-  saySweep(analysis.comm, analysis.sweep, false);
+  printSweep(analysis.comm, analysis.sweep, false);
   PetscInt unknowns = 0;
   check(MatGetSize(named.front().term.matrix, &unknowns, nullptr));
   warnOfDenseWork(analysis.comm, analysis.settings, analysis.sweep, unknowns);
-  if (pattern) sayMemory(analysis.comm, analysis.settings, pattern);
+  if (pattern) printMemory(analysis.comm, analysis.settings, pattern);
 }
 
 }  // namespace
@@ -136,19 +137,19 @@ void dryRun(MPI_Comm comm, const Settings& settings) {
   if (!analysis.mesh) {
     ofMatrices(analysis);
   } else {
-    sayMesh(*analysis.mesh, analysis.bodies.settings,
-            analysis.contact.interfaces.constraints.groups);
-    sayContact(analysis.contact, comm);
-    saySweep(comm, analysis.sweep, true);
+    printMesh(*analysis.mesh, analysis.bodies.settings,
+              analysis.contact.interfaces.constraints.groups);
+    printContact(analysis.contact, comm);
+    printSweep(comm, analysis.sweep, true);
     const contact::CoupledSystem system(
         analysis.bodies, analysis.contact,
         contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size()));
-    sayMemory(comm, settings, system.k0());
+    printMemory(comm, settings, system.k0());
   }
-  say(comm,
-      "dry run: no fault found in options and files; nothing was solved or written, so that "
-      "solvers and the steady state are "
-      "untried");
+  printLine(comm,
+            "dry run: no fault found in options and files; nothing was solved or written, so that "
+            "solvers and the steady state are "
+            "untried");
 }
 
 }  // namespace squeal::analysis

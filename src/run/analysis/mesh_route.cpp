@@ -80,7 +80,7 @@ contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& 
                          contact.interfaces.totalNodes, contact.interfaces.names.size()));
   for (int i = 0; i < std::ssize(contact.interfaces.names); ++i)
     if (contact.interfaces.names.size() > 1 || !contact.interfaces.reports[i].matching)
-      say(mesh.comm, "  " + interfaces::describe(contact.interfaces, i));
+      printLine(mesh.comm, "  " + interfaces::describe(contact.interfaces, i));
   return contact;
 }
 

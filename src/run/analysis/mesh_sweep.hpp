@@ -15,7 +15,7 @@ namespace squeal::analysis {
 
 /// Collective. Returns the first steady point behind those that share a basis with point `first`,
 /// which has a solution. They have the same active set, or, unless something asks for the matrices
-/// of one active set by themselves, sets that differ in few nodes, `-reduction_released`.
+/// of one active set by themselves, sets that differ in few nodes, `-flutter_released`.
 std::size_t endOfShared(const Analysis& analysis, std::size_t first);
 
 /// Returns the unknowns of `all`, whose gaps and sticking nodes are free in more places, as those

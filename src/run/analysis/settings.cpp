@@ -22,7 +22,7 @@ const IntegerOption pathOption(
     "largest number of contact nodes that may open or close between neighbouring points of a sweep "
     "whose events are solved for; 0 = none");
 const IntegerOption releasedOption(
-    "flutter", "reduction_released", 150, 0, 100'000,
+    "flutter", "flutter_released", 150, 0, 100'000,
     "largest number of contact nodes by which active sets that share a factorisation and a basis "
     "may differ; 0 = no sharing");
 

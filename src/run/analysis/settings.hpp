@@ -29,7 +29,7 @@ struct MeshSettings {
   SteadySettings steady;
   uniqueness::Settings uniqueness;
   terms::Settings terms;
-  /// `-reduction_released`: most contact nodes by which active sets that share a basis differ.
+  /// `-flutter_released`: most contact nodes by which active sets that share a basis differ.
   int released = 150;
 };
 

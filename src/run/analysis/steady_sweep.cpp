@@ -21,19 +21,20 @@ namespace {
 
 /// Collective. Tells which sticking interfaces are held by more than their limit of friction, and
 /// which slide.
-void tellSticking(const Analysis& analysis, const steady::Solution& solution) {
+void reportSticking(const Analysis& analysis, const steady::Solution& solution) {
   for (const auto& resultant : solution.resultants) {
     const std::string head =
         sweep::parameterText(solution.at) + ": interface '" + resultant.interface + "': ";
     if (resultant.released + resultant.unheld > 0)
-      say(analysis.mesh->comm,
+      printLine(
+          analysis.mesh->comm,
           head +
               formatted("%" PetscInt_FMT " nodes slide and %" PetscInt_FMT
                         " touch without being held, as they open or slide when they are, after %d "
                         "revisions",
                         resultant.released, resultant.unheld, solution.revisions));
     if (resultant.overLimit > 0)
-      complain(
+      printWarning(
           analysis.mesh->comm,
           head + formatted("%" PetscInt_FMT
                            " nodes are held although they exceed its coefficient of friction, "
@@ -141,10 +142,10 @@ std::vector<Way> waysToFollow(const Analysis& analysis, std::size_t begin) {
         changes <= limit)
       ways.push_back({*neighbour, k});
     else
-      say(comm, betweenText(analysis, {*neighbour, k}) +
-                    formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
-                              " finds where",
-                              changes, changes));
+      printLine(comm, betweenText(analysis, {*neighbour, k}) +
+                          formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
+                                    " finds where",
+                                    changes, changes));
   }
   return ways;
 }
@@ -170,7 +171,7 @@ void followPath(Analysis& analysis, condensed::CondensedProblem& condensed, cons
   steady::Solution& solution = analysis.steady[way.to];
   Stage stage(comm, "steady");
   auto path = condensed::followContact(condensed, analysis.steady[way.from], solution.at);
-  if (!path.obstacle.empty()) complain(comm, between + "followed up to " + endText(path));
+  if (!path.obstacle.empty()) printWarning(comm, between + "followed up to " + endText(path));
   for (auto& event : path.events) {
     event.order += analysis.contactEvents;
     analysis.contactPath.push_back(event);
@@ -184,11 +185,11 @@ void followPath(Analysis& analysis, condensed::CondensedProblem& condensed, cons
     if (ahead.converged && contact::countDifferent(comm, ahead.closed, path.closed) == 0) {
       solution = std::move(ahead);
       solution.nodesOfAnother = others;
-      complain(comm,
-               between + formatted("steady sliding is not unique at the end: in another solution "
-                                   "%" PetscInt_FMT " %s; the one that the way leads to is kept",
-                                   others,
-                                   others == 1 ? "contact node differs" : "contact nodes differ"));
+      printWarning(
+          comm, between + formatted("steady sliding is not unique at the end: in another solution "
+                                    "%" PetscInt_FMT " %s; the one that the way leads to is kept",
+                                    others,
+                                    others == 1 ? "contact node differs" : "contact nodes differ"));
     }
   }
   if (path.count > 0)
@@ -226,10 +227,10 @@ void tell(const Analysis& analysis, const steady::Solution& solution) {
   const std::string at = sweep::parameterText(solution.at);
   if (solution.converged) {
     requireFinite(solution.displacement, "steady sliding at " + at);
-    tellSticking(analysis, solution);
+    reportSticking(analysis, solution);
   } else {
-    complain(analysis.mesh->comm,
-             "no steady sliding solution found at " + at + ": " + solution.reason);
+    printWarning(analysis.mesh->comm,
+                 "no steady sliding solution found at " + at + ": " + solution.reason);
   }
 }
 
@@ -307,7 +308,7 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
         if (!solutions[k].converged)
           solutions[k].reason += "; in those of the contact: " + condensedReason;
       }
-      stage.say(resultText(analysis, solutions[k]));
+      stage.printLine(resultText(analysis, solutions[k]));
       tell(analysis, solutions[k]);
     }
     stage.finish(

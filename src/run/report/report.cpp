@@ -73,14 +73,14 @@ void write(const analysis::Analysis& analysis, const Settings& settings, Directo
   const MPI_Comm comm = analysis.comm;
   if (!analysis.interrupted) {
     writeInto(analysis, settings, directory);
-    say(comm, stabilityTable(analysis));
+    printLine(comm, stabilityTable(analysis));
     return;
   }
   const std::string how = analysis.checkpoint.exists() ? "; -resume continues it" : "";
   if (analysis.segments.empty()) {
     removeInterrupted(comm,
                       directory);  // tables of an earlier run, beside a checkpoint of this one
-    return complain(comm, "interrupted before the first eigenvalues" + how);
+    return printWarning(comm, "interrupted before the first eigenvalues" + how);
   }
   try {
     output::Folder part(comm, namingOfPart(directory.points()), directory.interrupted());
@@ -88,12 +88,12 @@ void write(const analysis::Analysis& analysis, const Settings& settings, Directo
     writeRecipe(comm, part.staging());
     writeInto(analysis, settings, part);
   } catch (const Error& error) {
-    return complain(comm, std::string("interrupted; what was found so far is not written: ") +
-                              error.what() + how);
+    return printWarning(comm, std::string("interrupted; what was found so far is not written: ") +
+                                  error.what() + how);
   }
-  say(comm, stabilityTable(analysis));
-  complain(comm,
-           "interrupted: what was found so far is in " + directory.interrupted().string() + how);
+  printLine(comm, stabilityTable(analysis));
+  printWarning(
+      comm, "interrupted: what was found so far is in " + directory.interrupted().string() + how);
 }
 
 void removeInterrupted(MPI_Comm comm, const Directory& directory) {
@@ -105,7 +105,8 @@ void removeInterrupted(MPI_Comm comm, const Directory& directory) {
   if (there) try {
       output::Folder(comm, namingOfPart(directory.points()), directory.interrupted()).discard();
     } catch (const Error& error) {  // the results are complete
-      complain(comm, std::string("warning: results of an interrupted run stay: ") + error.what());
+      printWarning(comm,
+                   std::string("warning: results of an interrupted run stay: ") + error.what());
     }
 }
 

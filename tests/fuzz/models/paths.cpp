@@ -51,7 +51,7 @@ class Paths {
       add("direct", [this] { return compared({}, direct, {.criticals = false}); });
       add("direct_band", [this] { return directBand(); });
     }
-    add("own_basis", [this] { return compared({}, {{"reduction_released", "0"}}, {}); });
+    add("own_basis", [this] { return compared({}, {{"flutter_released", "0"}}, {}); });
     add("steady_full", [this] { return steadyFull(); });
     add("single", [this] { return single(); });
     add("shuffled", [this] { return compared({true, 0, {}}, {}, {}); });

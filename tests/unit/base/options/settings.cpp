@@ -172,7 +172,7 @@ TEST(Text, HiddenCharactersAreEscaped) {
   EXPECT_EQ(escaped("a\x1b[31m\x7f\u009b\r"), "a\\u001b[31m\\u007f\\u009b\\u000d");
   EXPECT_EQ(escaped("\U000e0041"), "\\udb40\\udc41");
   EXPECT_EQ(escaped("\xff\xe4\xc3"), "\\xff\\xe4\\xc3");
-  const auto printed = test::warningsOf([] { complain(PETSC_COMM_WORLD, "group 'a\u202eb'"); });
+  const auto printed = test::warningsOf([] { printWarning(PETSC_COMM_WORLD, "group 'a\u202eb'"); });
   EXPECT_EQ(printed, "squeal: group 'a\\u202eb'\n");
 }
 

@@ -13,7 +13,7 @@
 namespace squeal::test {
 namespace {
 
-const std::string layer = "-report_fields off -flutter_friction 0 -reduction_basis modal ";
+const std::string layer = "-report_fields off -flutter_friction 0 -flutter_basis modal ";
 
 /// Largest entry of |VᵀMV − I| over the columns of V.
 double departureFromOrthonormal(BV vectors, Mat mass) {
