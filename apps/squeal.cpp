@@ -91,7 +91,7 @@ int run(const squeal::Session& session) try {
                            "additional disk space");
     throw;
   }
-  if (analysis.interrupted) return 3;
+  if (analysis.interrupted()) return 3;
   analysis.checkpoint.remove();
   squeal::report::removeInterrupted(session.comm(), directory);
   for (const auto& line : squeal::unusedOptions()) squeal::printLine(session.comm(), line);

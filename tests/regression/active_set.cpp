@@ -26,9 +26,9 @@ constexpr int contactNodes = 5, closedUnknowns = 75;
 TEST(ActiveSet, SteadyStateIsTheOneThatExists) {
   const analysis::Analysis analysis =
       runOptions(block + "-modes_count 5 -flutter_friction 0:1:0.1");
-  ASSERT_EQ(analysis.contact.interfaces.nodes.size(), static_cast<std::size_t>(contactNodes));
+  ASSERT_EQ(analysis.model.contact.interfaces.nodes.size(), static_cast<std::size_t>(contactNodes));
   int without = 0, opening = 0;
-  for (const auto& steady : analysis.steady) {
+  for (const auto& steady : analysis.steady.solutions) {
     SCOPED_TRACE("friction " + std::to_string(steady.at.friction) + ": " + steady.reason);
     const auto solutions = allSolutions(condensed(analysis, steady.at.friction));
     std::printf(
@@ -42,7 +42,7 @@ TEST(ActiveSet, SteadyStateIsTheOneThatExists) {
     opening += steady.openNodes > 0;
     const double largest = *std::max_element(solutions[0].force.begin(), solutions[0].force.end()),
                  widest = *std::max_element(solutions[0].gap.begin(), solutions[0].gap.end());
-    for (std::size_t i = 0; i < analysis.contact.interfaces.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < analysis.model.contact.interfaces.nodes.size(); ++i) {
       // SNES stops at 1e-11 of the forces; near the last friction with a solution the gaps answer
       // with up to thirty times that. Gaps open from 1e-3 m.
       EXPECT_NEAR(steady.contact[i].gap, solutions[0].gap[i], 1e-9 * (1e-3 + widest));

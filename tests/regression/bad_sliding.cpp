@@ -50,6 +50,19 @@ TEST(BadSliding, Speed) {
   });
 }
 
+// All sliding interfaces have their own coefficient, so no result would depend on the swept one.
+TEST(BadSliding, FrictionOfNoInterface) {
+  const Options fixed = with(layer, {{"contact_plate_friction", "0.3"}});
+  expectRefused({
+      {"friction_of_none",
+       with(fixed, {{"flutter_friction", "0.4"}}),
+       {"-flutter_friction", "no interface has", "-contact_<interface>_friction"}},
+      {"regime_friction_of_none",
+       with(fixed, {{"regime_friction", "0.4"}}),
+       {"-regime_friction", "no interface has", "-contact_<interface>_friction"}},
+  });
+}
+
 TEST(BadSliding, FactorOfNothing) {
   const Options unpressed = with(layer, {{"contact_plate_obstacle_displacement", "0,0,0"}});
   expectRefused({

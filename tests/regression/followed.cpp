@@ -57,8 +57,8 @@ TEST(Followed, WhichSweepsAre) {
   for (const auto& [name, options, wanted] : rules) {
     SCOPED_TRACE(name + " " + options);
     const analysis::Analysis analysis = runCase(name, options);
-    ASSERT_EQ(analysis.segments.size(), 1U);
-    const auto& followed = analysis.segments[0].followed;
+    ASSERT_EQ(analysis.flutter.segments.size(), 1U);
+    const auto& followed = analysis.flutter.segments[0].followed;
     const auto lines = wanted ? analysis.sweep.speeds.size() : 0;
     EXPECT_EQ(lines > 0, wanted);
     EXPECT_EQ(followed.size(), lines);

@@ -36,21 +36,22 @@ double difference(const pencil::ComplexModes& one, const pencil::ComplexModes& o
 TEST(Speed, FactorScalesTheMotions) {
   const analysis::Analysis slow = at(10, 1), scaled = at(10, 3), fast = at(30, 1);
   for (const analysis::Analysis* analysis : {&slow, &scaled, &fast}) {
-    ASSERT_EQ(analysis->segments.size(), 1u);
-    ASSERT_EQ(analysis->segments[0].points.size(), 2u);
+    ASSERT_EQ(analysis->flutter.segments.size(), 1u);
+    ASSERT_EQ(analysis->flutter.segments[0].points.size(), 2u);
   }
   for (std::size_t i = 0; i < 2; ++i) {
     double force = 0, forceSize = 0;
-    for (std::size_t k = 0; k < fast.contact.interfaces.nodes.size(); ++k)
+    for (std::size_t k = 0; k < fast.model.contact.interfaces.nodes.size(); ++k)
       for (std::size_t d = 0; d < 3; ++d) {
-        const double wanted = fast.steady[i].contact[k].frictionForce[d];
-        force = test::worse(force, std::abs(scaled.steady[i].contact[k].frictionForce[d] - wanted));
+        const double wanted = fast.steady.solutions[i].contact[k].frictionForce[d];
+        force = test::worse(
+            force, std::abs(scaled.steady.solutions[i].contact[k].frictionForce[d] - wanted));
         forceSize = test::worse(forceSize, std::abs(wanted));
       }
     force = largest(force) / largest(forceSize);
-    const auto& wanted = fast.segments[0].points[i];
-    const double same = difference(wanted, scaled.segments[0].points[i]),
-                 other = difference(wanted, slow.segments[0].points[i]);
+    const auto& wanted = fast.flutter.segments[0].points[i];
+    const double same = difference(wanted, scaled.flutter.segments[0].points[i]),
+                 other = difference(wanted, slow.flutter.segments[0].points[i]);
     print(
         "friction %g: %d unstable; friction forces differ by %.1e, eigenvalues by %.1e; from those "
         "at a third of the speed by "
@@ -59,7 +60,7 @@ TEST(Speed, FactorScalesTheMotions) {
     EXPECT_LT(force, 1e-10);
     EXPECT_LT(same, 1e-10);
     EXPECT_GT(other, 1e-4);  // the speed matters
-    EXPECT_EQ(wanted.unstableCount(), scaled.segments[0].points[i].unstableCount());
+    EXPECT_EQ(wanted.unstableCount(), scaled.flutter.segments[0].points[i].unstableCount());
   }
 }
 

@@ -40,7 +40,7 @@ double difference(const pencil::ComplexModes& one, const pencil::ComplexModes& o
 TEST(Sweep, PointsOfTheGridAreRunsOfTheirOwn) {
   const analysis::Analysis grid =
       run(1, 1, 1, "-flutter_speed 1,3 -flutter_pressure 1,2 -flutter_damping 1,2");
-  EXPECT_EQ(grid.steady.size(), 8U);  // damping does not change them
+  EXPECT_EQ(grid.steady.solutions.size(), 8U);  // damping does not change them
   const auto points = grid.sweep.points();
   ASSERT_EQ(points.size(), 16U);
   for (const auto& at : points) ASSERT_NE(grid.pointAt(at), nullptr) << sweep::parameterText(at);

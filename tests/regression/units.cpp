@@ -32,7 +32,7 @@ PetscReal largestDisplacement(const Analysis& run, std::size_t point) {
 /// Collective. Checks that a run in mm, t, s is the run in m, kg, s.
 void expectTheSame(const Analysis& metres, const Analysis& millimetres) {
   ASSERT_TRUE(metres.converged() && millimetres.converged());
-  ASSERT_EQ(metres.mesh->totalNodes, millimetres.mesh->totalNodes);
+  ASSERT_EQ(metres.model.mesh->totalNodes, millimetres.mesh->totalNodes);
   const auto points = metres.sweep.points();
   bool grows = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -45,8 +45,8 @@ void expectTheSame(const Analysis& metres, const Analysis& millimetres) {
       EXPECT_EQ(a->eigenvalues[k].certified, b->eigenvalues[k].certified);
   }
   EXPECT_TRUE(grows) << "a case that shows little";
-  for (std::size_t i = 0; i < metres.steady.size(); ++i) {
-    const auto &a = metres.steady[i], &b = millimetres.steady[i];
+  for (std::size_t i = 0; i < metres.steady.solutions.size(); ++i) {
+    const auto &a = metres.steady.solutions[i], &b = millimetres.steady[i];
     const double u = largestDisplacement(metres, i);
     EXPECT_GT(u, 0);
     EXPECT_NEAR(largestDisplacement(millimetres, i), 1e3 * u, 1e3 * u * asNear);

@@ -56,21 +56,23 @@ struct Condensed {
 
 /// On one rank. From the program's own matrices, by other algebra than its solver's.
 inline Condensed condensed(const analysis::Analysis& analysis, double friction) {
-  const std::vector<unsigned char> all(analysis.contact.interfaces.nodes.size(), 1);
-  const auto transformation = analysis.contact.transformation(contact::ActiveSet::open(all.size()));
+  const std::vector<unsigned char> all(analysis.model.contact.interfaces.nodes.size(), 1);
+  const auto transformation =
+      analysis.model.contact.transformation(contact::ActiveSet::open(all.size()));
   const auto stiffness =
-      contact::project(analysis.contact, transformation, analysis.bodies.stiffness);
-  const OwnedMat rows =
-      analysis.contact.slipRowsAt(transformation, analysis.contact.slip(1, nullptr), all, friction);
+      contact::project(analysis.model.contact, transformation, analysis.model.bodies.stiffness);
+  const OwnedMat rows = analysis.model.contact.slipRowsAt(
+      transformation, analysis.model.contact.slip(1, nullptr), all, friction);
   const OwnedMat jacobian = stiffness.tested(rows);
-  const OwnedVec residual = elasticity::nodalVector(*analysis.mesh),
-                 reactions = elasticity::nodalVector(*analysis.mesh);
+  const OwnedVec residual = elasticity::nodalVector(*analysis.model.mesh),
+                 reactions = elasticity::nodalVector(*analysis.model.mesh);
   OwnedVec constant, slope;
   check(MatCreateVecs(jacobian, constant.out(), slope.out()));
-  check(MatMult(analysis.bodies.stiffness, analysis.contact.kinematics.offset, residual));
-  check(VecAXPY(residual, -1, analysis.bodies.load));
+  check(
+      MatMult(analysis.model.bodies.stiffness, analysis.model.contact.kinematics.offset, residual));
+  check(VecAXPY(residual, -1, analysis.model.bodies.load));
   check(MatMultTranspose(transformation.trial, residual, constant));
-  check(MatMult(analysis.contact.sliding.reaction, residual, reactions));
+  check(MatMult(analysis.model.contact.sliding.reaction, residual, reactions));
   check(MatMultTranspose(rows, reactions, slope));
   check(VecAXPY(constant, 1, slope));
 

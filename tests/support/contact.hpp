@@ -27,13 +27,13 @@ struct Violations {
 /// of a rigid obstacle.
 inline Violations violations(const analysis::Analysis& analysis, const steady::Solution& solution,
                              double obstacle = 0) {
-  const auto& mesh = *analysis.mesh;
-  const auto& contact = analysis.contact;
+  const auto& mesh = *analysis.model.mesh;
+  const auto& contact = analysis.model.contact;
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
   const auto u = allEntries(solution.displacement);
   const OwnedVec rest = elasticity::nodalVector(mesh);  // K u − b − contact forces
-  check(MatMult(analysis.bodies.stiffness, solution.displacement, rest));
-  check(VecAXPY(rest, -1, analysis.bodies.load));
+  check(MatMult(analysis.model.bodies.stiffness, solution.displacement, rest));
+  check(VecAXPY(rest, -1, analysis.model.bodies.load));
   double force = 0, length = 0;
   for (const auto& state : solution.contact)
     force = worse(force, std::abs(state.normalForce)), length = worse(length, std::abs(state.gap));
@@ -98,7 +98,7 @@ inline Transmitted transmitted(const analysis::Analysis& analysis,
     sums.normal += solution.contact[i].normalForce;
     sums.friction += solution.contact[i].frictionForce[0];
     sums.centre +=
-        solution.contact[i].normalForce * analysis.contact.interfaces.nodes[i].position[0];
+        solution.contact[i].normalForce * analysis.model.contact.interfaces.nodes[i].position[0];
   }
   sums.normal = total(sums.normal), sums.friction = total(sums.friction),
   sums.centre = total(sums.centre) / sums.normal;

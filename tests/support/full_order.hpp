@@ -26,7 +26,7 @@ inline const Lists& fullOrder(const std::string& name, const std::string& change
   if (!lists.empty()) return lists;
   const analysis::Analysis analysis =
       runCase(name, changes + " -flutter_method direct -flutter_direct_count 80");
-  for (const auto& point : analysis.segments.at(0).points) {
+  for (const auto& point : analysis.flutter.segments.at(0).points) {
     EXPECT_LT(point.worstBackwardError(),
               1e-12);  // at the far end, where the Krylov space ends; a thousandth of it lower down
     lists.push_back(eigenvaluesOf(point));

@@ -22,7 +22,6 @@
 #include "model/mesh/vector.hpp"
 #include "model/ties/ties.hpp"
 #include "run/analysis/analysis.hpp"
-#include "run/analysis/mesh_route.hpp"
 #include "run/analysis/model_settings.hpp"
 
 namespace squeal::test {

@@ -23,9 +23,9 @@ struct MeshErrors {
 inline MeshErrors nonMatchingErrors(const std::string& name, const std::string& options,
                                     const std::vector<Complex>& exact) {
   const analysis::Analysis analysis = runCase(name, options);
-  EXPECT_FALSE(analysis.contact.interfaces.reports.at(0).matching);
+  EXPECT_FALSE(analysis.model.contact.interfaces.reports.at(0).matching);
   EXPECT_TRUE(analysis.converged());
-  const Errors found = errors(exact, eigenvaluesOf(analysis.segments.at(0).points.at(0)));
+  const Errors found = errors(exact, eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0)));
   const MeshErrors means{rootMeanSquare(found.frequency), rootMeanSquare(found.growth)};
   print("%s %s: frequency %.2e, growth rate %.2e\n", name.c_str(), options.c_str(), means.frequency,
         means.growth);

@@ -61,7 +61,7 @@ inline analysis::Analysis run(const Configuration& model, const std::string& par
 }
 
 inline Complex nearest(const analysis::Analysis& analysis, Complex s) {
-  return matched({s}, eigenvaluesOf(analysis.segments.at(0).points.at(0)))[0];
+  return matched({s}, eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0)))[0];
 }
 
 /// uᴴ A u of a symmetric A; zero for none.
@@ -74,8 +74,9 @@ inline double hermitian(Mat a, const pencil::Shape& shape) {
 /// Exact for an eigenpair: errors are those of the eigenvector, backward errors of 1e-9 and less
 /// times a power of the condition.
 inline void expectBalance(const analysis::Analysis& analysis, const pencil::ComplexModes& point) {
-  const auto& bodies = analysis.bodies;
-  const OwnedMat prestress = steady::prestressOf(*analysis.mesh, bodies, analysis.steady.at(0));
+  const auto& bodies = analysis.model.bodies;
+  const OwnedMat prestress =
+      steady::prestressOf(*analysis.model.mesh, bodies, analysis.steady.solutions.at(0));
   for (const auto& shape : point.shapes) {
     const Complex s = point.eigenvalues[shape.index].s;
     const double energy =
@@ -100,17 +101,17 @@ inline void expectBalance(const analysis::Analysis& analysis, const pencil::Comp
 /// order of 10 to 100 |s|; rounding of the eigenvalues, 1e-13 |s|, over the step. The active set
 /// must not change meanwhile.
 inline void expectDifferences(const Configuration& model, const analysis::Analysis& analysis) {
-  const auto& segment = analysis.segments.at(0);
+  const auto& segment = analysis.flutter.segments.at(0);
   const auto& point = segment.points.at(0);
   EXPECT_GE(point.shapes.size(), 1u);
   EXPECT_EQ(point.sensitivities.size(), point.shapes.size());
   if (point.sensitivities.empty()) return;
   const auto& first = point.sensitivities[0].derivatives;
-  EXPECT_EQ(first.size(), analysis.mesh ? 4 + 2 * model.materials.size()
-                                        : 3);  // no pressure on matrices from files
+  EXPECT_EQ(first.size(), analysis.model.mesh ? 4 + 2 * model.materials.size()
+                                              : 3);  // no pressure on matrices from files
   for (std::size_t p = 0; p < first.size(); ++p) {
     const std::string name = first[p].parameter;
-    const bool idle = name == "damping" && analysis.mesh && !analysis.bodies.damping;
+    const bool idle = name == "damping" && analysis.model.mesh && !analysis.model.bodies.damping;
     const double value = name == "friction" ? model.friction : 1, h = 4e-5 * value;
     std::vector<analysis::Analysis> runs;
     for (const double sign : {-1.0, 1.0})

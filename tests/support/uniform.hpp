@@ -19,7 +19,7 @@ inline constexpr double depth = 0.01;  // by which the case files press
 template <class Exact>
 double displacementError(const analysis::Analysis& analysis, const steady::Solution& solution,
                          const Exact& exact) {
-  const auto& mesh = *analysis.mesh;
+  const auto& mesh = *analysis.model.mesh;
   const PetscScalar* values = nullptr;
   double error = 0, scale = 0;
   check(VecGetArrayRead(solution.displacement, &values));
@@ -59,7 +59,7 @@ inline void expectUniformPressure(const analysis::Analysis& analysis,
               1e-10 * pressure * area);
   EXPECT_NEAR(solution.resultants[0].frictionForce[0],
               sense * solution.at.friction * pressure * area, 1e-10 * pressure * area);
-  EXPECT_GT(analysis.contact.interfaces.totalNodes, 0);
+  EXPECT_GT(analysis.model.contact.interfaces.totalNodes, 0);
 }
 
 }  // namespace squeal::test

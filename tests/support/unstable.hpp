@@ -17,10 +17,10 @@ inline std::vector<Complex> unstable(const std::string& mesh, const std::string&
   const analysis::Analysis analysis =
       runCase("disc_brake", "-flutter_friction 0.4 -mesh_set " + mesh + options);
   EXPECT_TRUE(analysis.converged());
-  EXPECT_EQ(analysis.contact.interfaces.reports.at(0).matching,
+  EXPECT_EQ(analysis.model.contact.interfaces.reports.at(0).matching,
             mesh.find("apart=1") == std::string::npos);
   std::vector<Complex> found;
-  for (Complex s : eigenvaluesOf(analysis.segments.at(0).points.at(0)))
+  for (Complex s : eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0)))
     if (s.real() > 1) found.push_back(s);  // 1/s: others are stable within round-off
   print("%s%s\n", mesh.c_str(), options.c_str());
   for (Complex s : found) print("  %.2f Hz, %.2f 1/s\n", s.imag() / (2 * M_PI), s.real());

@@ -73,9 +73,9 @@ void expectFourthOrder(bool full) {
     const analysis::Analysis analysis = runCase(
         "two_layers_antiplane", std::string("-flutter_friction 0.1,0.3 -motion_convective ") +
                                     (full ? "on" : "off") + reduced + (level == 0 ? coarse : fine));
-    ASSERT_NEAR(analysis.steady.at(0).smallestPressure, antiplane::pressure,
+    ASSERT_NEAR(analysis.steady.solutions.at(0).smallestPressure, antiplane::pressure,
                 1e-10 * antiplane::pressure);
-    for (const auto& point : analysis.segments.at(0).points) {
+    for (const auto& point : analysis.flutter.segments.at(0).points) {
       found[level].push_back(errors(exactAt(point.at.friction, full), eigenvaluesOf(point)));
       const Errors& last = found[level].back();
       print(
@@ -108,7 +108,7 @@ void expectFourthOrderOf(const std::string& cells, const std::vector<std::string
         runCase("two_layers_antiplane",
                 "-flutter_friction 0.3 -modes_count 60 -mesh_set order=2," + cells + mesh);
     found.push_back(errors(exactValues(antiplane::friction03, 8),
-                           eigenvaluesOf(analysis.segments.at(0).points.at(0))));
+                           eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0))));
     print("%s%s: worst of 8 anti-plane waves: %.1e, growth rate %.1e\n", cells.c_str(),
           mesh.c_str(), worst(found.back().relative), worst(found.back().growth));
   }
@@ -146,7 +146,7 @@ TEST(Antiplane, AnotherSpeedAndThickness) {
                                           " -motion_disc_velocity 0.12,0,0"
                                           " -constraint_pad_top_displacement 0,-0.03,0" +
                                           direct);
-  expectSpectrum(eigenvaluesOf(analysis.segments.at(0).points.at(0)),
+  expectSpectrum(eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0)),
                  families({.friction = friction,
                            .across = friction * pressure / speed,
                            .carried = speed,
@@ -160,7 +160,7 @@ TEST(Antiplane, FrictionFallsWithSpeed) {
   const double friction = 0.2, speed = antiplane::velocity, pressure = antiplane::pressure;
   const analysis::Analysis analysis =
       runCase("two_layers_antiplane", medium + " -flutter_friction 0.2" + law.options() + direct);
-  expectSpectrum(eigenvaluesOf(analysis.segments.at(0).points.at(0)),
+  expectSpectrum(eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0)),
                  families({.friction = friction * law.value(speed),
                            .along = friction * law.slope(speed) * pressure,
                            .across = friction * law.value(speed) * pressure / speed}),
@@ -179,8 +179,8 @@ TEST(Antiplane, TangentOfTheFrictionLaw) {
     const analysis::Analysis curve = runCase("two_layers_antiplane", common + law.options());
     const analysis::Analysis tangent =
         runCase("two_layers_antiplane", common + law.tangentOptions(antiplane::velocity));
-    const double difference = worst(errors(eigenvaluesOf(curve.segments.at(0).points.at(0)),
-                                           eigenvaluesOf(tangent.segments.at(0).points.at(0)))
+    const double difference = worst(errors(eigenvaluesOf(curve.flutter.segments.at(0).points.at(0)),
+                                           eigenvaluesOf(tangent.flutter.segments.at(0).points.at(0)))
                                         .relative);
     print("table with the same tangent, convective terms %s: %.1e\n", convective, difference);
     EXPECT_LT(difference, 1e-8);
@@ -192,7 +192,7 @@ TEST(Antiplane, NoDampingWhereItIsOff) {
   const analysis::Analysis analysis =
       runCase("two_layers_antiplane",
               coarse + " -flutter_friction 0.3 -flutter_friction_damping off" + direct);
-  const auto found = eigenvaluesOf(analysis.segments.at(0).points.at(0));
+  const auto found = eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0));
   auto undamped = rootsNear(found, {families({.friction = 0.3})[1]}, 4);
   std::erase_if(undamped, [](Complex s) { return std::abs(s) > 4; });
   ASSERT_GE(undamped.size(), 15U);

@@ -21,7 +21,7 @@ analysis::Analysis run(const std::string& changes) {
 }
 
 const std::vector<stability::Critical>& criticals(const analysis::Analysis& analysis) {
-  return analysis.segments.at(0).followed.at(0).criticals;
+  return analysis.flutter.segments.at(0).followed.at(0).criticals;
 }
 
 // As the mesh of 9-node quadrilaterals is refined.
@@ -31,7 +31,7 @@ TEST(Critical, DampedLayersAgainstExactWaves) {
     const analysis::Analysis analysis =
         run("-mesh_set order=2,recombine=1,serendipity=0," + mesh +
             " -flutter_friction 0,0.05,0.1 -flutter_band 0.7 -modes_count 80");
-    const auto& followed = analysis.segments.at(0).followed.at(0);
+    const auto& followed = analysis.flutter.segments.at(0).followed.at(0);
     EXPECT_TRUE(followed.complete()) << followed.statement();
     errors.emplace_back();
     for (const auto& critical : followed.criticals) {
@@ -56,7 +56,7 @@ TEST(Track, HoldsTheEigenvaluesOfTheSweep) {
         run("-mesh_set nx=24,ny_disc=8,ny_pad=6 -flutter_friction 0,0.05,0.1 -modes_count 60 "
             "-material_disc_rayleigh_mass " +
             damping + " -material_pad_rayleigh_mass " + damping);
-    const auto& segment = analysis.segments.at(0);
+    const auto& segment = analysis.flutter.segments.at(0);
     const auto& followed = segment.followed.at(0);
     EXPECT_TRUE(followed.complete()) << followed.statement();
     EXPECT_EQ(followed.countExact, damping == "0");
@@ -94,7 +94,7 @@ TEST(Critical, IsThatOfAllUnknowns) {
         run(mesh + "-flutter_method direct -flutter_direct_count 40 -flutter_friction " +
             std::string(friction));
     double distance = INFINITY;
-    for (const Complex s : eigenvaluesOf(direct.segments.at(0).points.at(0)))
+    for (const Complex s : eigenvaluesOf(direct.flutter.segments.at(0).points.at(0)))
       distance = std::min(distance, std::abs(s - Complex(0, critical.angularFrequency)));
     print(
         "critical friction %.10f: error by all unknowns %.1e, estimated %.1e, backward error "

@@ -31,15 +31,15 @@ std::vector<Complex> lowest(const pencil::ComplexModes& point, double top) {
 TEST(Damped, DirectIsTheReducedProblemWithAllModes) {
   const analysis::Analysis direct =
       runCase("two_layers_antiplane", full + "-flutter_method direct -flutter_direct_count 40");
-  const auto unknowns = direct.segments.at(0).unknowns;
+  const auto unknowns = direct.flutter.segments.at(0).unknowns;
   const analysis::Analysis reduced =
       runCase("two_layers_antiplane",
               full + "-flutter_basis modal -modes_count " + std::to_string(unknowns));
-  const auto& found = direct.segments[0].points.at(0);
+  const auto& found = direct.flutter.segments[0].points.at(0);
   double top = 0;
   for (const auto& e : found.eigenvalues) top = worse(top, std::abs(e.s));
   top *= 1 - 1e-6;
-  const auto a = lowest(found, top), b = lowest(reduced.segments.at(0).points.at(0), top);
+  const auto a = lowest(found, top), b = lowest(reduced.flutter.segments.at(0).points.at(0), top);
   ASSERT_EQ(a.size(), b.size());
   EXPECT_GT(a.size(), 30U);
   const double worst = test::worst(errors(b, a).relative);
@@ -57,9 +57,9 @@ TEST(Damped, RayleighDampingHasAClosedForm) {
                               " -material_layer_rayleigh_stiffness " + std::to_string(beta);
   const analysis::Analysis undamped = runCase("layer", mesh + "-modes_count 40"),
                            damped = runCase("layer", mesh + "-modes_count 40 " + damping);
-  const auto& point = damped.segments.at(0).points.at(0);
+  const auto& point = damped.flutter.segments.at(0).points.at(0);
   std::vector<Complex> expected;
-  for (double w : undamped.segments.at(0).modes.angularFrequency)
+  for (double w : undamped.flutter.segments.at(0).modes.angularFrequency)
     if (const double c = alpha + beta * w * w; w <= point.bandTop)
       expected.push_back({-c / 2, std::sqrt(w * w - c * c / 4)});
   ASSERT_GT(expected.size(), 12U);
@@ -73,11 +73,11 @@ TEST(Damped, LossFactorHoldsAtItsFrequency) {
   const double eta = 0.03;
   const std::string mesh = "-mesh_set nx=8,ny=4 -flutter_friction 0 -modes_count 40 ";
   const analysis::Analysis undamped = runCase("layer", mesh);
-  const double w = undamped.segments.at(0).modes.angularFrequency[4];
+  const double w = undamped.flutter.segments.at(0).modes.angularFrequency[4];
   const analysis::Analysis damped =
       runCase("layer", mesh + "-material_layer_loss_factor 0.03 -material_layer_loss_frequency " +
                            shortest(w / (2 * M_PI)));
-  const auto& eigenvalues = damped.segments.at(0).points.at(0).eigenvalues;
+  const auto& eigenvalues = damped.flutter.segments.at(0).points.at(0).eigenvalues;
   EXPECT_GT(eigenvalues.size(), 12U);
   for (const auto& e : eigenvalues)
     EXPECT_NEAR(-2 * e.s.real() / std::abs(e.s), eta * std::abs(e.s) / w, 1e-8);
@@ -89,8 +89,8 @@ TEST(Damped, ModalRatios) {
       runCase("layer",
               "-mesh_set nx=8,ny=4 -flutter_friction 0 -modes_count 40 -flutter_modal_damping "
               "0.01,0.03,0.002");
-  const auto& point = analysis.segments.at(0).points.at(0);
-  const auto& modes = analysis.segments[0].modes.angularFrequency;
+  const auto& point = analysis.flutter.segments.at(0).points.at(0);
+  const auto& modes = analysis.flutter.segments[0].modes.angularFrequency;
   std::vector<Complex> expected;
   for (std::size_t i = 0; i < modes.size() && modes[i] <= point.bandTop; ++i) {
     const double zeta = i == 0 ? 0.01 : i == 1 ? 0.03 : 0.002;
@@ -109,11 +109,11 @@ TEST(Damped, FrictionDampingDominatesAtVanishingSpeed) {
       runCase("two_layers_antiplane",
               "-mesh_set nx=6,ny_disc=3,ny_pad=2,order=2 -modes_count 60 -flutter_friction 0.3 "
               "-flutter_speed 0.001,0.002");
-  ASSERT_EQ(analysis.segments.size(), 1U);
+  ASSERT_EQ(analysis.flutter.segments.size(), 1U);
   // The lowest anti-plane mode with k = 0: layers of modulus μ, joined.
   const auto growthNear = [&](std::size_t index, double frequency) {
     double distance = INFINITY, growth = 0;
-    for (const auto& e : analysis.segments[0].points.at(index).eigenvalues)
+    for (const auto& e : analysis.flutter.segments[0].points.at(index).eigenvalues)
       if (std::abs(e.s.imag() - frequency) < distance)
         distance = std::abs(e.s.imag() - frequency), growth = e.s.real();
     EXPECT_LT(distance, 0.01);
@@ -152,14 +152,14 @@ TEST(Prestress, OfASweepIsThatOfEachFriction) {
       if (std::abs(e.s) < 3.5) list.push_back(e.s);
     return list;
   };
-  const auto& points = sweep.segments.at(0).points;
-  const auto one = inBand(single.segments.at(0).points.at(0)), other = inBand(points.at(1));
+  const auto& points = sweep.flutter.segments.at(0).points;
+  const auto one = inBand(single.flutter.segments.at(0).points.at(0)), other = inBand(points.at(1));
   ASSERT_GT(points[1].bandTop, 3.5);
   ASSERT_EQ(one.size(), other.size());
   EXPECT_GT(one.size(), 10U);
   const double difference = worst(errors(one, other).relative),
-               effect = std::abs(slack.segments.at(0).modes.angularFrequency[5] /
-                                     single.segments[0].modes.angularFrequency[5] -
+               effect = std::abs(slack.flutter.segments.at(0).modes.angularFrequency[5] /
+                                     single.flutter.segments[0].modes.angularFrequency[5] -
                                  1);
   print("prestress: sweep against single friction %.1e; effect of the stress %.1e\n", difference,
         effect);

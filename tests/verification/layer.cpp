@@ -50,8 +50,8 @@ void expectAccurate(const pencil::ComplexModes& point, const char* method) {
 // modes.
 TEST(Layer, CaseFile) {
   const analysis::Analysis analysis = runCase("layer");
-  ASSERT_EQ(analysis.segments.size(), 1U);
-  const auto& segment = analysis.segments[0];
+  ASSERT_EQ(analysis.flutter.segments.size(), 1U);
+  const auto& segment = analysis.flutter.segments[0];
   EXPECT_EQ(segment.unknowns, 828);
   EXPECT_EQ(segment.openNodes, 0);
   EXPECT_TRUE(segment.modes.countConfirmed);
@@ -69,16 +69,16 @@ TEST(Layer, CaseFile) {
 TEST(Layer, FullOrder) {
   const analysis::Analysis analysis = runCase(
       "layer", "-flutter_method direct -flutter_direct_count 60 -flutter_friction 0.2,0.4,0.6");
-  ASSERT_EQ(analysis.segments.size(), 1U);
-  ASSERT_EQ(analysis.segments[0].points.size(), 3U);
-  for (const auto& point : analysis.segments[0].points) expectAccurate(point, "full order");
+  ASSERT_EQ(analysis.flutter.segments.size(), 1U);
+  ASSERT_EQ(analysis.flutter.segments[0].points.size(), 3U);
+  for (const auto& point : analysis.flutter.segments[0].points) expectAccurate(point, "full order");
 }
 
 // The exact frequencies of +n and −n are equal, and the periodic mesh of equal cells keeps the
 // symmetry: equal to rounding in the eigensolver.
 TEST(Layer, DoubleModesAreDouble) {
   const analysis::Analysis analysis = runCase("layer", "-flutter_friction 0 -modes_count 90");
-  const auto match = matched(exactAt(0), eigenvaluesOf(analysis.segments.at(0).modes));
+  const auto match = matched(exactAt(0), eigenvaluesOf(analysis.flutter.segments.at(0).modes));
   int doubles = 0;
   for (std::size_t i = 0; i + 1 < one_layer::frictionless.size(); ++i) {
     const auto &one = one_layer::frictionless[i], &other = one_layer::frictionless[i + 1];
@@ -104,7 +104,7 @@ TEST(Layer, SecondOrderWithConsistentMass) {
         "layer",
         std::string("-mesh_set ") + cells +
             " -elasticity_mass consistent -modes_count 40 -modes_sturm 0 -flutter_friction 0");
-    const auto& found = analysis.segments.at(0).modes.angularFrequency;
+    const auto& found = analysis.flutter.segments.at(0).modes.angularFrequency;
     above.emplace_back();
     for (std::size_t i = 0; i < count; ++i) {
       above.back().push_back(found.at(i) / one_layer::frictionless[i].im - 1);
@@ -128,7 +128,7 @@ void expectFourthOrder(const std::string& element) {
                              " -elasticity_mass consistent -flutter_method direct "
                              "-flutter_direct_count 24 -flutter_friction 0.4");
     found.push_back(errors(exactValues(one_layer::friction04, 12),
-                           eigenvaluesOf(analysis.segments.at(0).points.at(0))));
+                           eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0))));
     print("%s, f = 0.4, worst of the first 12: |s - s*|/|s*| %.1e, growth rate %.1e\n", cells,
           worst(found.back().relative), worst(found.back().growth));
   }
@@ -146,16 +146,16 @@ TEST(Layer, AllModesGiveTheFullOrderProblem) {
   const analysis::Analysis direct =
       runCase("layer", coarse + "-flutter_method direct -flutter_direct_count 84");
   const analysis::Analysis reduced = runCase("layer", coarse + "-modes_count 84");
-  ASSERT_EQ(direct.segments.at(0).unknowns, 84);
+  ASSERT_EQ(direct.flutter.segments.at(0).unknowns, 84);
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto& point = reduced.segments.at(0).points.at(i);
-    const auto wanted = eigenvaluesOf(direct.segments.at(0).points.at(i));
+    const auto& point = reduced.flutter.segments.at(0).points.at(i);
+    const auto wanted = eigenvaluesOf(direct.flutter.segments.at(0).points.at(i));
     ASSERT_EQ(wanted.size(), 84U);
     ASSERT_EQ(point.eigenvalues.size(), 84U);
     const Errors found = errors(wanted, eigenvaluesOf(point));
     print("f = %g, all 84 modes against full order: %.1e; backward errors %.1e and %.1e\n",
           point.at.friction, worst(found.relative), point.worstBackwardError(),
-          direct.segments[0].points[i].worstBackwardError());
+          direct.flutter.segments[0].points[i].worstBackwardError());
     EXPECT_LT(worst(found.relative), 1e-8);
   }
 }

@@ -49,10 +49,10 @@ TEST(MovingLayers, TablesSolveTheCharacteristicEquation) {
 // wavelengths.
 TEST(MovingLayers, CaseFile) {
   const analysis::Analysis analysis = runCase("two_layers_moving");
-  ASSERT_EQ(analysis.segments.size(), 1U);
-  EXPECT_EQ(analysis.segments[0].openNodes, 0);
-  ASSERT_EQ(analysis.segments[0].points.size(), 4U);
-  for (const auto& point : analysis.segments[0].points) {
+  ASSERT_EQ(analysis.flutter.segments.size(), 1U);
+  EXPECT_EQ(analysis.flutter.segments[0].openNodes, 0);
+  ASSERT_EQ(analysis.flutter.segments[0].points.size(), 4U);
+  for (const auto& point : analysis.flutter.segments[0].points) {
     const Errors found = errors(exactAt(point.at.friction), eigenvaluesOf(point));
     print("f = %g, 120 modes, worst of the first 20: |s - s*|/|s*| %.1e, growth rate %.1e\n",
           point.at.friction, worst(found.relative), worst(found.growth));
@@ -68,7 +68,7 @@ TEST(MovingLayers, FourthOrder) {
   for (std::size_t level = 0; level < 2; ++level) {
     const analysis::Analysis analysis =
         runCase("two_layers_moving", direct(30) + (level == 0 ? coarse : fine));
-    for (const auto& point : analysis.segments.at(0).points) {
+    for (const auto& point : analysis.flutter.segments.at(0).points) {
       found[level].push_back(errors(exactAt(point.at.friction), eigenvaluesOf(point)));
       print("%s, f = %g, worst of the first 20: |s - s*|/|s*| %.1e, growth rate %.1e\n",
             level == 0 ? "coarse" : "fine", point.at.friction, worst(found[level].back().relative),
@@ -94,9 +94,9 @@ TEST(MovingLayers, ReducedProblemIsTheFullOne) {
   const std::string options = "-flutter_friction 0.5 -flutter_accuracy 1e-11" + coarse;
   const analysis::Analysis reduced = runCase("two_layers_moving", options + " -modes_count 80");
   const analysis::Analysis full = runCase("two_layers_moving", options + direct(30));
-  const auto& point = reduced.segments.at(0).points.at(0);
+  const auto& point = reduced.flutter.segments.at(0).points.at(0);
   ASSERT_GE(point.eigenvalues.size(), 25U);
-  auto wanted = eigenvaluesOf(full.segments.at(0).points.at(0));
+  auto wanted = eigenvaluesOf(full.flutter.segments.at(0).points.at(0));
   wanted.resize(20);
   const double difference = worst(errors(wanted, eigenvaluesOf(point)).relative);
   print("80 modes against full order: %.1e\n", difference);
@@ -108,7 +108,7 @@ TEST(MovingLayers, ReducedProblemIsTheFullOne) {
 void expectWaves(const std::string& options, const two_layers::Sliding& sliding,
                  const std::string& label) {
   const analysis::Analysis analysis = runCase("two_layers_moving", fine + options + direct(36));
-  expectSpectrum(eigenvaluesOf(analysis.segments.at(0).points.at(0)),
+  expectSpectrum(eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0)),
                  {[&](int n, Complex s) { return two_layers::characteristic(sliding, n, s); }},
                  1e-3, label);
 }

@@ -30,11 +30,11 @@ std::vector<Errors> fullOrder(const std::string& mesh, const std::string& option
       runCase("two_layers", options + " -mesh_set " + mesh +
                                 " -elasticity_mass consistent -flutter_friction 0.1,0.3,0.5"
                                 " -flutter_method direct -flutter_direct_count 24");
-  EXPECT_FALSE(analysis.contact.interfaces.reports.at(0).matching);
+  EXPECT_FALSE(analysis.model.contact.interfaces.reports.at(0).matching);
   std::vector<Errors> result;
   for (std::size_t i = 0; i < frictions.size(); ++i) {
     result.push_back(
-        errors(exactAt(frictions[i]), eigenvaluesOf(analysis.segments.at(0).points.at(i))));
+        errors(exactAt(frictions[i]), eigenvaluesOf(analysis.flutter.segments.at(0).points.at(i))));
     print("%s, f = %g: frequency %.1e, growth rate %.1e\n", mesh.c_str(), frictions[i],
           worst(result.back().frequency), worst(result.back().growth));
   }

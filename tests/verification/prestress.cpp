@@ -16,7 +16,7 @@ constexpr double young = 2, density = 1.7;
 std::vector<double> frequencies(const std::string& options, std::size_t count) {
   const auto analysis =
       test::runOptions(options + " -flutter_friction 0 -modes_count " + std::to_string(count));
-  return analysis.segments.at(0).modes.angularFrequency;
+  return analysis.flutter.segments.at(0).modes.angularFrequency;
 }
 
 // A strip between guides that hold u_x, stretched by 1 %, on a spring too soft to count. The

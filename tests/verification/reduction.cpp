@@ -25,7 +25,7 @@ void expectFullOrder(const std::string& name, const std::string& changes, std::s
   const auto& exact = fullOrder(name, changes);
   const analysis::Analysis reduced =
       runCase(name, changes + " -modes_count 60 -flutter_track off -flutter_basis " + method);
-  const auto& segment = reduced.segments.at(0);
+  const auto& segment = reduced.flutter.segments.at(0);
   ASSERT_EQ(segment.points.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const auto& point = segment.points[i];
@@ -57,7 +57,7 @@ void expectEstimated(const std::string& name, const std::string& changes) {
   const auto& exact = fullOrder(name, changes);
   const analysis::Analysis modal =
       runCase(name, changes + " -modes_count 60 -flutter_basis modal -flutter_track off");
-  const auto& points = modal.segments.at(0).points;
+  const auto& points = modal.flutter.segments.at(0).points;
   ASSERT_EQ(points.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
     std::vector<Complex> found;

@@ -28,12 +28,12 @@ const std::string small = "-mesh_set nx=6,ny_disc=3,ny_pad=2 ";
 /// Collective. Returns the largest difference of the forces of contact, relative to the largest.
 double forceDifference(const steady::Solution& a, const steady::Solution& b) {
   double difference = 0, size = 0;
-  for (std::size_t i = 0; i < a.contact.size(); ++i) {
-    size = worse(size, std::abs(a.contact[i].normalForce));
-    difference = worse(difference, std::abs(a.contact[i].normalForce - b.contact[i].normalForce));
+  for (std::size_t i = 0; i < a.model.contact.size(); ++i) {
+    size = worse(size, std::abs(a.model.contact[i].normalForce));
+    difference = worse(difference, std::abs(a.model.contact[i].normalForce - b.contact[i].normalForce));
     for (std::size_t d = 0; d < 3; ++d)
       difference = worse(difference,
-                         std::abs(a.contact[i].frictionForce[d] - b.contact[i].frictionForce[d]));
+                         std::abs(a.model.contact[i].frictionForce[d] - b.contact[i].frictionForce[d]));
   }
   return largest(difference) / largest(size);
 }
@@ -42,8 +42,8 @@ double forceDifference(const steady::Solution& a, const steady::Solution& b) {
 /// is the order of additions: eigenvalues of these matrices know some digits less than rounding.
 void expectSame(const analysis::Analysis& a, const analysis::Analysis& b, const std::string& what) {
   ASSERT_TRUE(a.converged() && b.converged()) << what;
-  const double force = forceDifference(a.steady.back(), b.steady.back());
-  const double eigenvalue = worst(errors(eigenvaluesOf(a.segments.back().points.back()),
+  const double force = forceDifference(a.steady.solutions.back(), b.steady.back());
+  const double eigenvalue = worst(errors(eigenvaluesOf(a.flutter.segments.back().points.back()),
                                          eigenvaluesOf(b.segments.back().points.back()))
                                       .relative);
   print("%s: forces differ by %.1e, eigenvalues by %.1e\n", what.c_str(), force, eigenvalue);
@@ -106,7 +106,7 @@ TEST(FixedFriction, HasTheSensitivitiesOfTheSweptOne) {
   const auto sensitivities = [](const std::string& friction) {
     const auto analysis = runOptions(slider::options(1, 0) + direct +
                                      "-flutter_sensitivities -flutter_shapes 3 " + friction);
-    return analysis.segments.at(0).points.at(0).sensitivities;
+    return analysis.flutter.segments.at(0).points.at(0).sensitivities;
   };
   const auto swept = sensitivities("-flutter_friction 0.3"),
              fixed = sensitivities("-contact_face_friction 0.3 -flutter_friction 0");
@@ -250,7 +250,7 @@ TEST(Sticking, TellsTheLeastFriction) {
     for (const double part : {0.9, 1.1}) {
       const double traction = layers.aside() / exact.shear, needed = traction / exact.pressure();
       const auto analysis = layers.run("-contact_interface_friction " + shortest(part * needed));
-      const auto& solution = analysis.steady.at(0);
+      const auto& solution = analysis.steady.solutions.at(0);
       ASSERT_TRUE(solution.converged) << solution.reason;
       const auto& resultant = solution.resultants.at(0);
       // Uniform strain is in the space of all elements, so that rounding of the solvers is left;
@@ -259,7 +259,7 @@ TEST(Sticking, TellsTheLeastFriction) {
       EXPECT_NEAR(dot(resultant.frictionForce, layers.pull()) / (traction * layers.area()), -1,
                   1e-9)
           << layers.mesh;
-      EXPECT_EQ(resultant.overLimit, part < 1 ? analysis.contact.interfaces.totalNodes : 0)
+      EXPECT_EQ(resultant.overLimit, part < 1 ? analysis.model.contact.interfaces.totalNodes : 0)
           << layers.mesh;
       EXPECT_EQ(resultant.released, 0);
       EXPECT_EQ(solution.revisions, 0);
@@ -274,26 +274,26 @@ TEST(Sticking, ReleasedNodesCarryTheirFriction) {
     const double friction = 0.7 * layers.aside() / exact.shear / exact.pressure();
     const auto analysis = layers.run("-contact_interface_friction " + shortest(friction) + direct +
                                      " -contact_interface_release on");
-    const auto& solution = analysis.steady.at(0);
+    const auto& solution = analysis.steady.solutions.at(0);
     ASSERT_TRUE(solution.converged) << solution.reason;
     const auto& resultant = solution.resultants.at(0);
     const double press = exact.pressure() * layers.area();
-    EXPECT_EQ(resultant.released, analysis.contact.interfaces.totalNodes) << layers.mesh;
+    EXPECT_EQ(resultant.released, analysis.model.contact.interfaces.totalNodes) << layers.mesh;
     EXPECT_NEAR(dot(resultant.frictionForce, layers.pull()) / (friction * press), -1, 1e-9)
         << layers.mesh;
     EXPECT_NEAR(resultant.normalForce[1] / press, 1, 1e-9) << layers.mesh;
     EXPECT_LT(solution.imbalance, 1e-10);
-    const OwnedVec jump = elasticity::nodalVector(*analysis.mesh);
-    check(MatMult(analysis.contact.sliding.jump, solution.displacement, jump));
+    const OwnedVec jump = elasticity::nodalVector(*analysis.model.mesh);
+    check(MatMult(analysis.model.contact.sliding.jump, solution.displacement, jump));
     const auto jumps = allEntries(jump);
     const double slid = layers.aside() - friction * exact.pressure() * exact.shear;
-    const int dimension = analysis.mesh->dimension;
-    for (const auto& node : analysis.contact.interfaces.nodes)
+    const int dimension = analysis.model.mesh->dimension;
+    for (const auto& node : analysis.model.contact.interfaces.nodes)
       EXPECT_NEAR(dot(at(jumps, node.globalNode, dimension), layers.pull()) / slid, 1, 1e-8)
           << layers.mesh;
     const auto smooth = layers.run(direct + "-contact_interface_role frictionless");
     EXPECT_LT(worst(errors(eigenvaluesOf(smooth.segments.at(0).points.at(0)),
-                           eigenvaluesOf(analysis.segments.at(0).points.at(0)))
+                           eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0)))
                         .relative),
               1e-9)
         << layers.mesh;
@@ -320,12 +320,13 @@ TEST(Sticking, WholeBlockSlides) {
               "-load_pad_left_pressure 0.005 -contact_interface_friction 0.1 "
               "-contact_interface_release on");
     const auto analysis = runOptions(options + "-ground_pad_top_stiffness 0.01,0");
-    const auto& solution = analysis.steady.at(0);
+    const auto& solution = analysis.steady.solutions.at(0);
     ASSERT_TRUE(solution.converged) << solution.reason;
     const auto& resultant = solution.resultants.at(0);
     print("%s: %d revisions, friction %.12f, imbalance %.1e\n", mesh.c_str(), solution.revisions,
           resultant.frictionForce[0] / 0.001, solution.imbalance);
-    EXPECT_EQ(resultant.released, analysis.contact.interfaces.totalNodes - solution.openNodes);
+    EXPECT_EQ(resultant.released,
+              analysis.model.contact.interfaces.totalNodes - solution.openNodes);
     EXPECT_NEAR(resultant.frictionForce[0], -0.1 * 0.01, 1e-12);
     EXPECT_NEAR(resultant.normalForce[1], 0.01, 1e-11);
     EXPECT_LT(solution.imbalance, 1e-10);
@@ -344,24 +345,25 @@ TEST(Sticking, PartOfABlockSlides) {
         runOptions(block(mesh,
                          "-load_pad_left_pressure 0.0025 -contact_interface_friction 0.12 "
                          "-contact_interface_release on"));
-    const auto& solution = analysis.steady.at(0);
+    const auto& solution = analysis.steady.solutions.at(0);
     ASSERT_TRUE(solution.converged) << solution.reason;
     const auto& resultant = solution.resultants.at(0);
     print("%s: %d of %d nodes slide, %d open, %d unheld, %d revisions, imbalance %.1e\n",
-          mesh.c_str(), int(resultant.released), int(analysis.contact.interfaces.totalNodes),
+          mesh.c_str(), int(resultant.released), int(analysis.model.contact.interfaces.totalNodes),
           int(solution.openNodes), int(resultant.unheld), solution.revisions, solution.imbalance);
     EXPECT_GT(resultant.released, 0);
-    EXPECT_LT(resultant.released, analysis.contact.interfaces.totalNodes - solution.openNodes);
+    EXPECT_LT(resultant.released,
+              analysis.model.contact.interfaces.totalNodes - solution.openNodes);
     EXPECT_EQ(resultant.overLimit, 0);
     EXPECT_NEAR(resultant.frictionForce[0], -0.4 * 0.0025, 1e-12);
     EXPECT_LT(solution.imbalance, 1e-10);
-    const OwnedVec jump = elasticity::nodalVector(*analysis.mesh);
-    check(MatMult(analysis.contact.sliding.jump, solution.displacement, jump));
+    const OwnedVec jump = elasticity::nodalVector(*analysis.model.mesh);
+    check(MatMult(analysis.model.contact.sliding.jump, solution.displacement, jump));
     const auto jumps = allEntries(jump);
     for (std::size_t i = 0; i < solution.contact.size(); ++i) {
       const auto& state = solution.contact[i];
-      const double slid =
-          jumps[2 * static_cast<std::size_t>(analysis.contact.interfaces.nodes[i].globalNode)];
+      const double slid = jumps[2 * static_cast<std::size_t>(
+                                        analysis.model.contact.interfaces.nodes[i].globalNode)];
       EXPECT_LE(std::abs(state.frictionForce[0]), 0.12 * state.normalForce + 1e-9) << mesh;
       EXPECT_LE(slid * state.frictionForce[0], 1e-15) << mesh;
       if (solution.sticking.holds[i] == steady::Hold::held) {
@@ -377,17 +379,17 @@ TEST(Sticking, OpenNodesAreFree) {
   for (const auto& mesh : blocks) {
     const auto analysis = runOptions(
         block(mesh, "-constraint_pad_top_clamped x -constraint_pad_top_displacement 0.04,0,0"));
-    const auto& solution = analysis.steady.at(0);
+    const auto& solution = analysis.steady.solutions.at(0);
     ASSERT_TRUE(solution.converged) << solution.reason;
     const Transmitted sums = transmitted(analysis, solution);
     double left = 0;
     for (std::size_t i = 0; i < solution.contact.size(); ++i) {
       const auto& state = solution.contact[i];
-      if (!solution.closed[i] && !analysis.contact.interfaces.gapBasis)
+      if (!solution.closed[i] && !analysis.model.contact.interfaces.gapBasis)
         left = worse(left, std::abs(state.frictionForce[0]));
     }
     print("%s: %d of %d nodes open, %d unheld, %d revisions, T/N %.4f, imbalance %.1e\n",
-          mesh.c_str(), int(solution.openNodes), int(analysis.contact.interfaces.totalNodes),
+          mesh.c_str(), int(solution.openNodes), int(analysis.model.contact.interfaces.totalNodes),
           int(solution.resultants.at(0).unheld), solution.revisions, sums.friction / sums.normal,
           solution.imbalance);
     EXPECT_GT(solution.openNodes, 0);

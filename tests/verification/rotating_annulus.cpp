@@ -210,9 +210,9 @@ TEST(Annulus, ProgramWithoutContact) {
        {"-flutter_method direct -flutter_direct_band 0,0.64 -flutter_direct_count 25",
         "-modes_count 50 -flutter_band 0.64"}) {
     const auto analysis = test::runOptions(turning(12, speed) + "-flutter_friction 0 " + method);
-    EXPECT_EQ(analysis.contact.interfaces.totalNodes, 0);
-    ASSERT_EQ(analysis.segments.size(), 1u);
-    auto found = test::eigenvaluesOf(analysis.segments[0].points.at(0));
+    EXPECT_EQ(analysis.model.contact.interfaces.totalNodes, 0);
+    ASSERT_EQ(analysis.flutter.segments.size(), 1u);
+    auto found = test::eigenvaluesOf(analysis.flutter.segments[0].points.at(0));
     std::erase_if(found, [](Complex s) { return s.imag() > top; });
     EXPECT_EQ(found.size(), exact.size()) << method;
     const double error = test::worst(test::errors(exact, found).relative);

@@ -22,14 +22,14 @@ void expectPlaneStrain(const std::string& mesh, const std::string& options) {
   const analysis::Analysis slab =
       runCase("layer", "-mesh_file meshes/layer_slab.geo -constraint_layer_clamped z -mesh_set " +
                            mesh + common);
-  EXPECT_EQ(slab.mesh->dimension, 3);
-  ASSERT_EQ(slab.segments.size(), 1U);
+  EXPECT_EQ(slab.model.mesh->dimension, 3);
+  ASSERT_EQ(slab.flutter.segments.size(), 1U);
   const double pressure = exact::one_layer::Steady{0.4, 0.01}.pressure();
-  EXPECT_NEAR(slab.steady.at(1).smallestPressure / pressure, 1, 1e-10);
+  EXPECT_NEAR(slab.steady.solutions.at(1).smallestPressure / pressure, 1, 1e-10);
   for (std::size_t i = 0; i < 2; ++i) {
-    auto wanted = eigenvaluesOf(plane.segments.at(0).points.at(i));
+    auto wanted = eigenvaluesOf(plane.flutter.segments.at(0).points.at(i));
     wanted.resize(30);
-    const auto& found = slab.segments[0].points.at(i);
+    const auto& found = slab.flutter.segments[0].points.at(i);
     const double difference = worst(errors(wanted, eigenvaluesOf(found)).relative);
     print("%s %s, f = %g: slab against plane %.1e\n", mesh.c_str(), options.c_str(),
           found.at.friction, difference);

@@ -23,8 +23,8 @@ const std::string steadyOnly = " -flutter_friction 0,0.3,0.6 -modes_count 1 -mod
 
 void expectLayer(const std::string& changes, double sense) {
   const analysis::Analysis analysis = runCase("layer", changes + steadyOnly);
-  ASSERT_EQ(analysis.steady.size(), 3U);
-  for (const auto& solution : analysis.steady) {
+  ASSERT_EQ(analysis.steady.solutions.size(), 3U);
+  for (const auto& solution : analysis.steady.solutions) {
     const exact::one_layer::Steady exact{solution.at.friction, depth};
     const double error =
         displacementError(analysis, solution, [&](const mesh::Point& x, const std::string&) {
@@ -49,8 +49,8 @@ TEST(Steady, PlateSlidingTheOtherWay) {
 
 void expectTwoLayers(const std::string& changes) {
   const analysis::Analysis analysis = runCase("two_layers", changes + steadyOnly);
-  ASSERT_EQ(analysis.steady.size(), 3U);
-  for (const auto& solution : analysis.steady) {
+  ASSERT_EQ(analysis.steady.solutions.size(), 3U);
+  for (const auto& solution : analysis.steady.solutions) {
     const exact::two_layers::Steady exact{solution.at.friction, depth};
     const double error =
         displacementError(analysis, solution, [&](const mesh::Point& x, const std::string& part) {
@@ -79,8 +79,8 @@ const std::string hex20 =
 
 TEST(Steady, ClosedSerendipityFaces) {
   const analysis::Analysis analysis = runCase("layer", hex20 + steadyOnly);
-  ASSERT_EQ(analysis.steady.size(), 3U);
-  for (const auto& solution : analysis.steady) {
+  ASSERT_EQ(analysis.steady.solutions.size(), 3U);
+  for (const auto& solution : analysis.steady.solutions) {
     const exact::one_layer::Steady exact{solution.at.friction, depth};
     const double error =
         displacementError(analysis, solution, [&](const mesh::Point& x, const std::string&) {
@@ -138,8 +138,8 @@ void expectPartlyOpen(const analysis::Analysis& analysis, const steady::Solution
       "f = %g: %d iterations, %d of %d nodes open, centre of pressure %.9f, equilibrium %.1e, "
       "imbalance %.1e\n",
       solution.at.friction, solution.iterations, static_cast<int>(solution.openNodes),
-      static_cast<int>(analysis.contact.interfaces.totalNodes), sums.centre, violation.equilibrium,
-      solution.imbalance);
+      static_cast<int>(analysis.model.contact.interfaces.totalNodes), sums.centre,
+      violation.equilibrium, solution.imbalance);
   EXPECT_LE(solution.iterations, 6);
   EXPECT_LT(violation.gap, 1e-12);
   EXPECT_LT(violation.penetration, 1e-12);
@@ -155,7 +155,7 @@ void expectPartlyOpen(const analysis::Analysis& analysis, const steady::Solution
 
   double lastClosed = 0, firstOpen = blockLength;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const double x = analysis.contact.interfaces.nodes[i].position[0];
+    const double x = analysis.model.contact.interfaces.nodes[i].position[0];
     if (solution.closed[i]) {
       lastClosed = std::max(lastClosed, x);
     } else {
@@ -170,29 +170,29 @@ void expectPartlyOpen(const analysis::Analysis& analysis, const steady::Solution
 
 TEST(Steady, BlockUnderPlateOpens) {
   const analysis::Analysis analysis = runOptions(plateOnBlock("0.35"));
-  ASSERT_EQ(analysis.steady.size(), 1U);
-  expectPartlyOpen(analysis, analysis.steady[0], 1);
+  ASSERT_EQ(analysis.steady.solutions.size(), 1U);
+  expectPartlyOpen(analysis, analysis.steady.solutions[0], 1);
 }
 
 TEST(Steady, BlockOnDiscOpens) {
   const analysis::Analysis analysis = runOptions(blockOnDisc("0.35"));
-  ASSERT_EQ(analysis.steady.size(), 1U);
-  expectPartlyOpen(analysis, analysis.steady[0], 0.8);
+  ASSERT_EQ(analysis.steady.solutions.size(), 1U);
+  expectPartlyOpen(analysis, analysis.steady.solutions[0], 0.8);
 }
 
 // At f = 0.6 the centre of pressure would lie outside the block: no solution exists, which is said,
 // and no flutter is computed there.
 TEST(Steady, TopplingBlockHasNoSolution) {
   const analysis::Analysis analysis = runOptions(plateOnBlock("0.3,0.35,0.6"));
-  ASSERT_EQ(analysis.steady.size(), 3U);
-  expectPartlyOpen(analysis, analysis.steady[0], 1);
-  expectPartlyOpen(analysis, analysis.steady[1], 1);
-  print("f = 0.6: %s after %d iterations\n", analysis.steady[2].reason.c_str(),
-        analysis.steady[2].iterations);
-  EXPECT_FALSE(analysis.steady[2].converged);
+  ASSERT_EQ(analysis.steady.solutions.size(), 3U);
+  expectPartlyOpen(analysis, analysis.steady.solutions[0], 1);
+  expectPartlyOpen(analysis, analysis.steady.solutions[1], 1);
+  print("f = 0.6: %s after %d iterations\n", analysis.steady.solutions[2].reason.c_str(),
+        analysis.steady.solutions[2].iterations);
+  EXPECT_FALSE(analysis.steady.solutions[2].converged);
   EXPECT_FALSE(analysis.converged());
   std::vector<double> solved;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points) solved.push_back(point.at.friction);
   EXPECT_EQ(solved, (std::vector<double>{0.3, 0.35}));
 }
@@ -203,16 +203,16 @@ TEST(Steady, SerendipityBlockOpens) {
   const analysis::Analysis analysis =
       runOptions(plateOnBlock("0.35", "nx=8,ny=8,order=2,serendipity=1,depth=1") +
                  " -mesh_file meshes/layer_slab.geo -constraint_layer_clamped z");
-  ASSERT_EQ(analysis.steady.size(), 1U);
-  expectPartlyOpen(analysis, analysis.steady[0], 1);
+  ASSERT_EQ(analysis.steady.solutions.size(), 1U);
+  expectPartlyOpen(analysis, analysis.steady.solutions[0], 1);
 }
 
 // The consistent forces of a pressure on 3-node edges are positive at the ends and in the middle:
 // quadratic cells are decided node by node in the plane.
 TEST(Steady, QuadraticBlockOpens) {
   const analysis::Analysis analysis = runOptions(plateOnBlock("0.35", "order=2,nx=8,ny=8"));
-  ASSERT_EQ(analysis.steady.size(), 1U);
-  expectPartlyOpen(analysis, analysis.steady[0], 1);
+  ASSERT_EQ(analysis.steady.solutions.size(), 1U);
+  expectPartlyOpen(analysis, analysis.steady.solutions[0], 1);
 }
 
 TEST(Steady, TwoInterfacesOnOneBody) {
@@ -229,12 +229,12 @@ TEST(Steady, TwoInterfacesOnOneBody) {
       "-contact_lower_obstacle_displacement 0,0.01,0 "
       "-modes_count 10 -flutter_friction 0,0.2");
   const double pressure = 0.7 / (1.3 * 0.4) * 0.02;  // E (1 − ν) / ((1 + ν)(1 − 2ν)) |ε|
-  ASSERT_EQ(analysis.steady.size(), 2U);
+  ASSERT_EQ(analysis.steady.solutions.size(), 2U);
   double error = 0;
-  for (const auto& state : analysis.steady[0].contact)
+  for (const auto& state : analysis.steady.solutions[0].contact)
     error = test::worse(error, std::abs(state.pressure / pressure - 1));
   EXPECT_LT(largest(error), 1e-10);  // rounding of a direct solve
-  for (const auto& solution : analysis.steady) {
+  for (const auto& solution : analysis.steady.solutions) {
     ASSERT_EQ(solution.resultants.size(), 2U);
     EXPECT_LT(solution.imbalance, 1e-10);
     const auto &lower = solution.resultants[0], &upper = solution.resultants[1];

@@ -171,7 +171,7 @@ std::vector<Complex> spectrum(const std::string& options) {
               "-mesh_set nx=12,nx_pad=18,ny_disc=4,ny_pad=4 -flutter_method direct "
               "-flutter_direct_count 20 " +
                   options);
-  return eigenvaluesOf(analysis.segments.at(0).points.at(0));
+  return eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0));
 }
 
 // Closed contact that sticks is a tie; without friction it is sliding at f = 0; a factor is one on

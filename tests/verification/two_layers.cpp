@@ -38,10 +38,10 @@ TEST(TwoLayers, TablesSolveTheCharacteristicEquation) {
 // bounds: 1 % in |s|, 0.01 in growth rate.
 TEST(TwoLayers, CaseFile) {
   const analysis::Analysis analysis = runCase("two_layers");
-  ASSERT_EQ(analysis.segments.size(), 1U);
-  EXPECT_EQ(analysis.segments[0].openNodes, 0);
-  ASSERT_EQ(analysis.segments[0].points.size(), 4U);
-  for (const auto& point : analysis.segments[0].points) {
+  ASSERT_EQ(analysis.flutter.segments.size(), 1U);
+  EXPECT_EQ(analysis.flutter.segments[0].openNodes, 0);
+  ASSERT_EQ(analysis.flutter.segments[0].points.size(), 4U);
+  for (const auto& point : analysis.flutter.segments[0].points) {
     if (point.at.friction == 0) continue;
     const Errors found = errors(exactAt(point.at.friction, 30), eigenvaluesOf(point));
     print("f = %g, 200 modes: worst of the first 30: |s| %.3f %%, growth rate %.4f\n",
@@ -60,8 +60,8 @@ std::vector<Errors> fullOrder(const std::string& mesh, std::size_t count) {
                   " -flutter_method direct -flutter_direct_count " + std::to_string(count + 12));
   std::vector<Errors> result;
   for (std::size_t i = 0; i < frictions.size(); ++i) {
-    result.push_back(
-        errors(exactAt(frictions[i], count), eigenvaluesOf(analysis.segments.at(0).points.at(i))));
+    result.push_back(errors(exactAt(frictions[i], count),
+                            eigenvaluesOf(analysis.flutter.segments.at(0).points.at(i))));
     print("%s, f = %g, worst of the first %zu: frequency %.1e, growth rate %.1e\n", mesh.c_str(),
           frictions[i], count, worst(result.back().frequency), worst(result.back().growth));
   }
@@ -113,9 +113,9 @@ TEST(TwoLayers, SharedInterfaceNodes) {
       "nx=12,ny_disc=4,ny_pad=3";
   const analysis::Analysis twofold = runCase("two_layers", options),
                            shared = runCase("two_layers", options + ",shared=1");
-  const auto wanted = eigenvaluesOf(twofold.segments.at(0).points.at(0));
+  const auto wanted = eigenvaluesOf(twofold.flutter.segments.at(0).points.at(0));
   const double difference =
-      worst(errors(wanted, eigenvaluesOf(shared.segments.at(0).points.at(0))).relative);
+      worst(errors(wanted, eigenvaluesOf(shared.flutter.segments.at(0).points.at(0))).relative);
   print("shared against twofold interface nodes: %.1e\n", difference);
   EXPECT_LT(difference, 1e-9);
 }

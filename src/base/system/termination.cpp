@@ -203,6 +203,13 @@ void stopIfAsked(MPI_Comm comm) {
   if (mpi::any(comm, stop)) throw Interrupted();
 }
 
+bool completed(const std::function<void()>& work) try {
+  work();
+  return true;
+} catch (const Interrupted&) {
+  return false;
+}
+
 void workApart(MPI_Comm comm, const std::function<void(const StopAsked& asked)>& work) {
   SharedStop shared(comm);
   std::string failure;

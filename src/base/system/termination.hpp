@@ -50,6 +50,9 @@ bool stopAsked();
 /// Collective. Throws Interrupted on all ranks once one of them has been asked to stop.
 void stopIfAsked(MPI_Comm comm);
 
+/// Returns false if the work throws Interrupted. Its results so far remain.
+bool completed(const std::function<void()>& work);
+
 /// Returns true once a rank has been asked to stop.
 using StopAsked = std::function<bool()>;
 

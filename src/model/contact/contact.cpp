@@ -105,12 +105,7 @@ std::vector<double> Contact::nodalGap(const std::vector<double>& gap) const {
 }
 
 std::vector<int> Contact::frictionExponents() const {
-  std::vector<int> exponents;
-  for (const int exponent : {0, 1})
-    if (std::any_of(interfaces.options.begin(), interfaces.options.end(),
-                    [&](const auto& one) { return one.friction.part(exponent) > 0; }))
-      exponents.push_back(exponent);
-  return exponents;
+  return interfaces::frictionExponents(interfaces.options);
 }
 
 bool Contact::hasSticking() const {

@@ -202,6 +202,15 @@ const InterfaceSettings& Settings::interface(const std::string& label) const {
   return *found;
 }
 
+std::vector<int> frictionExponents(const std::vector<InterfaceSettings>& interfaces) {
+  std::vector<int> exponents;
+  for (const int exponent : {0, 1})
+    if (std::ranges::any_of(interfaces,
+                            [&](const auto& one) { return one.friction.part(exponent) > 0; }))
+      exponents.push_back(exponent);
+  return exponents;
+}
+
 std::vector<mesh::GroupRequest> clampedGroups(const Settings& settings) {
   std::vector<mesh::GroupRequest> requests;
   for (const auto& [group, clamp] : settings.clamps)

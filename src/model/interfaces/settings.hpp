@@ -80,6 +80,10 @@ struct Settings {
   const InterfaceSettings& interface(const std::string& label) const;
 };
 
+/// Returns the powers of the swept friction in the coefficients of the interfaces: 0 where one has
+/// a fixed part, 1 where one has a swept part; ascending.
+std::vector<int> frictionExponents(const std::vector<InterfaceSettings>& interfaces);
+
 /// These return groups and interfaces for the mesh reader: groups with a clamp, pairs of groups
 /// that are periodic images, and the surfaces of the interfaces.
 std::vector<mesh::GroupRequest> clampedGroups(const Settings& settings);

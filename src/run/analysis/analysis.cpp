@@ -4,68 +4,72 @@
 #include <algorithm>
 
 #include "base/session/events.hpp"
-#include "base/system/termination.hpp"
 #include "run/analysis/checks.hpp"
-#include "run/analysis/matrix_route.hpp"
-#include "run/analysis/mesh_route.hpp"
+#include "run/analysis/matrix_flutter.hpp"
+#include "run/analysis/mesh_flutter.hpp"
 
 namespace squeal::analysis {
+namespace {
+
+/// Collective. Returns the checkpoint of a run in a folder; a disabled one without a folder.
+checkpoint::Checkpoint openCheckpoint(MPI_Comm comm, const std::filesystem::path& folder,
+                                      const Model& model, const checkpoint::Settings& settings) {
+  if (folder.empty()) return {};
+  auto identity = checkpoint::identityOfRun(comm);
+  if (model.mesh) identity["the mesh"] = mesh::checksum(*model.mesh);
+  return {comm, folder, std::move(identity), settings};
+}
+
+}  // namespace
 
 bool Analysis::converged() const {
-  return failures.empty() && std::ranges::all_of(steady, &steady::Solution::converged);
+  return flutter.failures.empty() &&
+         std::ranges::all_of(steady.solutions, &steady::Solution::converged);
 }
 
 const pencil::ComplexModes* Analysis::pointAt(const sweep::Parameters& at) const {
-  for (const auto& segment : segments)
+  for (const auto& segment : flutter.segments)
     for (const auto& point : segment.points)
       if (point.at == at) return &point;
   return nullptr;
 }
 
-sweep_solver::Request requestOf(const Analysis& analysis) {
-  return {.settings = analysis.settings.solver,
-          .dampings = analysis.sweep.dampings,
-          .reportedModes = analysis.reportedModes};
-}
-
-void addFailure(Analysis& analysis, const std::string& reason) {
-  printWarning(analysis.comm, reason);
-  analysis.failures.push_back(reason);
-}
-
-Analysis prepare(MPI_Comm comm, const Settings& settings) {
-  Analysis analysis;
-  analysis.comm = comm;
-  analysis.settings = settings;
-  analysis.sweep = sweep::grid(settings.sweep);
-  if (settings.mesh) {
-    prepareMesh(analysis);
-    warnOfDenseWork(comm, settings, analysis.sweep,
-                    analysis.mesh->dimension * analysis.mesh->totalNodes);
-  }
-  return analysis;
+Model checkedModel(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep) {
+  if (!settings.mesh) return {};
+  Model model = buildModel(comm, settings.mesh->model);
+  checkModel(model, settings, sweep);
+  return model;
 }
 
 Analysis analyse(MPI_Comm comm, const Settings& settings,
                  const std::filesystem::path& checkpointFolder, int reportedModes) {
-  Analysis analysis = prepare(comm, settings);
-  analysis.reportedModes = reportedModes;
-  if (!checkpointFolder.empty()) {
-    auto identity = checkpoint::identityOfRun(comm);
-    if (analysis.mesh) identity["the mesh"] = mesh::checksum(*analysis.mesh);
-    analysis.checkpoint = {comm, checkpointFolder, std::move(identity), settings.checkpoint};
+  const sweep::Sweep sweep = sweep::grid(settings.sweep);
+  Model model = checkedModel(comm, settings, sweep);
+  checkpoint::Checkpoint checkpoint =
+      openCheckpoint(comm, checkpointFolder, model, settings.checkpoint);
+  expectPoints(sweep.points().size());
+  const sweep_solver::Request request{
+      .settings = settings.solver, .dampings = sweep.dampings, .reportedModes = reportedModes};
+  SteadyStates steady;
+  UniquenessStudy uniqueness;
+  Flutter flutter{.complete = false};
+  if (!settings.mesh) {
+    flutter = matrixFlutter(comm, settings, sweep, request, checkpoint);
+  } else {
+    CurrentSystem current(model);
+    steady = steadyStates({model, sweep, settings.mesh->steady}, checkpoint, current);
+    if (steady.complete) uniqueness = examineUniqueness(model, sweep, settings.mesh->uniqueness);
+    if (steady.complete && uniqueness.complete)
+      flutter = meshFlutter({settings, sweep, model, steady}, request, checkpoint, current);
   }
-  expectPoints(analysis.sweep.points().size());
-  try {
-    stopIfAsked(comm);
-    if (analysis.mesh)
-      solveMesh(analysis);
-    else
-      solveMatrices(analysis);
-  } catch (const Interrupted&) {
-    analysis.interrupted = true;
-  }
-  return analysis;
+  return {.comm = comm,
+          .settings = settings,
+          .sweep = sweep,
+          .model = std::move(model),
+          .steady = std::move(steady),
+          .uniqueness = std::move(uniqueness),
+          .flutter = std::move(flutter),
+          .checkpoint = std::move(checkpoint)};
 }
 
 }  // namespace squeal::analysis

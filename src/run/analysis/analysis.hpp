@@ -1,84 +1,48 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The stages of the method are called here in their order, from the input to flutter. Reporting
-/// takes the results from here.
+/// The method, from the input to the motion after flutter. Reports take their results from here.
 #include <filesystem>
-#include <memory>
 #include <string>
-#include <vector>
 
 #include "base/checkpoint/checkpoint.hpp"
 #include "eigen/pencil/complex_modes.hpp"
-#include "eigen/sweep/parameters.hpp"
 #include "eigen/sweep/sweep.hpp"
-#include "eigen/sweep_solver/sweep_solver.hpp"
-#include "model/elasticity/elasticity.hpp"
-#include "model/mesh/mesh.hpp"
-#include "regime/regime/regime.hpp"
+#include "run/analysis/flutter.hpp"
+#include "run/analysis/model.hpp"
 #include "run/analysis/settings.hpp"
-#include "steady/condensed/contact_path.hpp"
-#include "steady/steady/steady.hpp"
-#include "steady/uniqueness/uniqueness.hpp"
+#include "run/analysis/speed_uniqueness.hpp"
+#include "run/analysis/steady_sweep.hpp"
 
 namespace squeal::analysis {
 
-/// The number of steady states at one speed, for all frictions, as far as it is known.
-struct SpeedUniqueness {
-  double speed = 1;  ///< v
-  uniqueness::Uniqueness found;
-};
-
-/// All results of a run, and the problem that they belong to.
+/// The problem and the results of a run.
 struct Analysis {
   MPI_Comm comm = MPI_COMM_NULL;
   Settings settings;
   sweep::Sweep sweep;
-  /// The mesh, at a fixed address, since contact and steady sliding borrow it; null for matrices
-  /// from files, where bodies, contact and steady states are empty.
-  std::unique_ptr<mesh::Mesh> mesh;
-  elasticity::Bodies bodies;
-  contact::Contact contact;
-  std::vector<steady::Solution> steady;  ///< [steady point of the sweep]
-  /// Where on the way between them contact nodes of this rank open and close, in order; and the
-  /// number of such events on all ranks.
-  std::vector<condensed::ContactEvent> contactPath;
-  int contactEvents = 0;
-  std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty
-                                            ///< unless -steady_uniqueness
-  std::vector<sweep_solver::ModalSegment> segments;
-  std::vector<regime::ModeOnset> onsets;  ///< of the unstable modes whose shapes are kept
-  std::vector<regime::Study> regimes;     ///< after flutter, at the points of `-regime_friction`
-  /// Failures of late stages, by point and remedy: they leave all other results as they are. They
-  /// have been printed.
-  std::vector<std::string> failures;
-  int reportedModes = 0;  ///< number of free modes whose shapes are reported
+  Model model;                 ///< empty for matrices from files
+  SteadyStates steady;         ///< empty for matrices from files
+  UniquenessStudy uniqueness;  ///< of the steady states
+  Flutter flutter;
   checkpoint::Checkpoint checkpoint;
-  /// True if the run has been asked to stop before all was found.
-  bool interrupted = false;
 
-  /// Returns true if every steady point has a solution, as for matrices from files, and no late
+  /// Returns true if the run has been asked to stop before it had all results.
+  bool interrupted() const { return !(steady.complete && uniqueness.complete && flutter.complete); }
+  /// Returns true if every steady point has a solution, as for matrices from files, and no later
   /// stage has failed.
   bool converged() const;
-  /// Returns the complex modes at a point of the sweep, borrowed; null where there is no steady
-  /// solution.
+  /// Returns the complex modes at a point of the sweep, borrowed; null if it has no steady state.
   const pencil::ComplexModes* pointAt(const sweep::Parameters& at) const;
 };
 
-/// Returns what is asked of the sweep over the eigenvalues.
-sweep_solver::Request requestOf(const Analysis& analysis);
+/// Collective. Returns the model of a mesh, checked against the sweep; an empty one for matrices
+/// from files. Throws Error as buildModel() and checkModel() do.
+Model checkedModel(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep);
 
-/// Collective. Adds the reason why a stage has no result, and prints it.
-void addFailure(Analysis& analysis, const std::string& reason);
-
-/// Collective. Returns all that comes before the first solution: the sweep and, for a mesh, the
-/// mesh, the matrices of the bodies and contact. Matrices from files are read later.
-/// Throws Error as the stages document it.
-Analysis prepare(MPI_Comm comm, const Settings& settings);
-
-/// Collective. Runs all stages that the options, which have been checked, ask for, and returns the
-/// results; those that there are where the run has been asked to stop. The folder is for the
-/// checkpoint; an empty path: there is none. `reportedModes` is the number of free modes whose
-/// shapes are reported. Throws Error as the stages and the checkpoint document it.
+/// Collective. Runs all stages that the settings want and returns their results, as far as they go
+/// if the run is asked to stop. `checkpointFolder` is for the checkpoint; there is none if it is
+/// empty. `reportedModes` is the number of free modes whose shapes are reported. Throws Error as
+/// the stages and the checkpoint document it.
 Analysis analyse(MPI_Comm comm, const Settings& settings,
                  const std::filesystem::path& checkpointFolder = {}, int reportedModes = 10);
 

@@ -7,17 +7,9 @@
 #include "base/petsc/finite.hpp"
 #include "eigen/modes/settings.hpp"
 #include "eigen/pencil/settings.hpp"
+#include "regime/regime/checks.hpp"
 
 namespace squeal::analysis {
-
-void settleFriction(const contact::Contact& contact, bool frictionGiven, sweep::Sweep& sweep) {
-  if (contact.frictionExponents() != std::vector<int>{0}) return;
-  if (frictionGiven && sweep.frictions != std::vector<double>{0})
-    throw Error(
-        "option -flutter_friction: no interface has this coefficient of friction, since each "
-        "sliding one has a -contact_<interface>_friction; leave one of them out");
-  sweep.frictions = {0};
-}
 
 void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact& contact,
                         const sweep::Sweep& sweep) {
@@ -66,7 +58,8 @@ void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact&
   check(VecNorm(contact.kinematics.offset, NORM_INFINITY, &displacement));
   if (load == 0 && displacement == 0)
     throw Error(
-        "option -flutter_pressure scales what presses, and nothing does: give "
+        "option -flutter_pressure scales pressures and held displacements, and there are none: "
+        "give "
         "-load_<group>_pressure, "
         "-constraint_<group>_displacement or -contact_<interface>_obstacle_displacement");
 }
@@ -89,6 +82,15 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms,
             [](const pencil::Term& term) { return term.dampingExponent; });
   if (sweep.pressures != std::vector<double>{1})
     throw Error("option -flutter_pressure: no matrix from a file depends on the pressure");
+}
+
+void checkModel(const Model& model, const Settings& settings, const sweep::Sweep& sweep) {
+  if (settings.regime.followed())
+    regime::requireSupported(settings.regime, model.bodies, model.contact);
+  requireFiniteSweep(model.bodies, model.contact, sweep);
+  rejectIdleFactors(model.bodies, model.contact, settings.pencil, sweep);
+  warnOfDenseWork(model.mesh->comm, settings, sweep,
+                  model.mesh->dimension * model.mesh->totalNodes);
 }
 
 void warnOfDenseWork(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep,

@@ -9,8 +9,8 @@ namespace squeal::analysis {
 
 std::vector<PathEvent> contactPath(const Analysis& analysis) {
   std::vector<PathEvent> own;
-  for (const auto& event : analysis.contactPath) {
-    const auto& node = analysis.contact.interfaces.nodes[event.node];
+  for (const auto& event : analysis.steady.path) {
+    const auto& node = analysis.model.contact.interfaces.nodes[event.node];
     own.push_back({event.order, event.at, node.position, node.interface, event.opens});
   }
   auto events = concatenated(analysis.comm, own);

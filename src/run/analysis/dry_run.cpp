@@ -15,7 +15,7 @@
 #include "model/mesh/mesh.hpp"
 #include "run/analysis/analysis.hpp"
 #include "run/analysis/checks.hpp"
-#include "run/analysis/matrix_route.hpp"
+#include "run/analysis/matrix_flutter.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -76,10 +76,10 @@ void printSweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
   printLine(comm, text);
 }
 
-/// Collective. Prints what is held now (mesh, matrices, libraries), the factor of K0 as the
-/// analysis of MUMPS foresees it, and the vectors of the basis with what is computed from them:
-/// about `vectorsPerMode` for each free mode, as measured of 53,151 to 225,715 unknowns in three
-/// dimensions and of 119,600 in the plane.
+/// Collective. Prints the memory in use (mesh, matrices, libraries) and estimates of the memory for
+/// the factor of K0, by the analysis of MUMPS, and for the basis and its products: about
+/// `vectorsPerMode` vectors per free mode, measured with 53,151 to 225,715 unknowns in three
+/// dimensions and 119,600 in the plane.
 void printMemory(MPI_Comm comm, const Settings& settings, Mat k0) {
   constexpr double vectorsPerMode = 12;
   PetscInt unknowns = 0;
@@ -96,60 +96,57 @@ void printMemory(MPI_Comm comm, const Settings& settings, Mat k0) {
   const double machine = 1.0 * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
   printLine(comm, formatted("%-12s %" PetscInt_FMT ", %.0f entries in the stiffness", "unknowns",
                             unknowns, info.nz_used));
-  printLine(comm,
-            formatted("%-12s about %.2g GB on all ranks: %.2g held now, %.2g for the factor, %.2g "
-                      "for vectors of %d modes; this machine "
-                      "has %.3g GB",
-                      "memory", 1e-9 * (held + factor + vectors), 1e-9 * held, 1e-9 * factor,
-                      1e-9 * vectors, modes, 1e-9 * machine));
+  printLine(
+      comm,
+      formatted("%-12s about %.2g GB on all ranks: %.2g in use now, %.2g for the factor, %.2g "
+                "for vectors of %d modes; this machine "
+                "has %.3g GB",
+                "memory", 1e-9 * (held + factor + vectors), 1e-9 * held, 1e-9 * factor,
+                1e-9 * vectors, modes, 1e-9 * machine));
 }
 
-void ofMatrices(const Analysis& analysis) {
-  const auto named = readMatrices(analysis.comm, analysis.settings, analysis.sweep);
+void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep) {
+  const auto named = readMatrices(comm, settings, sweep);
   OwnedMat pattern;  // of K0
   for (const auto& [name, term] : named) {
     MatInfo info;
     PetscInt rows = 0;
     check(MatGetInfo(term.matrix, MAT_GLOBAL_SUM, &info));
     check(MatGetSize(term.matrix, &rows, nullptr));
-    printLine(analysis.comm,
-              formatted("%-12s %s: %" PetscInt_FMT
-                        " rows, %.0f entries, with s^%d, friction^%d, speed^%d, damping^%d",
-                        "matrix", name.c_str(), rows, info.nz_used, term.power,
-                        term.frictionExponent, term.speedExponent, term.dampingExponent));
+    printLine(comm, formatted("%-12s %s: %" PetscInt_FMT
+                              " rows, %.0f entries, with s^%d, friction^%d, speed^%d, damping^%d",
+                              "matrix", name.c_str(), rows, info.nz_used, term.power,
+                              term.frictionExponent, term.speedExponent, term.dampingExponent));
     if (term.power != 0) continue;
     if (!pattern)
       check(MatDuplicate(term.matrix, MAT_COPY_VALUES, pattern.out()));
     else
       check(MatAXPY(pattern, 1, term.matrix, DIFFERENT_NONZERO_PATTERN));
   }
-  printSweep(analysis.comm, analysis.sweep, false);
+  printSweep(comm, sweep, false);
   PetscInt unknowns = 0;
   check(MatGetSize(named.front().term.matrix, &unknowns, nullptr));
-  warnOfDenseWork(analysis.comm, analysis.settings, analysis.sweep, unknowns);
-  if (pattern) printMemory(analysis.comm, analysis.settings, pattern);
+  warnOfDenseWork(comm, settings, sweep, unknowns);
+  if (pattern) printMemory(comm, settings, pattern);
 }
 
 }  // namespace
 
 void dryRun(MPI_Comm comm, const Settings& settings) {
-  const Analysis analysis = prepare(comm, settings);
-  if (!analysis.mesh) {
-    ofMatrices(analysis);
+  const sweep::Sweep sweep = sweep::grid(settings.sweep);
+  const Model model = checkedModel(comm, settings, sweep);
+  if (!model.mesh) {
+    checkMatrices(comm, settings, sweep);
   } else {
-    printMesh(*analysis.mesh, analysis.bodies.settings,
-              analysis.contact.interfaces.constraints.groups);
-    printContact(analysis.contact, comm);
-    printSweep(comm, analysis.sweep, true);
-    const contact::CoupledSystem system(
-        analysis.bodies, analysis.contact,
-        contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size()));
+    printMesh(*model.mesh, model.bodies.settings, model.contact.interfaces.constraints.groups);
+    printContact(model.contact, comm);
+    printSweep(comm, sweep, true);
+    const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
     printMemory(comm, settings, system.k0());
   }
   printLine(comm,
-            "dry run: no fault found in options and files; nothing was solved or written, so that "
-            "solvers and the steady state are "
-            "untried");
+            "dry run: no fault found in options and files; nothing was solved or written, so "
+            "solvers and the steady state are untested");
 }
 
 }  // namespace squeal::analysis

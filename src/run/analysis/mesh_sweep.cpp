@@ -34,6 +34,23 @@ void openLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
   }
 }
 
+/// Collective. Returns the end of the group that begins with a point, which has a solution.
+std::size_t endOfGroup(const SlidingBrake& brake, std::size_t first) {
+  // Modal damping is that of the free modes of a point, which prestress changes.
+  if (brake.settings.pencil.isModallyDamped() && brake.model.bodies.settings.prestress)
+    return first + 1;
+  const auto& solutions = brake.states.solutions;
+  contact::ActiveSet anywhere = steady::activeSet(solutions[first]), everywhere = anywhere;
+  std::size_t last = first;
+  for (; last < solutions.size() && solutions[last].converged; ++last) {
+    const contact::ActiveSet set = steady::activeSet(solutions[last]);
+    closeLike(set, anywhere);
+    openLike(set, everywhere);
+    if (contact::countDifferent(brake.comm(), anywhere, everywhere) > brake.mesh().released) break;
+  }
+  return last;
+}
+
 }  // namespace
 
 subspace::Substructure substructureOf(const contact::CoupledSystem& all,
@@ -42,30 +59,28 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
   return {all.k0(), std::move(unknowns.shared), std::move(unknowns.released)};
 }
 
-std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
-  // Modal damping is that of the free modes of a point, which prestress changes.
-  if (analysis.settings.pencil.isModallyDamped() && analysis.bodies.settings.prestress)
-    return first + 1;
-  const PetscInt most = analysis.settings.mesh->released;
-  contact::ActiveSet anywhere = steady::activeSet(analysis.steady[first]), everywhere = anywhere;
-  std::size_t last = first;
-  for (; last < analysis.steady.size() && analysis.steady[last].converged; ++last) {
-    const contact::ActiveSet set = steady::activeSet(analysis.steady[last]);
-    closeLike(set, anywhere);
-    openLike(set, everywhere);
-    if (contact::countDifferent(analysis.comm, anywhere, everywhere) > most) break;
+std::vector<PointGroup> groupsOf(const SlidingBrake& brake) {
+  const auto& solutions = brake.states.solutions;
+  std::vector<PointGroup> groups;
+  for (std::size_t first = 0, last = 0; first < solutions.size(); first = last) {
+    last = first + 1;
+    if (!solutions[first].converged) continue;
+    last = endOfGroup(brake, first);
+    groups.push_back({first, last});
   }
-  return last;
+  return groups;
 }
 
-MeshSweep::MeshSweep(const Analysis& analysis, std::size_t first, std::size_t last,
-                     CurrentSystem& current, terms::Influences& influences)
-    : analysis_(analysis), first_(first), current_(current), influences_(influences) {
-  for (std::size_t i = first; i < last; ++i) steadyPoints.push_back(analysis.steady[i].at);
+MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, CurrentSystem& current,
+                     terms::Influences& influences)
+    : brake_(brake), group_(group), current_(current), influences_(influences) {
+  const auto& [mesh, bodies, contact] = brake.model;
+  for (std::size_t i = group.first; i < group.last; ++i)
+    steadyPoints.push_back(brake.states.solutions[i].at);
   findSets();
-  prestress_ = steady::prestressOf(*analysis.mesh, analysis.bodies, steadyAt(0));
+  prestress_ = steady::prestressOf(*mesh, bodies, steadyAt(0));
   const auto systemOf = [&](const contact::ActiveSet& set) {
-    return std::make_unique<contact::CoupledSystem>(analysis.bodies, analysis.contact, set,
+    return std::make_unique<contact::CoupledSystem>(brake.model.bodies, brake.model.contact, set,
                                                     prestress_);
   };
   contact::ActiveSet everywhere = sets_.front().set;
@@ -76,18 +91,18 @@ MeshSweep::MeshSweep(const Analysis& analysis, std::size_t first, std::size_t la
   }
   if (prestress_) stressed_ = systemOf(anywhere_);
   all_ = interior_ = stressed_ ? stressed_.get() : &current.of(anywhere_);
-  if (!contact::sameOnAllRanks(analysis.comm, anywhere_, everywhere)) {
-    Stage stage(analysis.comm, "contact");
+  if (!contact::sameOnAllRanks(brake.comm(), anywhere_, everywhere)) {
+    Stage stage(brake.comm(), "contact");
     released_ = systemOf(everywhere);
     all_ = released_.get();
     substructure = substructureOf(*all_, *interior_);
     stage.finish(formatted(
         "%" PetscInt_FMT " nodes open or slide in some of %zu active sets that share a basis",
-        contact::countDifferent(analysis.comm, anywhere_, everywhere), sets_.size()));
+        contact::countDifferent(brake.comm(), anywhere_, everywhere), sets_.size()));
   }
   system = interior_;
   trial = all_->transformation().trial;
-  pencil = terms::affineTerms(analysis.contact, *all_);
+  pencil = terms::affineTerms(contact, *all_);
   ranges = pointRanges();
   frictionBefore = frictionOfPointBefore();
 }
@@ -97,11 +112,11 @@ void MeshSweep::findSets() {
   for (std::size_t i = 0; i < steadyPoints.size(); ++i) {
     std::vector<sweep_solver::PathPiece> pieces;
     if (i > 0 && sweep::growsInFriction(steadyPoints[i - 1], steadyPoints[i]))
-      pieces = piecesBehind(i - 1);
+      pieces = piecesAfter(i - 1);
     const contact::ActiveSet set = steady::activeSet(steadyAt(i));
     const double friction = steadyPoints[i].friction,
                  from = pieces.empty() ? friction : pieces.back().to;
-    if (i > 0 && contact::sameOnAllRanks(analysis_.comm, set, steady::activeSet(steadyAt(i - 1)))) {
+    if (i > 0 && contact::sameOnAllRanks(brake_.comm(), set, steady::activeSet(steadyAt(i - 1)))) {
       const std::size_t range = *steps.back().back().range;
       sets_[range].last = i + 1;
       pieces.push_back({range, from, friction});
@@ -115,41 +130,42 @@ void MeshSweep::findSets() {
 
 /// Collective. Returns the pieces of the path from a point to where the active set of the next one
 /// on its line begins. If that is not known, it begins at the next point.
-std::vector<sweep_solver::PathPiece> MeshSweep::piecesBehind(std::size_t point) {
+std::vector<sweep_solver::PathPiece> MeshSweep::piecesAfter(std::size_t point) {
   const sweep::Parameters &here = steadyPoints[point], &next = steadyPoints[point + 1];
   std::vector<condensed::ContactEvent> events;
-  for (const auto& event : analysis_.contactPath)
+  for (const auto& event : brake_.states.path)
     if (event.at.speed == here.speed && event.at.pressure == here.pressure &&
         event.at.friction >= here.friction && event.at.friction <= next.friction)
       events.push_back(event);
   std::vector<double> own;
   for (const auto& event : events) own.push_back(event.at.friction);
-  std::vector<double> frictions = concatenated(analysis_.comm, own);
+  std::vector<double> frictions = concatenated(brake_.comm(), own);
   std::ranges::sort(frictions);
   frictions.erase(std::ranges::unique(frictions).begin(), frictions.end());
   contact::ActiveSet set = steady::activeSet(steadyAt(point));
-  std::vector<contact::ActiveSet> behind;  // each of these frictions
+  std::vector<contact::ActiveSet> after;  // [friction] the set beyond it
   for (const double friction : frictions) {
     for (const auto& event : events)
       if (event.at.friction == friction) set.closed[event.node] = !event.opens;
-    behind.push_back(set);
+    after.push_back(set);
   }
   const contact::ActiveSet last = steady::activeSet(steadyAt(point + 1));
-  // What holds nodes that stick is settled at the points. Of the nodes that open or close it is
-  // known with that; where others begin to slide or are held again is not.
+  // Whether a sticking node is held is known only at the points. A node that opens or closes takes
+  // the state of the next point with that event; where other nodes begin or cease to slide is not
+  // known.
   const std::vector<unsigned char>& closedBefore = steadyAt(point).closed;
   for (std::size_t i = 0; i < set.released.size(); ++i)
     if (!closedBefore[i] || !last.closed[i]) set.released[i] = last.released[i];
   const std::size_t range = *steps[point].back().range;
   const bool changes =
-      !contact::sameOnAllRanks(analysis_.comm, steady::activeSet(steadyAt(point)), last);
-  if (!contact::sameOnAllRanks(analysis_.comm, set, last) || (changes && frictions.empty()))
+      !contact::sameOnAllRanks(brake_.comm(), steady::activeSet(steadyAt(point)), last);
+  if (!contact::sameOnAllRanks(brake_.comm(), set, last) || (changes && frictions.empty()))
     return {{std::nullopt, next.friction, next.friction}};
   std::vector<sweep_solver::PathPiece> pieces;
   double from = here.friction;
   for (std::size_t k = 0; k < frictions.size(); ++k) {
     pieces.push_back({k == 0 ? range : sets_.size() - 1, from, frictions[k]});
-    if (k + 1 < frictions.size()) sets_.push_back({behind[k], 0, 0});
+    if (k + 1 < frictions.size()) sets_.push_back({after[k], 0, 0});
     from = frictions[k];
   }
   if (pieces.empty()) pieces.push_back({range, from, from});
@@ -158,8 +174,8 @@ std::vector<sweep_solver::PathPiece> MeshSweep::piecesBehind(std::size_t point) 
 
 /// Returns the friction of the point before the first one, if the two differ only in friction.
 std::optional<double> MeshSweep::frictionOfPointBefore() const {
-  if (first_ == 0) return {};
-  const steady::Solution& before = analysis_.steady[first_ - 1];
+  if (group_.first == 0) return {};
+  const steady::Solution& before = brake_.states.solutions[group_.first - 1];
   if (!before.converged || !sweep::growsInFriction(before.at, steadyPoints[0])) return {};
   return before.at.friction;
 }
@@ -167,10 +183,10 @@ std::optional<double> MeshSweep::frictionOfPointBefore() const {
 /// Collective. Returns the active sets with their points, boundary unknowns and terms.
 std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
   std::vector<sweep_solver::PointRange> found;
-  const auto& contact = analysis_.contact;
+  const auto& contact = brake_.model.contact;
   const PetscInt dimension = contact.mesh->dimension;
   const auto& rows = all_->transformation().rows;
-  const Concatenation ranks(analysis_.comm, substructure.boundary.size());
+  const Concatenation ranks(brake_.comm(), substructure.boundary.size());
   std::vector<PetscInt> contactNode(contact.mesh->ownedNodes, -1);
   for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
     contactNode[contact.interfaces.nodes[i].node] = i;
@@ -178,7 +194,7 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
     sweep_solver::PointRange range;
     range.first = first, range.last = last;
     range.openNodes = std::ranges::count(set.closed, 0);
-    range.openNodes = mpi::sum(analysis_.comm, range.openNodes);
+    range.openNodes = mpi::sum(brake_.comm(), range.openNodes);
     std::vector<unsigned char> own;
     for (const PetscInt k : substructure.boundary) {
       const PetscInt i = contactNode[rows[k] / dimension];
@@ -199,11 +215,10 @@ std::vector<pencil::Term> MeshSweep::termsOf(std::size_t i) const { return terms
 std::vector<pencil::Term> MeshSweep::termsOf(const steady::Solution& solution) const {
   OwnedMat change;
   if (prestress_ && &solution != &steadyAt(0)) {
-    change = steady::prestressOf(*analysis_.mesh, analysis_.bodies, solution);
+    change = steady::prestressOf(*brake_.model.mesh, brake_.model.bodies, solution);
     check(MatAXPY(change, -1, prestress_, SAME_NONZERO_PATTERN));
   }
-  return terms::pointTerms(analysis_.contact, *all_, solution, change,
-                           analysis_.settings.mesh->terms);
+  return terms::pointTerms(brake_.model.contact, *all_, solution, change, brake_.mesh().terms);
 }
 
 std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Parameters& at,
@@ -214,16 +229,16 @@ std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Paramet
   const auto ifShared = [&](const steady::Solution& solution) {
     std::optional<std::vector<pencil::Term>> terms;
     if (solution.converged &&
-        contact::sameOnAllRanks(analysis_.comm, steady::activeSet(solution), set))
+        contact::sameOnAllRanks(brake_.comm(), steady::activeSet(solution), set))
       terms = termsOf(solution);
     return terms;
   };
-  const auto known = std::find_if(analysis_.steady.begin(), analysis_.steady.end(),
+  const auto known = std::find_if(brake_.states.solutions.begin(), brake_.states.solutions.end(),
                                   [&](const auto& solution) { return solution.at == steady; });
-  if (known != analysis_.steady.end()) return ifShared(*known);
+  if (known != brake_.states.solutions.end()) return ifShared(*known);
   if (!problem_)
-    problem_ =
-        std::make_unique<steady::Problem>(*analysis_.mesh, analysis_.bodies, analysis_.contact);
+    problem_ = std::make_unique<steady::Problem>(*brake_.model.mesh, brake_.model.bodies,
+                                                 brake_.model.contact);
   return ifShared(problem_->solve(steady, current_.of(anywhere_)));
 }
 
@@ -231,17 +246,16 @@ void MeshSweep::examine(std::size_t i, const pencil::Pencil& ofPoint,
                         const sensitivity::StartSpace& start, pencil::ComplexModes& point) {
   if (point.shapes.empty()) return;
   const steady::Solution& solution = steadyAt(i);
-  const OwnedMat prestress = steady::prestressOf(*analysis_.mesh, analysis_.bodies, solution);
-  const auto friction =
-      terms::frictionState(analysis_.contact, solution, analysis_.settings.mesh->terms);
+  const OwnedMat prestress = steady::prestressOf(*brake_.model.mesh, brake_.model.bodies, solution);
+  const auto friction = terms::frictionState(brake_.model.contact, solution, brake_.mesh().terms);
   for (auto& shape : point.shapes) {
     const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
     shape.frictionWork =
-        terms::frictionWork(analysis_.contact, analysis_.bodies, solution.closed, friction,
+        terms::frictionWork(brake_.model.contact, brake_.model.bodies, solution.closed, friction,
                             {point.at, point.eigenvalues[shape.index].s, u, prestress});
   }
-  if (!analysis_.settings.solver.sensitivity.wanted) return;
-  Stage stage(analysis_.mesh->comm, "flutter");
+  if (!brake_.settings.solver.sensitivity.wanted) return;
+  Stage stage(brake_.model.mesh->comm, "flutter");
   influences_.derive(point, ofPoint, {point.at, *interior_, solution, prestress}, start);
   double error = 0;
   for (const auto& sensitivity : point.sensitivities)

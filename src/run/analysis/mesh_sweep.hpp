@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady points of a mesh whose active sets differ little share the factorisation and the basis of
-/// the contact that is closed wherever it is closed at any of them.
+/// Steady points whose active sets differ little share one factorisation and one basis: those of
+/// the nodes that are closed at any of the points.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,26 +9,27 @@
 #include "eigen/sweep_solver/sweep_solver.hpp"
 #include "model/contact/coupled.hpp"
 #include "problem/terms/influence.hpp"
-#include "run/analysis/steady_sweep.hpp"
+#include "run/analysis/sliding_brake.hpp"
 
 namespace squeal::analysis {
 
-/// Collective. Returns the first steady point behind those that share a basis with point `first`,
-/// which has a solution. They have the same active set, or, unless something asks for the matrices
-/// of one active set by themselves, sets that differ in few nodes, `-flutter_released`.
-std::size_t endOfShared(const Analysis& analysis, std::size_t first);
+/// Collective. Returns the steady points that have a solution, in groups that share a basis. Points
+/// of a group have the same active set, or, unless a setting needs the matrices of each active set,
+/// sets that differ in at most `-flutter_released` nodes.
+std::vector<PointGroup> groupsOf(const SlidingBrake& brake);
 
-/// Returns the unknowns of `all`, whose gaps and sticking nodes are free in more places, as those
-/// that `interior` has too and the others, the boundary; `all` is borrowed.
+/// Returns the unknowns of `all` in two parts: those that `interior` has too, and the boundary, the
+/// gaps and sticking nodes that are free only in `all`, which is borrowed.
 subspace::Substructure substructureOf(const contact::CoupledSystem& all,
                                       const contact::CoupledSystem& interior);
 
-/// The problem of the steady points [first, last).
+/// The problem of one group of points.
 class MeshSweep : public sweep_solver::SweepProblem {
  public:
   /// Collective. Borrows all arguments during the life of the object.
-  MeshSweep(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
+  MeshSweep(const SlidingBrake& brake, const PointGroup& group, CurrentSystem& current,
             terms::Influences& influences);
+  const PointGroup& group() const { return group_; }
   std::vector<pencil::Term> termsOf(std::size_t i) const override;
   std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& at,
                                                    std::size_t like) override;
@@ -36,23 +37,25 @@ class MeshSweep : public sweep_solver::SweepProblem {
                pencil::ComplexModes& point) override;
 
  private:
-  /// An active set of the points [first, last), or one that is passed through between points.
-  struct OnPath {
+  /// An active set of the points [first, last) of the group, or one between points.
+  struct SetOnPath {
     contact::ActiveSet set;
     std::size_t first = 0, last = 0;
   };
-  const steady::Solution& steadyAt(std::size_t i) const { return analysis_.steady[first_ + i]; }
+  const steady::Solution& steadyAt(std::size_t i) const {
+    return brake_.states.solutions[group_.first + i];
+  }
   void findSets();
   std::vector<sweep_solver::PointRange> pointRanges() const;
   std::optional<double> frictionOfPointBefore() const;
-  std::vector<sweep_solver::PathPiece> piecesBehind(std::size_t point);
+  std::vector<sweep_solver::PathPiece> piecesAfter(std::size_t point);
   std::vector<pencil::Term> termsOf(const steady::Solution& solution) const;
 
-  const Analysis& analysis_;
-  std::size_t first_;
+  const SlidingBrake& brake_;
+  PointGroup group_;
   CurrentSystem& current_;
   terms::Influences& influences_;
-  std::vector<OnPath> sets_;     // [range]
+  std::vector<SetOnPath> sets_;  // [range]
   contact::ActiveSet anywhere_;  // of all sets
   OwnedMat prestress_;           // of the first point, which K0 contains
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;

@@ -34,6 +34,23 @@ void addFrictions(sweep::Settings& sweep, const std::vector<double>& more) {
   std::ranges::sort(sweep.frictions);
 }
 
+/// Sets the swept friction to zero if no interface has it, because all sliding ones have a
+/// coefficient of their own. Throws Error if an option gives another one.
+void settleFriction(const interfaces::Settings& interfaces, const regime::Settings& regime,
+                    sweep::Settings& sweep) {
+  if (interfaces::frictionExponents(interfaces.interfaces) != std::vector<int>{0}) return;
+  const std::vector<double> none{0};
+  const auto refuse = [](const std::string& option) {
+    throw Error("option -" + option +
+                ": no interface has this coefficient of friction, since each sliding one has a "
+                "-contact_<interface>_friction; leave one of them out");
+  };
+  if (regime.followed() && regime.frictions != none) refuse("regime_friction");
+  if (givenOptions().contains("flutter_friction") && sweep.frictions != none)
+    refuse("flutter_friction");
+  sweep.frictions = none;
+}
+
 SteadySettings steadySettings() {
   SteadySettings settings{.full = fullOption.get()};
   if (!settings.full) settings.path = pathOption.get();
@@ -70,7 +87,6 @@ Settings Settings::given() {
         "option -flutter_modal_damping: damping of the free modes needs the modes of "
         "-flutter_method reduced");
   settings.sweep = sweep::Settings::given();
-  settings.frictionGiven = givenOptions().contains("flutter_friction");
   settings.solver = sweep_solver::Settings::given(settings.pencil);
   settings.matrices = matrices::Settings::given();
   settings.matrixExport = matrices::ExportSettings::given();
@@ -79,6 +95,8 @@ Settings Settings::given() {
   regime::checkOptions(settings.regime, settings.pencil,
                        settings.mesh ? &settings.mesh->terms : nullptr);
   addFrictions(settings.sweep, settings.regime.frictions);
+  if (settings.mesh)
+    settleFriction(settings.mesh->model.interfaces, settings.regime, settings.sweep);
   settings.checkpoint = checkpoint::Settings::given();
   return settings;
 }

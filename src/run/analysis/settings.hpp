@@ -38,8 +38,8 @@ struct Settings {
   OutputSettings output;
   bool dryRun = false;  ///< `-dry_run`: check the input, and solve nothing
   checkpoint::Settings checkpoint;
-  sweep::Settings sweep;       ///< with the frictions of `-regime_friction`
-  bool frictionGiven = false;  ///< `-flutter_friction` is given
+  /// With the frictions of `-regime_friction`; friction 0 if all interfaces have their own.
+  sweep::Settings sweep;
   pencil::Settings pencil;
   sweep_solver::Settings solver;
   matrices::Settings matrices;

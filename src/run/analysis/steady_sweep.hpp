@@ -1,34 +1,42 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady sliding is found at all steady points of a sweep, and what the contact does between them.
-#include <memory>
+/// Steady sliding at all steady points of a sweep, and the changes of contact between them.
 #include <vector>
 
-#include "model/contact/active_set.hpp"
-#include "model/contact/coupled.hpp"
-#include "run/analysis/analysis.hpp"
+#include "base/checkpoint/checkpoint.hpp"
+#include "eigen/sweep/sweep.hpp"
+#include "run/analysis/current_system.hpp"
+#include "run/analysis/settings.hpp"
+#include "steady/condensed/contact_path.hpp"
 #include "steady/steady/steady.hpp"
 
 namespace squeal::analysis {
 
-/// The associated system of the active set in force, which is rebuilt when the set changes.
-class CurrentSystem {
- public:
-  /// Borrows the analysis during the life of the object.
-  explicit CurrentSystem(const Analysis& analysis) : analysis_(analysis) {}
-  /// Collective. Returns the system of an active set, borrowed until the next call. Its K0 is
-  /// factorised when that is first asked for.
-  const contact::CoupledSystem& of(const contact::ActiveSet& active);
+/// The steady states of a sweep.
+struct SteadyStates {
+  /// [steady point of the sweep], or the first of them if incomplete
+  std::vector<steady::Solution> solutions;
+  /// The contact nodes of this rank that open or close between the points, in their order.
+  std::vector<condensed::ContactEvent> path;
+  int events = 0;        ///< number of such events on all ranks
+  bool complete = true;  ///< false if the run has been asked to stop
 
- private:
-  const Analysis& analysis_;
-  std::unique_ptr<contact::CoupledSystem> system_;
+  /// Returns the steady state at a point of the sweep, borrowed.
+  const steady::Solution& at(sweep::Parameters point) const;
 };
 
-/// Collective. Adds to the analysis the steady states at all steady points, each started from the
-/// active set of a neighbour, and the path of the contact between them. A point without a solution
-/// gives a warning. Throws Error as steady::Problem::solve() does, and if a displacement is not a
-/// finite number.
-void steadySweep(Analysis& analysis, CurrentSystem& system);
+/// The inputs of steadyStates(); borrowed.
+struct SteadyInput {
+  const Model& model;
+  const sweep::Sweep& sweep;
+  const SteadySettings& settings;
+};
+
+/// Collective. Returns the steady states, each started from the active set of a neighbour, and
+/// prints them; a point without a solution gives a warning. The log `steady` of the checkpoint is
+/// restored and continued. Throws Error as steady::Problem::solve() does, and if a displacement is
+/// not finite.
+SteadyStates steadyStates(const SteadyInput& input, checkpoint::Checkpoint& checkpoint,
+                          CurrentSystem& system);
 
 }  // namespace squeal::analysis

@@ -26,7 +26,7 @@ const char* kindName(tracking::Event::Kind kind) {
 /// Calls `action` with all that was followed.
 template <class Action>
 void forAllFollowed(const analysis::Analysis& analysis, const Action& action) {
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& followed : segment.followed) action(followed);
 }
 

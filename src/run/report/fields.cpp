@@ -29,10 +29,10 @@ namespace {
 /// Collective. Returns a nodal vector with the contact pressure at the pad nodes, Pa, in component
 /// 0 and the gap, m, in component 1; both are zero elsewhere.
 OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution& solution) {
-  const auto& mesh = *analysis.mesh;
+  const auto& mesh = *analysis.model.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const PetscInt row = mesh.dimension * analysis.contact.interfaces.nodes[i].globalNode;
+    const PetscInt row = mesh.dimension * analysis.model.contact.interfaces.nodes[i].globalNode;
     check(VecSetValue(field, row, solution.contact[i].pressure, INSERT_VALUES));
     check(VecSetValue(field, row + 1, solution.contact[i].gap, INSERT_VALUES));
   }
@@ -44,10 +44,10 @@ OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution
 /// Collective. Returns a nodal vector with the contribution of friction at the pad nodes to the
 /// growth rate of a mode, 1/s, in component 0, and per area, 1/(s·m²), in component 1.
 OwnedVec workField(const analysis::Analysis& analysis, const pencil::Shape& shape) {
-  const auto& mesh = *analysis.mesh;
+  const auto& mesh = *analysis.model.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
   for (std::size_t i = 0; i < shape.frictionWork.size(); ++i) {
-    const auto& node = analysis.contact.interfaces.nodes[i];
+    const auto& node = analysis.model.contact.interfaces.nodes[i];
     const PetscInt row = mesh.dimension * node.globalNode;
     check(VecSetValue(field, row, shape.frictionWork[i], INSERT_VALUES));
     check(VecSetValue(field, row + 1, shape.frictionWork[i] / node.area, INSERT_VALUES));
@@ -65,7 +65,7 @@ struct Animated {
 
 std::vector<Animated> fastest(const analysis::Analysis& analysis, int count) {
   std::vector<Animated> all;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       for (const auto& shape : point.shapes)
         all.push_back({point.eigenvalues[shape.index].s.real(), &point, &shape});
@@ -100,10 +100,10 @@ void animate(const analysis::Analysis& analysis, const Settings& settings, const
     check(VecScale(u, std::cos(phase)));
     check(VecAXPY(u, -std::sin(phase), item.shape->imaginary));
     const auto stem = folder / name / formatted("frame_%03d", frame);
-    writeVtk(*analysis.mesh, stem, {ghosts.vector("displacement", u)}, settings.pieces);
+    writeVtk(*analysis.model.mesh, stem, {ghosts.vector("displacement", u)}, settings.pieces);
     files.emplace_back(period * frame / frames, stem.string() + ".pvtu");
   }
-  fieldfile::writePvd(analysis.mesh->comm, folder / (name + ".pvd"), files, folderOption);
+  fieldfile::writePvd(analysis.model.mesh->comm, folder / (name + ".pvd"), files, folderOption);
 }
 
 void writeParameters(Hdf5File& file, const std::string& group, const sweep::Parameters& at) {
@@ -128,7 +128,8 @@ void writePath(const analysis::Analysis& analysis, Hdf5File& file) {
   file.writeTable("/path", "contact",
                   {"friction", "speed", "pressure", "x_m", "y_m", "z_m", "interface", "opens"},
                   rows);
-  file.writeAttribute("/path/contact", "interfaces", joined(analysis.contact.interfaces.names));
+  file.writeAttribute("/path/contact", "interfaces",
+                      joined(analysis.model.contact.interfaces.names));
 }
 
 }  // namespace
@@ -140,11 +141,11 @@ void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
 
 void writeFields(const analysis::Analysis& analysis, const Settings& settings,
                  const std::filesystem::path& folder) {
-  const auto& mesh = *analysis.mesh;
+  const auto& mesh = *analysis.model.mesh;
   const auto vtk = folder / "vtk";
   const Ghosts ghosts(mesh);
   std::vector<std::pair<double, std::filesystem::path>> steadyFiles;
-  for (const auto& solution : analysis.steady) {
+  for (const auto& solution : analysis.steady.solutions) {
     if (!solution.converged) continue;
     const auto stem = vtk / ("steady_friction_" + pointName(solution.at));
     writeVtk(mesh, stem,
@@ -153,12 +154,12 @@ void writeFields(const analysis::Analysis& analysis, const Settings& settings,
              settings.pieces);
     // ParaView's time is the friction; where more is swept, several states would share it, and the
     // file's place in the list is the time.
-    const bool frictionAlone = analysis.sweep.frictions.size() == analysis.steady.size();
+    const bool frictionAlone = analysis.sweep.frictions.size() == analysis.steady.solutions.size();
     steadyFiles.emplace_back(frictionAlone ? solution.at.friction : steadyFiles.size(),
                              stem.string() + ".pvtu");
   }
   fieldfile::writePvd(mesh.comm, vtk / "steady.pvd", steadyFiles, folderOption);
-  for (const auto& segment : analysis.segments) {
+  for (const auto& segment : analysis.flutter.segments) {
     std::vector<Field> fields;
     for (std::size_t i = 0; i < segment.shapes.size(); ++i)
       fields.push_back(ghosts.vector(
@@ -187,16 +188,16 @@ void writeFields(const analysis::Analysis& analysis, const Settings& settings,
 
 void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   Hdf5File file(analysis.comm, folder / "results.h5", folderOption);
-  if (analysis.mesh) file.writeMesh(*analysis.mesh);
-  for (const auto& solution : analysis.steady) {
+  if (analysis.model.mesh) file.writeMesh(*analysis.model.mesh);
+  for (const auto& solution : analysis.steady.solutions) {
     if (!solution.converged) continue;
     const std::string group = "/steady/friction_" + pointName(solution.at);
     file.writeNodeVector(group, "displacement", solution.displacement);
     file.writeNodeVector(group, "contact_pressure_gap", contactField(analysis, solution));
     writeParameters(file, group, solution.at);
   }
-  for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
-    const auto& segment = analysis.segments[s];
+  for (std::size_t s = 0; s < analysis.flutter.segments.size(); ++s) {
+    const auto& segment = analysis.flutter.segments[s];
     const std::string modesGroup = formatted("/modes/active_set_%zu", s + 1);
     std::vector<std::vector<double>> frequencies;
     for (std::size_t i = 0; i < segment.modes.angularFrequency.size(); ++i)
@@ -223,7 +224,7 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
         file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);
         file.writeNodeVector(group, formatted("mode_%03zu_imaginary", shape.index + 1),
                              shape.imaginary);
-        if (analysis.mesh)
+        if (analysis.model.mesh)
           file.writeNodeVector(group, formatted("mode_%03zu_friction_work", shape.index + 1),
                                workField(analysis, shape));
       }

@@ -20,10 +20,10 @@ using Value = std::function<double(std::size_t)>;
 /// Collective. Returns a nodal vector with a value at the contact nodes of this rank in component
 /// 0, zero elsewhere.
 OwnedVec atContactNodes(const analysis::Analysis& analysis, const Value& value) {
-  OwnedVec field = elasticity::nodalVector(*analysis.mesh);
-  const auto& nodes = analysis.contact.interfaces.nodes;
+  OwnedVec field = elasticity::nodalVector(*analysis.model.mesh);
+  const auto& nodes = analysis.model.contact.interfaces.nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    check(VecSetValue(field, analysis.mesh->dimension * nodes[i].globalNode, value(i),
+    check(VecSetValue(field, analysis.model.mesh->dimension * nodes[i].globalNode, value(i),
                       INSERT_VALUES));
   check(VecAssemblyBegin(field));
   check(VecAssemblyEnd(field));
@@ -45,7 +45,7 @@ constexpr MeanField meanFields[] = {{"open", &regime::NodeMeans::open, false},
 /// Collective. Returns one of the means of a run as a nodal vector.
 OwnedVec meansOf(const analysis::Analysis& analysis, const Study& study, const Run& run,
                  const MeanField& mean) {
-  std::vector<double> own(analysis.contact.interfaces.nodes.size());
+  std::vector<double> own(analysis.model.contact.interfaces.nodes.size());
   for (std::size_t i = 0; i < study.contactNode.size(); ++i)
     if (const PetscInt place = study.contactNode[i]; place >= 0)
       own[place] = run.regime.nodes[i].*mean.value / (mean.perArea ? study.nodes[i].area : 1);
@@ -55,7 +55,7 @@ OwnedVec meansOf(const analysis::Analysis& analysis, const Study& study, const R
 /// Calls action(study, run, name) for each run; the name is that of point and start.
 template <class Action>
 void forEachRun(const analysis::Analysis& analysis, const Action& action) {
-  for (const auto& study : analysis.regimes)
+  for (const auto& study : analysis.flutter.regimes)
     for (const auto& run : study.runs)
       action(study, run, "friction_" + pointName(study.at) + "_start_" + run.start);
 }
@@ -75,18 +75,18 @@ void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Run
   std::vector<std::pair<double, std::filesystem::path>> files;
   for (std::size_t k = 0; k < frames.time.size(); ++k) {
     const auto file = stem / formatted("frame_%03zu", k);
-    const auto u = borrowed(*analysis.mesh, frames.displacement.column(k));
+    const auto u = borrowed(*analysis.model.mesh, frames.displacement.column(k));
     const auto at = [&](const std::vector<double>& values) {
       return atContactNodes(analysis, [&](std::size_t i) { return values[i]; });
     };
-    writeVtk(*analysis.mesh, file,
+    writeVtk(*analysis.model.mesh, file,
              {ghosts.vector("displacement", u), ghosts.scalar("gap", at(frames.gap[k])),
               ghosts.scalar("contact_pressure", at(frames.pressure[k]))},
              pieces);
     files.emplace_back(frames.time[k], file.string() + ".pvtu");
   }
   if (!files.empty())
-    fieldfile::writePvd(analysis.mesh->comm, stem.string() + ".pvd", files, folderOption);
+    fieldfile::writePvd(analysis.model.mesh->comm, stem.string() + ".pvd", files, folderOption);
 }
 
 }  // namespace
@@ -98,14 +98,14 @@ void writeRegimeFields(const analysis::Analysis& analysis, const Ghosts& ghosts,
       std::vector<Field> fields;
       for (const auto& mean : meanFields)
         fields.push_back(ghosts.scalar(mean.name, meansOf(analysis, study, run, mean)));
-      writeVtk(*analysis.mesh, vtk / ("regime_means_" + name), fields, pieces);
+      writeVtk(*analysis.model.mesh, vtk / ("regime_means_" + name), fields, pieces);
     }
     animate(analysis, ghosts, run, vtk / ("regime_" + name), pieces);
   });
 }
 
 void writeRegimeFields(const analysis::Analysis& analysis, fieldfile::Hdf5File& file) {
-  for (const auto& study : analysis.regimes) {
+  for (const auto& study : analysis.flutter.regimes) {
     const std::string point = "/regime/friction_" + pointName(study.at);
     bool named = false;  // once: starts share the point
     for (const auto& run : study.runs) {
@@ -113,8 +113,9 @@ void writeRegimeFields(const analysis::Analysis& analysis, fieldfile::Hdf5File& 
       const std::string group = point + "/start_" + run.start;
       for (const auto& mean : meanFields) {
         OwnedVec all = meansOf(analysis, study, run, mean), one;
-        check(VecCreateMPI(analysis.comm, analysis.mesh->ownedNodes, PETSC_DETERMINE, one.out()));
-        check(VecSetBlockSize(all, analysis.mesh->dimension));
+        check(VecCreateMPI(analysis.comm, analysis.model.mesh->ownedNodes, PETSC_DETERMINE,
+                           one.out()));
+        check(VecSetBlockSize(all, analysis.model.mesh->dimension));
         check(VecStrideGather(all, 0, one, INSERT_VALUES));
         file.writeNodeVector(group, mean.name, one);
       }

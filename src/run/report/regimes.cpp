@@ -14,7 +14,7 @@ namespace {
 /// Calls action(study, run, head) for each run, with the first cells of its rows.
 template <class Action>
 void forEachRun(const analysis::Analysis& analysis, const Action& action) {
-  for (const auto& study : analysis.regimes)
+  for (const auto& study : analysis.flutter.regimes)
     for (const auto& run : study.runs)
       action(study, run, sweep::parameterValues(study.at) + "," + run.start);
 }
@@ -27,17 +27,17 @@ std::string onsetTable(const analysis::Analysis& analysis) {
   std::string table = sweep::parameterColumns() +
                       ",mode,growth_rate_1_per_s,frequency_hz,event,x_m,y_m,z_m,interface,kinetic_"
                       "energy_j,turning\n";
-  for (const auto& mode : analysis.onsets) {
+  for (const auto& mode : analysis.flutter.onsets) {
     table += sweep::parameterValues(mode.at) + formatted(",%zu,%.15e,%.15e,%s", mode.mode + 1,
                                                          mode.s.real(), mode.s.imag() / (2 * M_PI),
                                                          text(mode.onset.event));
     if (mode.onset.event == march::OnsetEvent::none)
       table += ",,,,,,\n";
     else
-      table +=
-          formatted(",%.12e,%.12e,%.12e,%s,%.9e,%.6e\n", mode.position[0], mode.position[1],
-                    mode.position[2], analysis.contact.interfaces.names[mode.interface].c_str(),
-                    mode.kinetic, mode.onset.turning);
+      table += formatted(",%.12e,%.12e,%.12e,%s,%.9e,%.6e\n", mode.position[0], mode.position[1],
+                         mode.position[2],
+                         analysis.model.contact.interfaces.names[mode.interface].c_str(),
+                         mode.kinetic, mode.onset.turning);
   }
   return table;
 }
@@ -85,11 +85,11 @@ std::string nodeTable(const analysis::Analysis& analysis) {
     for (std::size_t i = 0; i < run.regime.nodes.size(); ++i) {
       const auto& x = study.nodes[i].position;
       const auto& means = run.regime.nodes[i];
-      table +=
-          first +
-          formatted(",%.12e,%.12e,%.12e,%s,%.6f,%.6f,%.6f,%.9e,%.9e,%.9e\n", x[0], x[1], x[2],
-                    analysis.contact.interfaces.names[study.nodes[i].interface].c_str(), means.open,
-                    means.stick, means.slip, means.pressure, means.largestGap, means.power);
+      table += first +
+               formatted(",%.12e,%.12e,%.12e,%s,%.6f,%.6f,%.6f,%.9e,%.9e,%.9e\n", x[0], x[1], x[2],
+                         analysis.model.contact.interfaces.names[study.nodes[i].interface].c_str(),
+                         means.open, means.stick, means.slip, means.pressure, means.largestGap,
+                         means.power);
     }
   });
   return table;
@@ -210,8 +210,8 @@ std::string floquetTable(const analysis::Analysis& analysis) {
 
 void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
-  if (!analysis.onsets.empty()) writeText(comm, folder / "onset.csv", onsetTable(analysis));
-  if (analysis.regimes.empty()) return;
+  if (!analysis.flutter.onsets.empty()) writeText(comm, folder / "onset.csv", onsetTable(analysis));
+  if (analysis.flutter.regimes.empty()) return;
   writeText(comm, folder / "regime.csv", regimeTable(analysis));
   writeText(comm, folder / "regime_nodes.csv", nodeTable(analysis));
   writeText(comm, folder / "regime_cycles.csv", cycleTable(analysis));

@@ -48,7 +48,7 @@ void writeInto(const analysis::Analysis& analysis, const Settings& settings,
     writeTables(analysis, folder.staging());
     if (settings.fields) {
       writeHdf5(analysis, folder.staging());
-      if (analysis.mesh) writeFields(analysis, settings, folder.staging());
+      if (analysis.model.mesh) writeFields(analysis, settings, folder.staging());
     }
     stage.finish("results in " + folder.path().string());
   }
@@ -71,13 +71,13 @@ void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::stri
 
 void write(const analysis::Analysis& analysis, const Settings& settings, Directory& directory) {
   const MPI_Comm comm = analysis.comm;
-  if (!analysis.interrupted) {
+  if (!analysis.interrupted()) {
     writeInto(analysis, settings, directory);
     printLine(comm, stabilityTable(analysis));
     return;
   }
   const std::string how = analysis.checkpoint.exists() ? "; -resume continues it" : "";
-  if (analysis.segments.empty()) {
+  if (analysis.flutter.segments.empty()) {
     removeInterrupted(comm,
                       directory);  // tables of an earlier run, beside a checkpoint of this one
     return printWarning(comm, "interrupted before the first eigenvalues" + how);

@@ -20,9 +20,9 @@ std::string modeHead(const pencil::ComplexModes& point, const pencil::Shape& sha
 /// Collective. Returns the sums over the nodes of each interface, [interface].
 std::vector<double> byInterface(const analysis::Analysis& analysis,
                                 const std::vector<double>& nodes) {
-  std::vector<double> sums(analysis.contact.interfaces.names.size(), 0.0);
+  std::vector<double> sums(analysis.model.contact.interfaces.names.size(), 0.0);
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    sums[analysis.contact.interfaces.nodes[k].interface] += nodes[k];
+    sums[analysis.model.contact.interfaces.nodes[k].interface] += nodes[k];
   check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, analysis.comm));
   return sums;
 }
@@ -34,7 +34,7 @@ std::string sensitivityTable(const analysis::Analysis& analysis) {
       sweep::parameterColumns() +
       ",mode,growth_rate_1_per_s,frequency_hz,condition,separation,left_backward_error,parameter,"
       "growth_rate_derivative_1_per_s,frequency_derivative_hz\n";
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       for (std::size_t i = 0; i < point.sensitivities.size(); ++i) {
         const auto& sensitivity = point.sensitivities[i];
@@ -52,12 +52,12 @@ std::string sensitivityTable(const analysis::Analysis& analysis) {
 std::string frictionWorkTable(const analysis::Analysis& analysis) {
   std::string table = sweep::parameterColumns() +
                       ",mode,growth_rate_1_per_s,frequency_hz,interface,friction_work_1_per_s\n";
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       for (const auto& shape : point.shapes) {
         const auto sums = byInterface(analysis, shape.frictionWork);
         for (std::size_t i = 0; i < sums.size(); ++i)
-          table += modeHead(point, shape) + analysis.contact.interfaces.names[i] +
+          table += modeHead(point, shape) + analysis.model.contact.interfaces.names[i] +
                    formatted(",%.9e\n", sums[i]);
       }
   return table;

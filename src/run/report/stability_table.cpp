@@ -48,7 +48,7 @@ std::string stableText(const analysis::Analysis& analysis,
                        const sweep_solver::ModalSegment& segment,
                        const pencil::ComplexModes& point) {
   if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";
-  if (segment.openNodes > 0 && segment.openNodes == analysis.contact.interfaces.totalNodes)
+  if (segment.openNodes > 0 && segment.openNodes == analysis.model.contact.interfaces.totalNodes)
     return "none: no contact is closed, nothing slides";
   if (point.verdict() == pencil::Verdict::undecided) return "none" + uncertaintyText(point);
   const int neutral = point.count(pencil::Verdict::neutral);
@@ -91,7 +91,7 @@ std::string modeRows(const analysis::Analysis& analysis, const sweep_solver::Mod
 /// eigenvalues listed; empty if there is none.
 std::string strongDampingText(const analysis::Analysis& analysis) {
   const pencil::ComplexModes* most = nullptr;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       if (point.modesWithoutEigenvalue() > (most ? most->modesWithoutEigenvalue() : 0))
         most = &point;
@@ -108,7 +108,7 @@ std::string strongDampingText(const analysis::Analysis& analysis) {
 /// Returns a line for each point whose list of eigenvalues ends below the band.
 std::string coverageText(const analysis::Analysis& analysis) {
   std::string text;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       if (point.coveredTo < point.askedTo)
         text +=
@@ -120,7 +120,7 @@ std::string coverageText(const analysis::Analysis& analysis) {
 /// Returns a line for each point with eigenvalues that could not be certified.
 std::string uncertifiedText(const analysis::Analysis& analysis) {
   std::string text;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.uncertifiedCount() > 0)
         text += formatted(
@@ -138,11 +138,11 @@ std::string errorText(const analysis::Analysis& analysis) {
     return std::any_of(segment.points.begin(), segment.points.end(),
                        [](const auto& point) { return !point.eigenvalues.empty(); });
   };
-  if (std::none_of(analysis.segments.begin(), analysis.segments.end(), listsAny) ||
-      analysis.segments.front().points.front().bandTop <= 0)
+  if (std::none_of(analysis.flutter.segments.begin(), analysis.flutter.segments.end(), listsAny) ||
+      analysis.flutter.segments.front().points.front().bandTop <= 0)
     return text;
   double backward = 0, estimate = 0, top = INFINITY;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points) {
       top = std::min(top, point.bandTop);
       backward = std::max(backward, point.worstBackwardError());
@@ -174,11 +174,11 @@ std::string stabilityTable(const analysis::Analysis& analysis) {
     for (const auto& parameter : shown) table += formatted("%8s  ", parameter.name);
     table += "unstable modes: frequency Hz (growth 1/s)";
   }
-  for (const auto& solution : analysis.steady)
+  for (const auto& solution : analysis.steady.solutions)
     if (!solution.converged)
       table += rowHead(solution.at, shown) +
                formatted("no steady sliding solution found (%s)", solution.reason.c_str());
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       table +=
           sweep ? sweepRow(analysis, segment, point, shown) : modeRows(analysis, segment, point);

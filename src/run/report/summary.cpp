@@ -218,8 +218,8 @@ Json pointEntries(const analysis::Analysis& analysis) {
   const std::size_t steadyPoints = analysis.sweep.steadyPoints().size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     Json entry = parametersEntry(points[i]);
-    if (i % steadyPoints < analysis.steady.size())
-      entry["steady"] = steadyEntry(analysis.steady[i % steadyPoints]);
+    if (i % steadyPoints < analysis.steady.solutions.size())
+      entry["steady"] = steadyEntry(analysis.steady.solutions[i % steadyPoints]);
     if (const auto* point = analysis.pointAt(points[i])) addComplexModes(entry, *point);
     entries.push_back(std::move(entry));
   }
@@ -286,16 +286,18 @@ Json runEntry(const analysis::Analysis& analysis) {
   const auto& options = resolvedOptions();
   Json entry;
   entry["version"] = version();
-  entry["case"] =
-      analysis.mesh ? std::filesystem::path(options.at("mesh_file")).stem().string() : "matrices";
+  entry["case"] = analysis.model.mesh
+                      ? std::filesystem::path(options.at("mesh_file")).stem().string()
+                      : "matrices";
   entry["ranks"] = mpi::size(analysis.comm);
-  entry["complete"] = !analysis.interrupted;
+  entry["complete"] = !analysis.interrupted();
   entry["resumed"] = analysis.checkpoint.resumed();
   entry["verdict"] = verdictEntry(runVerdict(analysis));
-  if (analysis.mesh) entry.update(meshEntry(*analysis.mesh, analysis.contact));
+  if (analysis.model.mesh) entry.update(meshEntry(*analysis.model.mesh, analysis.model.contact));
   entry["method"] =
       analysis.settings.pencil.method == pencil::Method::direct ? "direct" : "reduced";
-  entry["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
+  entry["dofs"] =
+      analysis.flutter.segments.empty() ? 0 : analysis.flutter.segments.front().unknowns;
   return entry;
 }
 
@@ -304,16 +306,16 @@ Json runEntry(const analysis::Analysis& analysis) {
 void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   Json summary = runEntry(analysis);
   summary["frictions"] = pointEntries(analysis);
-  for (const auto& [speed, found] : analysis.uniqueness)
+  for (const auto& [speed, found] : analysis.uniqueness.speeds)
     summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
   summary["active_sets"] = Json::array();
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     summary["active_sets"].push_back(activeSetEntry(segment));
   for (const auto& event : analysis::contactPath(analysis))
-    summary["contact_path"].push_back(contactEventEntry(analysis.contact, event));
-  for (const auto& study : analysis.regimes)
+    summary["contact_path"].push_back(contactEventEntry(analysis.model.contact, event));
+  for (const auto& study : analysis.flutter.regimes)
     for (const auto& run : study.runs) summary["regimes"].push_back(regimeEntry(study, run));
-  if (!analysis.failures.empty()) summary["failures"] = analysis.failures;
+  if (!analysis.flutter.failures.empty()) summary["failures"] = analysis.flutter.failures;
   addStages(summary);
   summary["options"] = resolvedOptions();
   summary["tables"] = tableShapes(analysis.comm, folder);

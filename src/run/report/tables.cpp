@@ -28,7 +28,7 @@ std::string eigenvalueTable(const analysis::Analysis& analysis) {
   std::string table = sweep::parameterColumns() +
                       ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_"
                       "ratio,backward_error,error_estimate,certified,verdict,unstable\n";
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
@@ -102,13 +102,14 @@ std::string gathered(MPI_Comm comm, const std::string& text) {
 std::string steadyRows(const analysis::Analysis& analysis, const steady::Solution& solution) {
   std::string rows;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const auto& p = analysis.contact.interfaces.nodes[i].position;
+    const auto& p = analysis.model.contact.interfaces.nodes[i].position;
     const auto& state = solution.contact[i];
     rows += formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2],
                       state.gap, state.normalForce, state.pressure, state.frictionForce[0],
                       state.frictionForce[1], state.frictionForce[2]) +
-            analysis.contact.interfaces.names[analysis.contact.interfaces.nodes[i].interface] +
-            "," + nodeState(analysis.contact, solution, i) + "\n";
+            analysis.model.contact.interfaces
+                .names[analysis.model.contact.interfaces.nodes[i].interface] +
+            "," + nodeState(analysis.model.contact, solution, i) + "\n";
   }
   return rows;
 }
@@ -119,7 +120,8 @@ std::string contactPathTable(const analysis::Analysis& analysis) {
   for (const auto& [order, at, x, interface, opens] : analysis::contactPath(analysis))
     table += formatted("%.12g,%.12g,%.12g,%.12e,%.12e,%.12e,", at.friction, at.speed, at.pressure,
                        x[0], x[1], x[2]) +
-             analysis.contact.interfaces.names[interface] + (opens ? ",opens\n" : ",closes\n");
+             analysis.model.contact.interfaces.names[interface] +
+             (opens ? ",opens\n" : ",closes\n");
   return table;
 }
 
@@ -130,24 +132,26 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
   writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
   if (analysis.settings.solver.sensitivity.wanted)
     writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
-  if (analysis.mesh) writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
+  if (analysis.model.mesh)
+    writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));
-  if (std::any_of(analysis.segments.begin(), analysis.segments.end(),
+  if (std::any_of(analysis.flutter.segments.begin(), analysis.flutter.segments.end(),
                   [](const auto& segment) { return !segment.followed.empty(); })) {
     writeText(comm, folder / "branches.csv", branchTable(analysis));
     writeText(comm, folder / "critical.csv", criticalTable(analysis));
   }
-  for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
-    if (analysis.segments[s].modes.angularFrequency.empty()) continue;
+  for (std::size_t s = 0; s < analysis.flutter.segments.size(); ++s) {
+    if (analysis.flutter.segments[s].modes.angularFrequency.empty()) continue;
     // modes.csv: the first active set; each later one has its own file, named by its first point.
     const std::string name =
-        s == 0 ? "modes.csv" : "modes_" + pointName(analysis.segments[s].points.at(0).at) + ".csv";
-    writeText(comm, folder / name, modeTable(analysis.segments[s].modes));
+        s == 0 ? "modes.csv"
+               : "modes_" + pointName(analysis.flutter.segments[s].points.at(0).at) + ".csv";
+    writeText(comm, folder / name, modeTable(analysis.flutter.segments[s].modes));
   }
   writeRegimes(analysis, folder);
-  if (analysis.contactEvents > 0)
+  if (analysis.steady.events > 0)
     writeText(comm, folder / "contact_path.csv", contactPathTable(analysis));
-  for (const auto& solution : analysis.steady)
+  for (const auto& solution : analysis.steady.solutions)
     if (solution.converged)
       writeText(comm, folder / ("steady_" + pointName(solution.at) + ".csv"),
                 "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_"

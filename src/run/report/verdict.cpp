@@ -33,7 +33,7 @@ std::vector<sweep::Parameter> sweptParameters(const std::vector<sweep::Parameter
 /// Counts what the points hold.
 UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
   UnstableModes modes;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points) {
       ++verdict.pointsSolved;
       verdict.undecided += point.count(pencil::Verdict::undecided);
@@ -54,7 +54,7 @@ UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
 /// Returns the lowest friction at which stability is lost, solved for.
 std::optional<double> firstLoss(const analysis::Analysis& analysis) {
   std::optional<double> lowest;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& followed : segment.followed)
       for (const auto& critical : followed.criticals)
         if (critical.loss && critical.converged)
@@ -126,7 +126,7 @@ RunVerdict runVerdict(const analysis::Analysis& analysis) {
   if (modes.fastest && sweptParameters(points).size() <= 1)
     if (const auto loss = firstLoss(analysis); loss && *loss <= modes.lowestFriction)
       verdict.criticalFriction = loss;
-  if (analysis.interrupted)
+  if (analysis.interrupted())
     verdict.sentence = interruptedSentence(verdict, modes);
   else if (verdict.pointsSolved == 0)
     verdict.sentence = "No point of the sweep has a steady sliding state.";

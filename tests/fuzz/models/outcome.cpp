@@ -25,7 +25,7 @@ double largestDiagonal(Mat matrix, bool smallest) {
 
 std::vector<FoundPoint> pointsOf(const analysis::Analysis& analysis) {
   std::vector<FoundPoint> points;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points) {
       FoundPoint found{point.at, point.bandTop, {}};
       if (point.askedTo > 0) found.top = point.coveredTo;
@@ -39,7 +39,7 @@ std::vector<FoundPoint> pointsOf(const analysis::Analysis& analysis) {
 
 std::vector<FoundSteady> steadyOf(const analysis::Analysis& analysis) {
   std::vector<FoundSteady> all;
-  for (const auto& solution : analysis.steady) {
+  for (const auto& solution : analysis.steady.solutions) {
     FoundSteady found{solution.at,
                       solution.converged,
                       solution.openNodes,
@@ -85,13 +85,13 @@ sweep::Parameters parameters(const json& list) {
 
 Outcome outcomeOf(const analysis::Analysis& analysis) {
   Outcome outcome;
-  outcome.failures = analysis.failures;
+  outcome.failures = analysis.flutter.failures;
   outcome.points = pointsOf(analysis);
   outcome.steady = steadyOf(analysis);
-  outcome.stiffest = std::sqrt(largestDiagonal(analysis.bodies.stiffness, false) /
-                               largestDiagonal(analysis.bodies.mass, true));
+  outcome.stiffest = std::sqrt(largestDiagonal(analysis.model.bodies.stiffness, false) /
+                               largestDiagonal(analysis.model.bodies.mass, true));
   bool gaps = false, any = false;
-  for (const auto& segment : analysis.segments)
+  for (const auto& segment : analysis.flutter.segments)
     for (const auto& followed : segment.followed) {
       any = true;
       gaps = gaps || !followed.complete();

@@ -40,7 +40,7 @@ TEST(Modes, BlockLanczosAgreesWithEps) {
   const analysis::Analysis lanczos =
       runCase("layer", layer + "-modes_count 51 -modes_solver block_lanczos");
   const analysis::Analysis eps = runCase("layer", layer + "-modes_count 51 -modes_solver eps");
-  const auto &a = lanczos.segments.at(0).modes, &b = eps.segments.at(0).modes;
+  const auto &a = lanczos.flutter.segments.at(0).modes, &b = eps.flutter.segments.at(0).modes;
   ASSERT_EQ(a.angularFrequency.size(), 51U);
   ASSERT_EQ(b.angularFrequency.size(), 51U);
   for (std::size_t i = 0; i < 51; ++i)

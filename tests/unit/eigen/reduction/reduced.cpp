@@ -69,8 +69,8 @@ TEST(Band, TheReportSaysThatTheFreeModesEndBelow) {
   for (const bool above : {false, true}) {
     const analysis::Analysis analysis =
         test::runCase("two_layers", options + (above ? "-flutter_band 1000" : "-flutter_band 0.3"));
-    const auto& point = analysis.segments.at(0).points.at(0);
-    EXPECT_LT(point.bandTop, analysis.segments.at(0).modes.angularFrequency.back());
+    const auto& point = analysis.flutter.segments.at(0).points.at(0);
+    EXPECT_LT(point.bandTop, analysis.flutter.segments.at(0).modes.angularFrequency.back());
     EXPECT_EQ(report::stabilityTable(analysis).find(words) != std::string::npos, above);
   }
 }

@@ -17,7 +17,7 @@ using test::sensitivities::run;
 
 void expectDerivatives(const Configuration& model) {
   const analysis::Analysis analysis = run(model, "", 1);
-  expectBalance(analysis, analysis.segments.at(0).points.at(0));
+  expectBalance(analysis, analysis.flutter.segments.at(0).points.at(0));
   expectDifferences(model, analysis);
 }
 
@@ -81,10 +81,10 @@ TEST(Sensitivity, OfOrthotropicBodies) {
 
 void expectDerivativesOfOpenContact(const Configuration& model) {
   const analysis::Analysis analysis = run(model, "", 1);
-  const auto open = analysis.segments.at(0).openNodes;
+  const auto open = analysis.flutter.segments.at(0).openNodes;
   EXPECT_GT(open, 0);
-  EXPECT_LT(open, analysis.contact.interfaces.totalNodes);
-  expectBalance(analysis, analysis.segments[0].points.at(0));
+  EXPECT_LT(open, analysis.model.contact.interfaces.totalNodes);
+  expectBalance(analysis, analysis.flutter.segments[0].points.at(0));
   expectDifferences(model, analysis);
 }
 

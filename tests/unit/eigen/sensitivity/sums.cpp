@@ -27,7 +27,7 @@ using test::sensitivities::run;
 TEST(Sensitivity, OfTheBeltInClosedForm) {
   for (const double f : {0.8, 1.0, 2.0}) {
     const analysis::Analysis analysis = run({"external", "", f, {}}, "", 1);
-    const auto& point = analysis.segments.at(0).points.at(0);
+    const auto& point = analysis.flutter.segments.at(0).points.at(0);
     EXPECT_EQ(point.sensitivities.size(), 1u);
     for (std::size_t i = 0; i < point.sensitivities.size(); ++i) {
       const auto& [condition, separation, error, derivatives] = point.sensitivities[i];
@@ -58,7 +58,7 @@ TEST(Sensitivity, OfMatricesFromFiles) {
 TEST(Sensitivity, OfAllBodiesTogether) {
   const analysis::Analysis analysis =
       run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
-  const auto& point = analysis.segments.at(0).points.at(0);
+  const auto& point = analysis.flutter.segments.at(0).points.at(0);
   EXPECT_EQ(point.sensitivities.size(), 3u);
   expectBalance(analysis, point);
   for (std::size_t i = 0; i < point.sensitivities.size(); ++i) {
@@ -87,13 +87,13 @@ std::vector<std::string> lines(const std::string& text) {
 TEST(Sensitivity, InTables) {
   analysis::Analysis analysis =
       run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
-  auto& point = analysis.segments.at(0).points.at(0);
+  auto& point = analysis.flutter.segments.at(0).points.at(0);
   EXPECT_EQ(point.sensitivities.size(), 3u);
   auto& first = point.sensitivities.at(0);
   const auto full = lines(report::sensitivityTable(analysis)),
              work = lines(report::frictionWorkTable(analysis));
   EXPECT_EQ(full.size(), 1 + 3 * first.derivatives.size());
-  EXPECT_EQ(work.size(), 1 + 3 * analysis.contact.interfaces.names.size());
+  EXPECT_EQ(work.size(), 1 + 3 * analysis.model.contact.interfaces.names.size());
   for (const auto* table : {&full, &work})
     for (const auto& line : *table)
       EXPECT_EQ(std::count(line.begin(), line.end(), ','),

@@ -116,10 +116,12 @@ double distance(double a, Vec x, Vec b) {
 TEST(Sweep, SteadySlidingIsProportionalToThePressure) {
   const auto analysis = test::runCase(
       "layer", "-mesh_set nx=8,ny=4 -modes_count 10 -flutter_friction 0.3 -flutter_pressure 1,3");
-  ASSERT_EQ(analysis.steady.size(), 2U);
-  ASSERT_EQ(analysis.steady[1].at.pressure, 3);
+  ASSERT_EQ(analysis.steady.solutions.size(), 2U);
+  ASSERT_EQ(analysis.steady.solutions[1].at.pressure, 3);
   // The tolerance of GMRES, 1e-13, with the condition of this small stiffness, some hundreds.
-  EXPECT_LT(distance(3, analysis.steady[0].displacement, analysis.steady[1].displacement), 1e-11);
+  EXPECT_LT(distance(3, analysis.steady.solutions[0].displacement,
+                     analysis.steady.solutions[1].displacement),
+            1e-11);
 }
 
 // 1000 frictions at 1000 speeds: each list is within its limit.

@@ -49,11 +49,12 @@ TEST(Matrices, BeltMergesAtItsCriticalFriction) {
       const Complex s = std::sqrt(-2.0 + sign * std::sqrt(Complex(1 - 4 * f / 3)));
       exact.push_back(s.imag() < 0 ? -s : s);
     }
-    const auto& point = analysis.segments.at(0).points.at(0);
+    const auto& point = analysis.flutter.segments.at(0).points.at(0);
     // At 1e-6 from the merger rounding of 1e-16 grows by 1e3.
     EXPECT_LT(worst(errors(exact, eigenvaluesOf(point)).relative), 1e-12) << f;
     EXPECT_EQ(point.unstableCount(), f > 0.75 ? 1 : 0) << f;
-    EXPECT_EQ(analysis.segments.at(0).modes.angularFrequency.size(), 2U);  // of -modes_count 200
+    EXPECT_EQ(analysis.flutter.segments.at(0).modes.angularFrequency.size(),
+              2U);  // of -modes_count 200
   }
 }
 
@@ -61,12 +62,12 @@ TEST(Matrices, FactorsAndExponents) {
   // 3 · (M/3) and the friction entered as f² v / 10 at f = 0.5, v = 20: f K_f.
   const std::string third = writeRows("third.mtx", {{1. / 3, 0}, {0, 1. / 3}});
   const std::string options = problem("factors", unit, belt, drag) + "-flutter_friction 0.5 ";
-  const auto plain = eigenvaluesOf(runOptions(options).segments.at(0).points.at(0));
+  const auto plain = eigenvaluesOf(runOptions(options).flutter.segments.at(0).points.at(0));
   const auto scaled =
       eigenvaluesOf(runOptions(options + "-matrices_m_factor 3 -matrices_m_file " + third +
                                " -matrices_kf_friction_exponent 2 -matrices_kf_speed_exponent 1 "
                                "-matrices_kf_factor 0.1 -flutter_speed 20")
-                        .segments.at(0)
+                        .flutter.segments.at(0)
                         .points.at(0));
   EXPECT_LT(worst(errors(plain, scaled).relative), 1e-14);
 }
@@ -75,12 +76,12 @@ TEST(Matrices, FactorsAndExponents) {
 // symmetric part.
 TEST(Matrices, FrictionInsideTheStiffness) {
   const auto apart = runOptions(problem("apart", unit, belt, drag) + "-flutter_friction 1")
-                         .segments.at(0)
+                         .flutter.segments.at(0)
                          .points.at(0)
                          .eigenvalues;
   const std::string inside = problem("inside", unit, {{2, 1 - 4. / 3}, {1, 2}}, {{0, 0}, {0, 0}});
   const analysis::Analysis analysis = runOptions(inside + "-flutter_friction 1");
-  const auto& point = analysis.segments.at(0).points.at(0);
+  const auto& point = analysis.flutter.segments.at(0).points.at(0);
   ASSERT_EQ(point.eigenvalues.size(), apart.size());
   for (std::size_t i = 0; i < apart.size(); ++i)
     EXPECT_LT(std::abs(point.eigenvalues[i].s - apart[i].s), 1e-14);
@@ -174,9 +175,9 @@ TEST(Matrices, AStiffSpringDoesNotSpoilTheOthers) {
   const analysis::Analysis reduced = runOptions(options + "-modes_count 20");
   const analysis::Analysis direct =
       runOptions(options + "-flutter_method direct -flutter_direct_count 160");
-  const auto& found = reduced.segments.at(0).points.at(0).eigenvalues;
-  const auto exact = matched(eigenvaluesOf(reduced.segments.at(0).points.at(0)),
-                             eigenvaluesOf(direct.segments.at(0).points.at(0)));
+  const auto& found = reduced.flutter.segments.at(0).points.at(0).eigenvalues;
+  const auto exact = matched(eigenvaluesOf(reduced.flutter.segments.at(0).points.at(0)),
+                             eigenvaluesOf(direct.flutter.segments.at(0).points.at(0)));
   EXPECT_GE(found.size(), 8U);
   for (std::size_t i = 0; i < found.size(); ++i) {
     // The backward error, one of ‖K‖ and so of the spring, would say 1e-12; the estimate says how
@@ -189,9 +190,10 @@ TEST(Matrices, AStiffSpringDoesNotSpoilTheOthers) {
   // All modes of a smaller one at once, by LAPACK, against block Lanczos or SLEPc.
   chain.masses = 30, chain.at = 15;
   const std::string smaller = chain.options("stiff_small") + "-flutter_friction 0 ";
-  const auto all = runOptions(smaller + "-modes_count 60").segments.at(0).modes.angularFrequency;
+  const auto all =
+      runOptions(smaller + "-modes_count 60").flutter.segments.at(0).modes.angularFrequency;
   const auto some = runOptions(smaller + "-modes_count 10 -modes_solver eps -modes_tolerance 1e-12")
-                        .segments.at(0)
+                        .flutter.segments.at(0)
                         .modes.angularFrequency;
   for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(all[i], some[i], 1e-10 * some[i]) << i;
 }
@@ -218,8 +220,8 @@ TEST(Matrices, ExportOfTheLayerComesBack) {
     const analysis::Analysis files =
         runOptions("-options_file " + folder + format + "/options.txt");
     for (std::size_t p = 0; p < 2; ++p) {
-      const auto wanted = eigenvaluesOf(mesh.segments.at(0).points.at(p)),
-                 found = eigenvaluesOf(files.segments.at(0).points.at(p));
+      const auto wanted = eigenvaluesOf(mesh.flutter.segments.at(0).points.at(p)),
+                 found = eigenvaluesOf(files.flutter.segments.at(0).points.at(p));
       ASSERT_EQ(wanted.size(), found.size());
       EXPECT_GT(wanted.size(), 20U);
       // Both to a backward error of 1e-9 in the band; the sums of the pencil are the same to
@@ -244,8 +246,8 @@ TEST(Matrices, ExportOfAPointAlone) {
       runCase("two_layers_antiplane", changes + "-flutter_friction 0.4");
   const analysis::Analysis files =
       runOptions("-options_file " SQUEAL_OUTPUT_DIR "/antiplane/options.txt");
-  const auto wanted = eigenvaluesOf(mesh.segments.at(0).points.at(0)),
-             found = eigenvaluesOf(files.segments.at(0).points.at(0));
+  const auto wanted = eigenvaluesOf(mesh.flutter.segments.at(0).points.at(0)),
+             found = eigenvaluesOf(files.flutter.segments.at(0).points.at(0));
   ASSERT_EQ(wanted.size(), found.size());
   EXPECT_GT(wanted.size(), 4U);
   EXPECT_LT(worst(errors(wanted, found).relative), 1e-10);

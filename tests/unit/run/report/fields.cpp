@@ -50,7 +50,7 @@ TEST(Fields, EigenvaluesWithErrorsAndCertification) {
     const Folder folder;
     writeHdf5(analysis, folder.path);
     Reader reader(folder.path / "results.h5");
-    for (const auto& point : analysis.segments.at(0).points) {
+    for (const auto& point : analysis.flutter.segments.at(0).points) {
       const std::string group = "/flutter/friction_" + pointName(point.at);
       EXPECT_EQ(reader.text(group + "/eigenvalues", "columns"),
                 "growth_rate_1_per_s,angular_frequency_rad_per_s,backward_error,error_estimate,"
@@ -88,9 +88,9 @@ struct ContactNodes {
 
 /// Collective.
 ContactNodes contactNodes(const analysis::Analysis& analysis) {
-  const auto total = static_cast<std::size_t>(analysis.mesh->totalNodes);
+  const auto total = static_cast<std::size_t>(analysis.model.mesh->totalNodes);
   ContactNodes nodes{std::vector<double>(total, 0.0), std::vector<double>(total, 0.0)};
-  for (const auto& node : analysis.contact.interfaces.nodes) {
+  for (const auto& node : analysis.model.contact.interfaces.nodes) {
     nodes.interface[node.globalNode] = node.interface + 1;
     nodes.area[node.globalNode] = node.area;
   }
@@ -150,7 +150,7 @@ TEST(Fields, FrictionWorkIsThatOfTheTable) {
   const auto tags = reader.integers("/mesh", "node_tag").first;
   EXPECT_EQ(tags.size(), nodes.interface.size());
   std::size_t modes = 0;
-  for (const auto& point : analysis.segments.at(0).points)
+  for (const auto& point : analysis.flutter.segments.at(0).points)
     for (const auto& shape : point.shapes) {
       const int mode = static_cast<int>(shape.index) + 1;
       const auto [work, columns] = reader.reals("/flutter/friction_" + pointName(point.at),
@@ -173,7 +173,7 @@ TEST(Fields, FrictionWorkIsThatOfTheTable) {
       EXPECT_EQ(fromAreas[0], 0);
       for (std::size_t i = 0; i < 2; ++i) {
         const double wanted =
-            table.at({point.at.friction, mode}).at(analysis.contact.interfaces.names.at(i));
+            table.at({point.at.friction, mode}).at(analysis.model.contact.interfaces.names.at(i));
         growth += wanted;
         EXPECT_NEAR(sums[i + 1], wanted,
                     1e-9 * std::abs(wanted) + 1e-14 * magnitudes);  // ten digits in the table
@@ -181,8 +181,8 @@ TEST(Fields, FrictionWorkIsThatOfTheTable) {
         EXPECT_GT(std::abs(wanted), 1e-4 * magnitudes);
       }
       test::print("friction %g, mode %d: %s %.6g, %s %.6g, growth rate %.6g\n", point.at.friction,
-                  mode, analysis.contact.interfaces.names[0].c_str(), sums[1],
-                  analysis.contact.interfaces.names[1].c_str(), sums[2],
+                  mode, analysis.model.contact.interfaces.names[0].c_str(), sums[1],
+                  analysis.model.contact.interfaces.names[1].c_str(), sums[2],
                   point.eigenvalues[shape.index].s.real());
       const auto s = point.eigenvalues[shape.index].s;
       EXPECT_NEAR(growth, s.real(), 1e-8 * std::abs(s));

@@ -59,10 +59,11 @@ double zeroNear(const analysis::Analysis& analysis, double friction, const std::
 TEST(ContactPath, NodesLiftOneByOne) {
   if (sizeOf() > 1) GTEST_SKIP() << "the dense problem is that of one rank";
   const analysis::Analysis analysis = runOptions(block + "-modes_count 5 -flutter_friction 0,0.5");
-  const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
+  const steady::Problem problem(*analysis.model.mesh, analysis.model.bodies,
+                                analysis.model.contact);
   const contact::CoupledSystem closed(
-      analysis.bodies, analysis.contact,
-      contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size()));
+      analysis.model.bodies, analysis.model.contact,
+      contact::ActiveSet::bonded(analysis.model.contact.interfaces.nodes.size()));
   condensed::CondensedProblem condensedProblem(problem, closed);
   const sweep::Parameters begin{.friction = 0, .speed = 3}, end{.friction = 0.5, .speed = 3};
   const auto first = condensedProblem.solve(begin);
@@ -93,9 +94,9 @@ struct Way {
       : Way(runOptions(options + " -modes_count 1 -flutter_friction 0"), friction) {}
   Way(analysis::Analysis found, double friction)
       : analysis(std::move(found)),
-        problem(*analysis.mesh, analysis.bodies, analysis.contact),
-        closed(analysis.bodies, analysis.contact,
-               contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size())),
+        problem(*analysis.model.mesh, analysis.model.bodies, analysis.model.contact),
+        closed(analysis.model.bodies, analysis.model.contact,
+               contact::ActiveSet::bonded(analysis.model.contact.interfaces.nodes.size())),
         condensedProblem(problem, closed),
         path(condensed::followContact(condensedProblem, condensedProblem.solve({0}), {friction})) {}
   analysis::Analysis analysis;
@@ -203,15 +204,16 @@ TEST(ContactPath, OfSeveralSolutionsTheSweepKeepsItsOwn) {
                                    " -flutter_friction 0,1,1.5,2 -modes_count 1 "
                                    "-flutter_method direct "
                                    "-flutter_direct_count 1");
-  ASSERT_EQ(analysis.steady.size(), 4U);
+  ASSERT_EQ(analysis.steady.solutions.size(), 4U);
   EXPECT_EQ(allSolutions(condensed(analysis, 1)).size(), 1U);
   EXPECT_GT(allSolutions(condensed(analysis, 1.5)).size(), 1U);
-  for (const auto& solution : analysis.steady) {
+  for (const auto& solution : analysis.steady.solutions) {
     EXPECT_TRUE(solution.converged);
-    EXPECT_EQ(solution.openNodes, analysis.contact.interfaces.totalNodes) << solution.at.friction;
+    EXPECT_EQ(solution.openNodes, analysis.model.contact.interfaces.totalNodes)
+        << solution.at.friction;
   }
-  EXPECT_EQ(analysis.steady[1].nodesOfAnother, 0);
-  EXPECT_GT(analysis.steady[2].nodesOfAnother, 0);
+  EXPECT_EQ(analysis.steady.solutions[1].nodesOfAnother, 0);
+  EXPECT_GT(analysis.steady.solutions[2].nodesOfAnother, 0);
 }
 
 // The brake without slope of its pads: between the steady states just below and just above each

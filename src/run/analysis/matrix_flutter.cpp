@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "run/analysis/matrix_route.hpp"
+#include "run/analysis/matrix_flutter.hpp"
 
 #include <algorithm>
 
@@ -44,6 +44,21 @@ class MatrixSweep : public sweep_solver::SweepProblem {
   bool derives_;  // the sensitivities
 };
 
+/// Collective. Returns the symmetric part of the matrices, and prints its size.
+matrices::SymmetricPart symmetricPart(MPI_Comm comm,
+                                      const std::vector<matrices::NamedTerm>& named) {
+  Stage stage(comm, "matrices");
+  matrices::SymmetricPart symmetric = matrices::symmetricPart(named);
+  std::string asymmetry;
+  if (symmetric.asymmetry > 0)
+    asymmetry = formatted(
+        "; stiffness without friction unsymmetric by %.1e: free modes of its symmetric part",
+        symmetric.asymmetry);
+  stage.finish(
+      formatted("%" PetscInt_FMT " unknowns%s", symmetric.system.size(), asymmetry.c_str()));
+  return symmetric;
+}
+
 }  // namespace
 
 std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const Settings& settings,
@@ -59,32 +74,26 @@ std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const Settings& set
   return named;
 }
 
-void solveMatrices(Analysis& analysis) {
-  auto named = readMatrices(analysis.comm, analysis.settings, analysis.sweep);
-  Stage stage(analysis.comm, "matrices");
-  const matrices::SymmetricPart symmetric = matrices::symmetricPart(named);
-  stage.finish(formatted(
-      "%" PetscInt_FMT " unknowns%s", symmetric.system.size(),
-      symmetric.asymmetry > 0
-          ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
-                      "symmetric part",
-                      symmetric.asymmetry)
-                .c_str()
-          : ""));
-  warnOfDenseWork(analysis.comm, analysis.settings, analysis.sweep, symmetric.system.size());
+Flutter matrixFlutter(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep,
+                      const sweep_solver::Request& request, checkpoint::Checkpoint& checkpoint) {
+  Flutter found;
+  found.complete = completed([&] { stopIfAsked(comm); });
+  if (!found.complete) return found;
+  auto named = readMatrices(comm, settings, sweep);
+  const matrices::SymmetricPart symmetric = symmetricPart(comm, named);
+  warnOfDenseWork(comm, settings, sweep, symmetric.system.size());
   std::vector<pencil::Term> terms;
   for (auto& item : named) terms.push_back(std::move(item.term));
   const pencil::Pencil pencil(std::move(terms));
-  const auto points = analysis.sweep.steadyPoints();
-  if (const auto& settings = analysis.settings.matrixExport; settings.wanted())
-    matrices::exportPencil(pencil, settings, analysis.sweep, points.size());
-  MatrixSweep problem(symmetric.system, pencil, points,
-                      analysis.settings.solver.sensitivity.wanted);
-  auto solved =
-      sweep_solver::solveSweep(problem, requestOf(analysis), analysis.checkpoint, "matrices");
-  analysis.segments = std::move(solved.segments);
-  for (const auto& failure : solved.failures) addFailure(analysis, "flutter: " + failure);
-  if (!solved.complete) throw Interrupted();
+  const auto points = sweep.steadyPoints();
+  if (settings.matrixExport.wanted())
+    matrices::exportPencil(pencil, settings.matrixExport, sweep, points.size());
+  MatrixSweep problem(symmetric.system, pencil, points, settings.solver.sensitivity.wanted);
+  auto solved = sweep_solver::solveSweep(problem, request, checkpoint, "matrices");
+  found.segments = std::move(solved.segments);
+  for (const auto& failure : solved.failures) found.addFailure(comm, "flutter: " + failure);
+  found.complete = solved.complete;
+  return found;
 }
 
 }  // namespace squeal::analysis

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "run/analysis/condensed_sweep.hpp"
+
+#include <algorithm>
+
+#include "base/session/stages.hpp"
+#include "base/system/termination.hpp"
+#include "base/system/text.hpp"
+#include "run/analysis/steady_messages.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+/// The largest number of steady points that are solved together.
+constexpr std::size_t largestBatch = 16;
+
+std::string endText(const condensed::ContactPath& path) {
+  constexpr int digits = 9;  // the path locates events to 1e-8
+  return sweep::parameterText(path.end, digits) + ": " + path.obstacle;
+}
+
+}  // namespace
+
+CondensedSweep::CondensedSweep(const SteadyInput& input, const contact::CoupledSystem& closed,
+                               SteadyStates& states)
+    : input_(input),
+      comm_(input.model.mesh->comm),
+      problem_(*input.model.mesh, input.model.bodies, input.model.contact),
+      closed_(closed),
+      isExact_(condensed::CondensedProblem::isExact(input.model.contact, input.model.bodies)),
+      states_(states) {}
+
+void CondensedSweep::solve(StateLog& log) {
+  const auto points = input_.sweep.steadyPoints();
+  std::vector<steady::Solution>& solutions = states_.solutions;
+  if (solutions.size() < points.size()) closed_.solver();
+  while (solutions.size() < points.size()) {
+    stopIfAsked(comm_);
+    const std::size_t begin = solutions.size(), end = std::min(begin + largestBatch, points.size());
+    solveBatch({points.begin() + begin, points.begin() + end});
+    if (isExact_) {
+      const auto steps = stepsToFollow(begin);
+      anticipate(steps);
+      for (const Step& step : steps) followPath(step);
+    }
+    log.write();
+  }
+}
+
+/// Collective. Adds the states at the next points.
+void CondensedSweep::solveBatch(const std::vector<sweep::Parameters>& points) {
+  std::vector<steady::Solution>& solutions = states_.solutions;
+  Stage stage(comm_, "steady");
+  if (!condensed_) {
+    condensed_.emplace(problem_, closed_);
+    const auto last = std::ranges::find_if(solutions.rbegin(), solutions.rend(),
+                                           [](const auto& one) { return one.converged; });
+    if (last != solutions.rend()) condensed_->continueFrom(*last);
+  }
+  const long before = condensed_->solves();
+  const std::size_t begin = solutions.size();
+  for (auto& solution : condensed_->solveTogether(points)) solutions.push_back(std::move(solution));
+  for (std::size_t k = begin; k < solutions.size(); ++k) {
+    solveAgain(k);
+    stage.printLine(resultText(solutions[k], input_.model.contact));
+    reportState(solutions[k], input_.model);
+  }
+  stage.finish(
+      formatted("%zu points, %ld right-hand sides", points.size(), condensed_->solves() - before));
+}
+
+/// Collective. Tries other ways to solve for a point without a solution.
+void CondensedSweep::solveAgain(std::size_t point) {
+  const bool& converged = states_.solutions[point].converged;
+  if (!converged && isExact_) continueFromNeighbour(point);
+  if (!converged && !isExact_) solveFromNearest(point);
+  if (!converged) solveWithPivots(point);
+  if (!converged && !isExact_) solveInAllUnknowns(point);
+}
+
+/// Collective. Follows the contact from the state at another point to one where no solution has
+/// been found, and solves again from the end of the path; if the path ends before, says where and
+/// why.
+void CondensedSweep::continueTo(const steady::Solution& from, steady::Solution& solution) {
+  auto path = condensed::followContact(*condensed_, from, solution.at);
+  const std::string way = "followed from " + sweep::parameterText(from.at);
+  if (!path.obstacle.empty()) {
+    solution.existsTo = path.end;
+    solution.reason += "; " + way + " up to " + endText(path);
+    return;
+  }
+  const std::string before = solution.reason;
+  condensed_->beginWith(std::move(path.gaps), std::move(path.sticking));
+  solution = condensed_->solve(solution.at);
+  if (solution.converged)
+    solution.reason += ", " + way + " after " + before;
+  else if (solution.reason != before)
+    solution.reason += "; " + before;
+}
+
+/// Collective. Continues to a point without a solution from a neighbour, or from friction 0 if no
+/// neighbour has a solution.
+void CondensedSweep::continueFromNeighbour(std::size_t point) {
+  auto& solutions = states_.solutions;
+  auto known = input_.sweep.earlierNeighbour(point);
+  while (known && !solutions[*known].converged) known = input_.sweep.earlierNeighbour(*known);
+  if (known) return continueTo(solutions[*known], solutions[point]);
+  const sweep::Parameters at = solutions[point].at;
+  if (at.friction == 0) return;
+  if (const auto without = condensed_->solveWithPivots({0, at.speed, at.pressure});
+      without.converged)
+    continueTo(without, solutions[point]);
+}
+
+/// Collective. Solves again for a point without a solution, from the states at the nearest points
+/// before and after it that have one.
+void CondensedSweep::solveFromNearest(std::size_t point) {
+  auto& all = states_.solutions;
+  const auto before = std::find_if(all.rbegin() + (all.size() - point), all.rend(),
+                                   [](const auto& one) { return one.converged; });
+  const auto after =
+      std::find_if(all.begin() + point, all.end(), [](const auto& one) { return one.converged; });
+  std::vector<const steady::Solution*> starts;
+  if (before != all.rend()) starts.push_back(&*before);
+  if (after != all.end()) starts.push_back(&*after);
+  for (const auto* start : starts) {
+    condensed_->continueFrom(*start);
+    auto again = condensed_->solve(all[point].at);
+    if (!again.converged) continue;
+    again.reason +=
+        ", from the state at " + sweep::parameterText(start->at) + ", after " + all[point].reason;
+    all[point] = std::move(again);
+    return;
+  }
+}
+
+/// Collective. Solves again for a point without a solution, with complementary pivots.
+void CondensedSweep::solveWithPivots(std::size_t point) {
+  steady::Solution& solution = states_.solutions[point];
+  auto again = condensed_->solveWithPivots(solution.at);
+  if (!again.converged) return;
+  again.reason += " with complementary pivots (without: " + solution.reason + ")";
+  solution = std::move(again);
+}
+
+/// Collective. Solves again for a point without a solution, in all unknowns.
+void CondensedSweep::solveInAllUnknowns(std::size_t point) {
+  steady::Solution& solution = states_.solutions[point];
+  const std::string condensedReason = solution.reason;
+  solution = problem_.solve(solution.at, closed_);
+  solution.reason += ", in all unknowns";
+  if (!solution.converged) solution.reason += "; in those of the contact: " + condensedReason;
+}
+
+std::string CondensedSweep::stepText(const Step& step) const {
+  return "contact between " + sweep::parameterText(states_.solutions[step.from].at) + " and " +
+         sweep::parameterText(states_.solutions[step.to].at) + ": ";
+}
+
+/// Collective. Returns the steps to the points from `begin` on that are short enough to be
+/// followed, and reports the others.
+std::vector<CondensedSweep::Step> CondensedSweep::stepsToFollow(std::size_t begin) const {
+  const int limit = input_.settings.path;
+  const auto& solutions = states_.solutions;
+  std::vector<Step> steps;
+  for (std::size_t k = begin; k < solutions.size() && limit > 0; ++k) {
+    const auto neighbour = input_.sweep.earlierNeighbour(k);
+    if (!neighbour) continue;
+    const auto &from = solutions[*neighbour], &to = solutions[k];
+    if (!from.converged || !to.converged) continue;
+    if (const PetscInt changes = contact::countDifferent(comm_, from.closed, to.closed);
+        changes <= limit)
+      steps.push_back({*neighbour, k});
+    else
+      printLine(comm_, stepText({*neighbour, k}) +
+                           formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
+                                     " finds where",
+                                     changes, changes));
+  }
+  return steps;
+}
+
+/// Collective. Solves in blocks for the right-hand sides that followPath() will need.
+void CondensedSweep::anticipate(const std::vector<Step>& steps) {
+  Stage stage(comm_, "steady");
+  const long before = condensed_->solves();
+  std::vector<condensed::ContactWay> ends;
+  for (const Step& step : steps)
+    ends.push_back({&states_.solutions[step.from], &states_.solutions[step.to]});
+  condensed::anticipateContact(*condensed_, ends);
+  if (const long more = condensed_->solves() - before; more > 0)
+    stage.finish(formatted("contact between the points: %ld right-hand sides", more));
+}
+
+/// Collective. Adds the events between the states at neighbouring points. If there are several
+/// solutions, the one that the path leads to becomes that of its end.
+void CondensedSweep::followPath(const Step& step) {
+  Stage stage(comm_, "steady");
+  auto path = condensed::followContact(*condensed_, states_.solutions[step.from],
+                                       states_.solutions[step.to].at);
+  if (!path.obstacle.empty())
+    printWarning(comm_, stepText(step) + "followed up to " + endText(path));
+  for (auto& event : path.events) {
+    event.order += states_.events;
+    states_.path.push_back(event);
+  }
+  states_.events += path.count;
+  if (path.obstacle.empty()) takeSolutionOfPath(path, step);
+  if (path.count > 0)
+    stage.finish(stepText(step) +
+                 formatted("%d %s", path.count,
+                           path.count == 1 ? "node opens or closes" : "nodes open or close"));
+}
+
+/// Collective. Replaces the solution at the end of a step by the one that the path leads to, if it
+/// is another one.
+void CondensedSweep::takeSolutionOfPath(condensed::ContactPath& path, const Step& step) {
+  steady::Solution& solution = states_.solutions[step.to];
+  const PetscInt others = contact::countDifferent(comm_, path.closed, solution.closed);
+  if (others == 0) return;
+  condensed_->beginWith(std::move(path.gaps), std::move(path.sticking));
+  auto ahead = condensed_->solve(solution.at);
+  if (!ahead.converged || contact::countDifferent(comm_, ahead.closed, path.closed) != 0) return;
+  solution = std::move(ahead);
+  solution.nodesOfAnother = others;
+  printWarning(
+      comm_, stepText(step) + formatted("steady sliding is not unique at the end: another solution "
+                                        "differs in %" PetscInt_FMT
+                                        " %s; the run keeps the one that the path leads to",
+                                        others, others == 1 ? "contact node" : "contact nodes"));
+}
+
+}  // namespace squeal::analysis

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Steady states of a sweep in the unknowns of the contact.
+#include <optional>
+#include <vector>
+
+#include "run/analysis/state_log.hpp"
+#include "run/analysis/steady_sweep.hpp"
+#include "steady/condensed/condensed_problem.hpp"
+
+namespace squeal::analysis {
+
+/// Solves the steady points in batches with the factorisation of the closed contact, and follows
+/// the contact between neighbouring points. All members are collective.
+class CondensedSweep {
+ public:
+  /// Borrows all arguments during the life of the object. `closed` is the system with all contact
+  /// nodes closed; `states` has the states of the first points.
+  CondensedSweep(const SteadyInput& input, const contact::CoupledSystem& closed,
+                 SteadyStates& states);
+  /// Adds the missing states, and the path between them, and logs them.
+  void solve(StateLog& log);
+
+ private:
+  /// The path to a steady point from its neighbour, by their numbers.
+  struct Step {
+    std::size_t from, to;
+  };
+  void solveBatch(const std::vector<sweep::Parameters>& points);
+  void solveAgain(std::size_t point);
+  void continueTo(const steady::Solution& from, steady::Solution& solution);
+  void continueFromNeighbour(std::size_t point);
+  void solveFromNearest(std::size_t point);
+  void solveWithPivots(std::size_t point);
+  void solveInAllUnknowns(std::size_t point);
+  std::string stepText(const Step& step) const;
+  std::vector<Step> stepsToFollow(std::size_t begin) const;
+  void anticipate(const std::vector<Step>& steps);
+  void followPath(const Step& step);
+  void takeSolutionOfPath(condensed::ContactPath& path, const Step& step);
+
+  const SteadyInput input_;
+  const MPI_Comm comm_;
+  const steady::Problem problem_;
+  const contact::CoupledSystem& closed_;
+  const bool isExact_;  // solutions between points are exact without corrections
+  std::optional<condensed::CondensedProblem> condensed_;
+  SteadyStates& states_;
+};
+
+}  // namespace squeal::analysis

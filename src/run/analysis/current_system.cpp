@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "run/analysis/current_system.hpp"
+
+#include "base/session/stages.hpp"
+#include "base/system/text.hpp"
+
+namespace squeal::analysis {
+
+const contact::CoupledSystem& CurrentSystem::of(const contact::ActiveSet& active) {
+  const MPI_Comm comm = model_.mesh->comm;
+  if (system_ && contact::sameOnAllRanks(comm, system_->activeSet(), active)) return *system_;
+  system_.reset();  // frees the old factorisation before the new one is made
+  Stage stage(comm, "contact");
+  system_ = std::make_unique<contact::CoupledSystem>(model_.bodies, model_.contact, active);
+  const PetscInt nodes = model_.contact.interfaces.totalNodes;
+  stage.finish(formatted("%" PetscInt_FMT " unknowns with %" PetscInt_FMT " of %" PetscInt_FMT
+                         " contact nodes closed",
+                         system_->size(), nodes - system_->openNodes(), nodes));
+  return *system_;
+}
+
+}  // namespace squeal::analysis

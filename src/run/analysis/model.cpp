@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "run/analysis/model.hpp"
+
+#include "base/session/stages.hpp"
+#include "base/system/text.hpp"
+#include "model/contact/build.hpp"
+#include "model/elasticity/element.hpp"
+#include "model/mesh/read.hpp"
+#include "model/ties/ties.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+std::string unusedText(PetscInt nodes) {
+  if (nodes == 0) return "";
+  return nodes == 1 ? "; 1 node in no cell is not used"
+                    : "; " + std::to_string(nodes) + " nodes in no cell are not used";
+}
+
+std::string straightenedText(const mesh::Straightened& done) {
+  if (done.nodes == 0) return "";
+  return formatted("; -mesh_straighten: %" PetscInt_FMT " nodes of %" PetscInt_FMT
+                   " cells moved by up to %.3g m in %" PetscInt_FMT " rounds, %" PetscInt_FMT
+                   " cells were folded",
+                   done.nodes, done.cells, done.largestMove, done.rounds, done.folded);
+}
+
+mesh::Mesh readMesh(MPI_Comm comm, const ModelSettings& settings) {
+  const mesh::Request request = meshRequest(settings);
+  Stage stage(comm, "mesh");
+  mesh::Mesh mesh = mesh::read(comm, request, settings.file, settings.mesh,
+                               {elasticity::foldedAnywhere, elasticity::straightened});
+  stage.finish(formatted(
+      "%s: %" PetscInt_FMT " nodes, %" PetscInt_FMT " cells, %zu bodies in %d connected parts%s%s",
+      settings.file.file.c_str(), mesh.totalNodes, mesh.totalCells, mesh.bodies.size(), mesh.parts,
+      unusedText(mesh.unusedNodes).c_str(), straightenedText(mesh.straightened).c_str()));
+  return mesh;
+}
+
+elasticity::Bodies assembleBodies(const mesh::Mesh& mesh, const ModelSettings& settings) {
+  Stage stage(mesh.comm, "elasticity");
+  elasticity::Bodies bodies = elasticity::assemble(mesh, settings.materials, settings.elasticity);
+  stage.finish(formatted("stiffness, mass and loads on %" PetscInt_FMT " displacements",
+                         mesh.dimension * mesh.totalNodes));
+  return bodies;
+}
+
+interfaces::Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings) {
+  Stage stage(mesh.comm, "tie");
+  auto ties = ties::findTies(mesh, settings);
+  if (const auto found = ties::describeTies(ties); !found.empty()) stage.finish(found);
+  return ties;
+}
+
+contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                              interfaces::Interfaces ties, const contact::Settings& settings) {
+  Stage stage(mesh.comm, "contact");
+  contact::Contact contact = contact::build(mesh, bodies, std::move(ties), settings);
+  stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces",
+                         contact.interfaces.totalNodes, contact.interfaces.names.size()));
+  for (int i = 0; i < std::ssize(contact.interfaces.names); ++i)
+    if (contact.interfaces.names.size() > 1 || !contact.interfaces.reports[i].matching)
+      printLine(mesh.comm, "  " + interfaces::describe(contact.interfaces, i));
+  return contact;
+}
+
+}  // namespace
+
+Model buildModel(MPI_Comm comm, const ModelSettings& settings) {
+  Model model;
+  model.mesh = std::make_unique<mesh::Mesh>(readMesh(comm, settings));
+  auto ties = findTies(*model.mesh, settings.interfaces);  // may move nodes, so before elements
+  model.bodies = assembleBodies(*model.mesh, settings);
+  model.contact = buildContact(*model.mesh, model.bodies, std::move(ties), settings.contact);
+  contact::requireMotion(model.contact);
+  return model;
+}
+
+}  // namespace squeal::analysis

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The discrete model of a brake: its mesh, the matrices of its bodies, and its contact.
+#include <mpi.h>
+
+#include <memory>
+
+#include "model/contact/contact.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/mesh/mesh.hpp"
+#include "run/analysis/model_settings.hpp"
+
+namespace squeal::analysis {
+
+/// All members are empty for matrices from files.
+struct Model {
+  /// At a fixed address, because contact and the steady states borrow it.
+  std::unique_ptr<mesh::Mesh> mesh;
+  elasticity::Bodies bodies;
+  contact::Contact contact;
+
+  /// Returns the active set in which all contact nodes of this rank are closed and stick where
+  /// their interface does.
+  contact::ActiveSet bonded() const {
+    return contact::ActiveSet::bonded(contact.interfaces.nodes.size());
+  }
+};
+
+/// Collective. Reads the mesh, moves the nodes of ties that ask for it, and assembles the bodies
+/// and their contact. Throws Error as the stages document it, and if nothing slides or sticks.
+Model buildModel(MPI_Comm comm, const ModelSettings& settings);
+
+}  // namespace squeal::analysis

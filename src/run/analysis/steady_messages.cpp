@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "run/analysis/steady_messages.hpp"
+
+#include "base/petsc/finite.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/text.hpp"
+#include "model/interfaces/algebra.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+/// Not collective. Reports sticking interfaces on which nodes slide, or exceed the limit of
+/// friction.
+void reportSticking(const steady::Solution& solution, MPI_Comm comm) {
+  for (const auto& resultant : solution.resultants) {
+    const std::string head =
+        sweep::parameterText(solution.at) + ": interface '" + resultant.interface + "': ";
+    if (resultant.released + resultant.unheld > 0)
+      printLine(comm, head + formatted("after %d revisions of the active set, %" PetscInt_FMT
+                                       " nodes slide, and %" PetscInt_FMT
+                                       " cycle between stick and separation (they are left free)",
+                                       solution.revisions, resultant.released, resultant.unheld));
+    if (resultant.overLimit > 0)
+      printWarning(
+          comm,
+          head + formatted("%" PetscInt_FMT
+                           " nodes stick beyond its coefficient of friction and need up to %.4g, "
+                           "at %s; the tables of the steady state list them, and "
+                           "-contact_%s_release on lets them slide",
+                           resultant.overLimit, resultant.leastFriction,
+                           interfaces::text(resultant.worst).c_str(), resultant.interface.c_str()));
+  }
+}
+
+}  // namespace
+
+std::string resultText(const steady::Solution& solution, const contact::Contact& contact) {
+  return formatted("%s: %s after %d iterations, %" PetscInt_FMT " of %" PetscInt_FMT
+                   " nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
+                   sweep::parameterText(solution.at).c_str(), solution.reason.c_str(),
+                   solution.iterations, solution.openNodes, contact.interfaces.totalNodes,
+                   solution.smallestPressure, solution.residual, solution.imbalance);
+}
+
+void reportState(const steady::Solution& solution, const Model& model) {
+  const std::string at = sweep::parameterText(solution.at);
+  if (solution.converged) {
+    requireFinite(solution.displacement, "steady sliding at " + at);
+    reportSticking(solution, model.mesh->comm);
+  } else {
+    printWarning(model.mesh->comm,
+                 "no steady sliding solution found at " + at + ": " + solution.reason);
+  }
+}
+
+}  // namespace squeal::analysis

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// What the log reports about steady states.
+#include <string>
+
+#include "run/analysis/model.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::analysis {
+
+/// Returns a line with the result of the solver.
+std::string resultText(const steady::Solution& solution, const contact::Contact& contact);
+
+/// Collective. Warns of a point without a solution, and of sticking nodes beyond their limit of
+/// friction; prints how many slide instead. Throws Error if a displacement is not finite.
+void reportState(const steady::Solution& solution, const Model& model);
+
+}  // namespace squeal::analysis
