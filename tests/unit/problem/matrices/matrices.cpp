@@ -125,8 +125,8 @@ TEST(Matrices, OptionsThatMakeNoProblem) {
       {"-matrices_m_role mass -matrices_m_file " + mass, "there is no stiffness matrix"},
       {"-matrices_m_role stiffness -matrices_m_file " + mass, "there is no mass matrix"},
       {options + "-matrices_other_factor 2", "there is no -matrices_other_file"},
-      {options + "-mesh_file meshes/layer.geo", "not of both"},
-      {options + "-steady_uniqueness on", "not of both"},
+      {options + "-mesh_file meshes/layer.geo", "not both"},
+      {options + "-steady_uniqueness on", "not both"},
       {options + "-flutter_speed 1,2", "no matrix has -matrices_<name>_speed_exponent"},
       {options + "-flutter_pressure 2", "-flutter_pressure"},
   };
