@@ -275,7 +275,7 @@ TEST(Verdicts, SteadySlidingEndsAtTheSameFrictionOnAnyNumberOfRanks) {
 TEST(Verdicts, NodesThatBeginToSlideBetweenPoints) {
   const auto run = runProgram("verdicts_release", 1, caseFile("sliding_back/case"));
   EXPECT_EQ(run.exitCode, 0) << run.error;
-  EXPECT_NE(run.out.find("Stability also changes, at a friction not solved for, between 0 and "
+  EXPECT_NE(run.out.find("Stability also changes, at a friction not computed, between 0 and "
                          "0.2068 (contact near 4.524e+04 Hz)"),
             std::string::npos)
       << run.out;
