@@ -96,7 +96,7 @@ void limitMemory() {
 /// standard library says shows through.
 std::string faultOf(const std::string& message) {
   for (const char* foreign : {"std::", "vector::", "basic_string", "stoi", "stod",
-                              "not enough memory", ": it asks for more memory than is free", "\n"})
+                              "not enough memory", ": it requires more memory than is free", "\n"})
     if (message.find(foreign) != std::string::npos) return "the message is: " + message;
   return message.empty() ? "an empty message" : "";
 }

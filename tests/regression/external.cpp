@@ -299,7 +299,7 @@ TEST(External, DamagedFilesAreSaid) {
   const std::vector<BadInput> inputs{
       {"cut_mat",
        market("cut.mat", matlab.substr(0, matlab.size() - 9)),
-       {"-matrices_friction_file", "cut.mat", "the file is cut short"}},
+       {"-matrices_friction_file", "cut.mat", "the file is truncated"}},
       {"comma",
        market("comma.mtx", head + "1 2 4,9\n"),
        {"comma.mtx", "line 3: the value '4,9' is not a number"}},

@@ -30,10 +30,10 @@ ProgramRun runLimited(const Limited& limited) {
 // run ends, by an allocation of PETSc, of the C++ library, or of MUMPS. OpenBLAS, which asks for
 // ever, has its 128 MB before anything else.
 TEST(Memory, TooLittleIsToldInOneLine) {
-  for (const Limited& limited : {Limited{1, 500, "no more memory"},
-                                 {1, 850, "MUMPS got no more memory"},
-                                 {1, 1000, "no more memory"},
-                                 {2, 800, "no more memory"}}) {
+  for (const Limited& limited : {Limited{1, 500, "is out of memory"},
+                                 {1, 850, "MUMPS is out of memory"},
+                                 {1, 1000, "is out of memory"},
+                                 {2, 800, "is out of memory"}}) {
     SCOPED_TRACE(std::to_string(limited.ranks) + " ranks of " + std::to_string(limited.megabytes) +
                  " MB");
     const ProgramRun run = runLimited(limited);

@@ -111,7 +111,7 @@ TEST(RegimeFailures, AModelThatCannotBeMadeLeavesFlutter) {
   expectNothingMeasured(
       failing("model", 2, {{"modes_count", "400"}}),
       "friction 0.5: not followed after flutter (nothing measured): stage regime: "
-      "the free modes carry all of the motion of the contact");
+      "the free modes contain the whole motion of the contact");
 }
 
 // Of 206 modes the highest has 2/ω = 1.84e-6 s, less than 1/16 of the period of 18.6 kHz.

@@ -124,7 +124,7 @@ TEST(Periodic, BranchEndsAtTheOnsetOfFlutter) {
   const auto route =
       cycles::follow(period, found, false, {0.1, 2, 40, tolerance}, {},
                      [&](const ShootingResult& motion) { motions.push_back(motion.orbit); });
-  EXPECT_EQ(route.reason, "the motion touches no limit of the contact");
+  EXPECT_EQ(route.reason, "no node separates or sticks");
   EXPECT_NEAR(route.end, 0.75375, 1e-4);
   EXPECT_TRUE(route.folds.empty());
   // At the friction of one of these motions a model made there has the same one: forces of steady

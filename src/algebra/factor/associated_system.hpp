@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The ideal associated system [4.17] that the modes, the reduction and the corrections share.
+/// The ideal associated system [4.17], shared by the modes, the reduction and the corrections.
 #include <memory>
 #include <string>
 
@@ -9,19 +9,19 @@
 
 namespace squeal::factor {
 
-/// The matrices K0 and M0, n×n, symmetric positive definite. A direct solver of K0 (prefix
-/// -modes_st_) belongs to them, whose one factorisation serves all stages.
+/// The matrices K0 and M0, n×n, symmetric positive definite. The object also owns a direct solver
+/// of K0 (prefix -modes_st_), whose single factorisation serves all stages.
 class AssociatedSystem {
  public:
-  /// Collective. Takes both matrices; `name` stands for K0 in messages.
+  /// Collective. Takes both matrices; messages call K0 `name`.
   AssociatedSystem(OwnedMat k0, OwnedMat m0, const std::string& name);
   Mat k0() const { return k0_; }
   Mat m0() const { return m0_; }
   PetscInt size() const { return size_; }  ///< n
   MPI_Comm comm() const;
   /// Collective. Returns the direct solver of K0, factorised on first use and borrowed from this
-  /// object. An EPS that has used it leaves it without its factor, so call this function again
-  /// before each use. Throws Error if the factorisation fails.
+  /// object. An EPS that uses the solver discards its factor, so call this function before each
+  /// use. Throws Error if the factorisation fails.
   KSP solver() const { return solver_->get(); }
 
  private:

@@ -14,22 +14,21 @@
 namespace squeal::factor {
 namespace {
 
-/// MUMPS solves for this number of right-hand sides in one pass. Its default is 32, and the
-/// remaining few then cost a pass of their own. An option -…_mat_mumps_icntl_27 takes precedence.
+/// Number of right-hand sides per pass of MUMPS. With its default of 32, the remaining few would
+/// need another pass. An option -…_mat_mumps_icntl_27 takes precedence.
 constexpr int atOnce = 64;
 
-/// MUMPS estimates its workspace only from the pattern, and pivoting may need more. The
-/// factorisation is then repeated with these percentages in addition (ICNTL(14)).
+/// MUMPS estimates its workspace from the pattern, but pivoting may need more. A failed
+/// factorisation is repeated with these additional percentages (ICNTL(14)).
 constexpr int workspaces[] = {100, 400};
 
-/// The ratio of the memory foreseen to the free memory above which the factorisation is not tried.
+/// Ratio of estimated to free memory above which the factorisation is not attempted.
 constexpr double hopeless = 2;
 
 /// The jobs of MUMPS.
 enum Job { begin = -1, end = -2, analysis = 1, factorisation = 2, solution = 3 };
 
-/// These entries of ICNTL are settled by the way in which matrix and right-hand sides are handed
-/// over.
+/// Returns true for entries of ICNTL that the storage of matrix and right-hand sides determines.
 bool isSettled(int i) { return i == 5 || (i >= 18 && i <= 21) || i == 26 || i == 30; }
 
 /// Reads the options of ICNTL and CNTL.
@@ -71,7 +70,7 @@ MumpsFactor::MumpsFactor(MPI_Comm comm, const std::string& prefix) {
   icntl(27) = atOnce;
   std::snprintf(id_.ooc_tmpdir, sizeof id_.ooc_tmpdir, "/tmp");
   applySolverOptions([&] { return readOptions(prefix.empty() ? nullptr : prefix.c_str(), id_); });
-  if (icntl(4) > 0) icntl(1) = icntl(2) = icntl(3) = 6;  // the option asks for what it prints
+  if (icntl(4) > 0) icntl(1) = icntl(2) = icntl(3) = 6;  // the option enables the output
 }
 
 MumpsFactor::~MumpsFactor() {
@@ -94,7 +93,7 @@ void MumpsFactor::wantInertia(double zero) {
   if (zero > 0) id_.cntl[2] = zero;
 }
 
-/// Hands over the upper triangle of the rows of this rank.
+/// Passes the upper triangle of this rank's rows to MUMPS.
 void MumpsFactor::setEntries(Mat matrix) {
   PetscInt n = 0, first = 0, last = 0;
   check(MatGetSize(matrix, &n, nullptr));
@@ -122,7 +121,7 @@ void MumpsFactor::setEntries(Mat matrix) {
   }
   entriesHeld_ = true;
   if (n > std::numeric_limits<MUMPS_INT>::max())
-    throw Error("a factorisation: the matrix has more rows than MUMPS counts");
+    throw Error("a factorisation: the matrix has more rows than MUMPS can count");
   id_.n = n;
   id_.nnz_loc = std::ssize(entries_);
   id_.irn_loc = rows_.data();
@@ -144,8 +143,8 @@ void MumpsFactor::analyse(Mat matrix, const MumpsFactor* like) {
   if (const std::string why = failure(); !why.empty()) throw Error("a factorisation: " + why);
 }
 
-/// Compares the memory that the analysis foresees with the free memory, before the machine begins
-/// to swap or the kernel ends the process. Where it is short, the factor is to be kept on disk.
+/// Compares the memory estimate of the analysis with the free memory, before the machine swaps or
+/// the kernel kills the process. If memory is short, the factor goes to disk.
 void MumpsFactor::fitIntoMemory() {
   const double ownInCore = 1e6 * id_.info[14], ownOnDisk = 1e6 * id_.info[16];
   double inCore = ownInCore, onDisk = ownOnDisk;
@@ -169,7 +168,7 @@ void MumpsFactor::fitIntoMemory() {
   icntl(22) = 1;
   printWarning(comm_,
                "warning: " + text +
-                   (onDiskByOption ? std::string("; it is tried all the same")
+                   (onDiskByOption ? std::string("; trying it nevertheless")
                                    : formatted("; with the factor on disk, in %s, it needs %.3g "
                                                "GB",
                                                id_.ooc_tmpdir, 1e-9 * sizes[1])));
@@ -184,7 +183,7 @@ std::string MumpsFactor::factorise(Mat matrix) {
     icntl(14) = std::max<MUMPS_INT>(icntl(14), percent);
     call(factorisation);
   }
-  // MUMPS needs the entries no longer.
+  // MUMPS no longer needs the entries.
   rows_ = {}, columns_ = {}, entries_ = {};
   entriesHeld_ = false;
   solutionRows_.clear();
@@ -203,7 +202,7 @@ void MumpsFactor::solve(const double* b, double* x, PetscInt columns) {
   } else {
     icntl(20) = 10;
     icntl(21) = 1;
-    id_.rhs_loc = const_cast<double*>(b);  // it is read only
+    id_.rhs_loc = const_cast<double*>(b);  // MUMPS only reads it
     id_.irhs_loc = ownRows_.data();
     id_.nloc_rhs = localRows_;
     id_.lrhs_loc = std::max<PetscInt>(localRows_, 1);
@@ -232,7 +231,7 @@ void MumpsFactor::solve(const double* b, double* x, PetscInt columns) {
   if (infog(1) < 0) throw Error("a solve by MUMPS: " + failure());
 }
 
-/// Sends the rows of the solution to their owners, those of all columns in one message.
+/// Sends the rows of the solution to their owners, all columns in one message.
 void MumpsFactor::scatterSolution(double* x, PetscInt columns) {
   const std::size_t here = solutionRows_.size(), own = localRows_;
   byRows_.resize((here + own) * columns);
@@ -263,16 +262,18 @@ std::string MumpsFactor::failure() const {
   const auto among = [&](const auto& codes) {
     return std::find(std::begin(codes), std::end(codes), code) != std::end(codes);
   };
-  if (among(allocations)) return "MUMPS got no more memory" + numbers + ": " + lessMemory;
+  if (among(allocations)) return "MUMPS is out of memory" + numbers + ": " + lessMemory;
   if (among(workspace))
-    return "MUMPS needs a larger workspace than it foresaw" + numbers +
+    return "MUMPS needs a larger workspace than estimated" + numbers +
            ": raise -…_mat_mumps_icntl_14, percent, for example to 50";
   if (among(overflow))
-    return "the factor has more entries than 32-bit integers count" + numbers + ": take more ranks";
-  if (code == -6 || code == -10) return "the matrix is singular" + numbers + ": is a body loose?";
+    return "the factor has more entries than a 32-bit integer can count" + numbers +
+           ": use more ranks";
+  if (code == -6 || code == -10)
+    return "the matrix is singular" + numbers + ": is a body under-constrained?";
   if (code <= -90 && code > -100)
-    return "MUMPS cannot keep its factor in the folder " + std::string(id_.ooc_tmpdir) + numbers +
-           ": name another by -…_mat_mumps_ooc_tmpdir";
+    return "MUMPS cannot store its factor in the folder " + std::string(id_.ooc_tmpdir) + numbers +
+           ": name another folder by -…_mat_mumps_ooc_tmpdir";
   return "MUMPS fails" + numbers;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// This file calls MUMPS for the LDLᵀ factorisation of distributed symmetric matrices. PETSc's own
-/// interface sets up the scatter of the solution at each call, a fifth of the time of a block of
-/// solves, and does not pass an ordering on.
+/// LDLᵀ factorisation of distributed symmetric matrices by MUMPS. PETSc's own interface sets up the
+/// scatter of the solution at each call, a fifth of the time of a block of solves. It also cannot
+/// reuse an ordering.
 #include <dmumps_c.h>
 #include <petscsf.h>
 
@@ -19,30 +19,29 @@ struct Inertia {
   PetscInt negative = 0, zero = 0;
 };
 
-/// A MumpsFactor is the factorisation
+/// The factorisation
 ///   A = L D Lᵀ
-/// of a symmetric matrix, which need not be definite. Of the options -<prefix>mat_mumps_*, it reads
-/// icntl_<i>, cntl_<i> and ooc_tmpdir, as PETSc's own interface does.
+/// of a symmetric matrix, which need not be definite. Like PETSc's own interface, it reads the
+/// options -<prefix>mat_mumps_icntl_<i>, …cntl_<i> and …ooc_tmpdir.
 class MumpsFactor {
  public:
-  /// Collective. `prefix` is that of the options; an empty one stands for none.
+  /// Collective. `prefix` is the prefix of the options; it may be empty.
   MumpsFactor(MPI_Comm comm, const std::string& prefix);
   ~MumpsFactor();
   MumpsFactor(const MumpsFactor&) = delete;
   MumpsFactor& operator=(const MumpsFactor&) = delete;
 
-  /// Makes the signs of all pivots known, for inertia(). Pivots below `zero` times the norm of the
-  /// scaled matrix count as zero; with 0, MUMPS decides (about 1e-21).
+  /// Makes MUMPS report the signs of all pivots, for inertia(). Pivots below `zero` times the norm
+  /// of the scaled matrix count as zero; with 0, MUMPS decides (about 1e-21).
   void wantInertia(double zero = 0);
   /// Collective. Analyses the pattern. With `like`, the factor of a matrix of the same pattern and
-  /// distribution, its order of elimination is taken. Throws Error if it fails.
+  /// distribution, it reuses the elimination order of `like`. Throws Error if it fails.
   void analyse(Mat matrix, const MumpsFactor* like = nullptr);
-  /// Collective. Returns the memory in bytes, summed over all ranks, that the analysis foresees.
+  /// Collective. Returns the memory estimate of the analysis in bytes, summed over all ranks.
   double memory() const { return 1e6 * id_.infog[16]; }
-  /// Collective. Factorises the matrix, or that of analyse() if none is given, which may follow
-  /// only analyse(), with more workspace if pivoting needs it, and with the factor on disk if
-  /// memory is short. Throws Error if the analysis foresees more memory than there is even
-  /// so. Returns the reason of another failure, empty if there is none.
+  /// Collective. Factorises the matrix; without an argument, that of the preceding analyse(). If
+  /// necessary, it enlarges the workspace for pivoting and stores the factor on disk. Throws Error
+  /// if memory is short even so. Returns the reason for any other failure; empty on success.
   std::string factorise(Mat matrix = nullptr);
   /// Collective. Computes X = A⁻¹ B, each by this rank's rows, column after column.
   void solve(const double* b, double* x, PetscInt columns);

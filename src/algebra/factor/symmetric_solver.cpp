@@ -20,7 +20,7 @@ const SolverPrefix factorisation(
     "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, "
     "mat_mumps_*, …");
 
-/// A Shell is the context of a PCSHELL: the factor, and how far it is made.
+/// The context of a PCSHELL: the factor and its state.
 struct Shell {
   std::unique_ptr<MumpsFactor> factor;
   Mat matrix = nullptr;  // of the analysis
@@ -53,8 +53,8 @@ PetscErrorCode setUp(PC pc) {
   return 0;
 }
 
-/// Solves, and ends the run if that fails: memory or the disk is full, and an exception must not
-/// pass through the C code of PETSc.
+/// Solves, and ends the run on failure (full memory or disk), since an exception must not pass
+/// through the C code of PETSc.
 template <class Solve>
 void solveOrAbort(PC pc, const Solve& solve) {
   try {
@@ -88,7 +88,7 @@ PetscErrorCode view(PC pc, PetscViewer viewer) {
   check(PetscViewerASCIIPrintf(
       viewer,
       "  MUMPS: order of elimination INFOG(7) %" PetscInt_FMT ", entries INFOG(20) %" PetscInt_FMT
-      ", MB foreseen INFOG(17) %" PetscInt_FMT ", MB taken INFOG(22) %" PetscInt_FMT "\n",
+      ", MB estimated INFOG(17) %" PetscInt_FMT ", MB used INFOG(22) %" PetscInt_FMT "\n",
       factor.infog(7), factor.infog(20), factor.infog(17), factor.infog(22)));
   return 0;
 }
@@ -110,7 +110,7 @@ PC preconditionerOf(KSP solver) {
   return pc;
 }
 
-/// Makes the factorisation of MUMPS the preconditioner.
+/// Sets the factorisation of MUMPS as preconditioner.
 void setMumps(KSP solver, const SolverPrefix& prefix) {
   const PC pc = preconditionerOf(solver);
   auto shell = std::make_unique<Shell>();
@@ -134,7 +134,7 @@ OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
   check(KSPSetOptionsPrefix(solver, prefix.prefix.c_str()));
   check(KSPSetOperators(solver, matrix, matrix));
   check(KSPSetType(solver, KSPPREONLY));
-  // An option pc_* asks for a preconditioner of PETSc.
+  // An option pc_* selects a preconditioner of PETSc.
   const auto names = prefix.names();
   const bool another = std::ranges::any_of(names, [&](const std::string& name) {
     return name.starts_with("-" + prefix.prefix + "pc_");
@@ -162,7 +162,7 @@ std::string factorise(KSP solver) {
   }
   PCFailedReason failed;
   check(PCGetFailedReason(pc, &failed));
-  return failed == PC_NOERROR ? "" : "see its options pc_*; is a body loose?";
+  return failed == PC_NOERROR ? "" : "see its options pc_*; is a body under-constrained?";
 }
 
 KSP SymmetricSolver::get() const {
@@ -180,7 +180,7 @@ KSP SymmetricSolver::get() const {
   return solver_;
 }
 
-/// Factorises the matrix, unless that has been done.
+/// Factorises the matrix on the first call.
 void SymmetricSolver::factorise() const {
   check(KSPSetOperators(solver_, matrix_, matrix_));
   if (const std::string why = factor::factorise(solver_); !why.empty())

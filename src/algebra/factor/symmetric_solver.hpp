@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions apply MUMPS to symmetric matrices, for solves with one LDLᵀ factorisation and
-/// for the inertia.
+/// Solves and inertia of symmetric matrices from one LDLᵀ factorisation by MUMPS.
 #include <memory>
 #include <string>
 
@@ -12,25 +11,25 @@
 namespace squeal::factor {
 
 /// Collective. Returns a solver that applies the LDLᵀ factorisation of MUMPS once (KSPPREONLY),
-/// unless the options with this prefix say otherwise. The matrix is shared with the solver and not
+/// unless the options with this prefix say otherwise. The solver shares the matrix, which is not
 /// yet factorised.
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
-/// Collective. Calls KSPSetUp. Returns the reason if the factorisation fails, otherwise nothing.
-/// Throws Error if its analysis foresees more memory than there is, or if PETSc refuses an option
+/// Collective. Calls KSPSetUp. Returns the reason if the factorisation fails; empty on success.
+/// Throws Error if the analysis estimates more memory than is free, or if PETSc rejects an option
 /// of the solver.
 std::string factorise(KSP solver);
-/// Returns the factor, borrowed from the solver, factorised or not; null if the options ask for
+/// Returns the factor, borrowed from the solver, factorised or not; null if the options select
 /// another preconditioner.
 MumpsFactor* mumpsFactor(KSP solver);
 
-/// A SymmetricSolver is the direct solver of a symmetric positive definite matrix (prefix
-/// -modes_st_). It factorises the matrix on first use.
+/// The direct solver of a symmetric positive definite matrix (prefix -modes_st_). It factorises the
+/// matrix on first use.
 class SymmetricSolver {
  public:
-  /// Borrows the matrix during the life of the object; `name` stands for it in messages.
+  /// Borrows the matrix during the lifetime of the object; messages call it `name`.
   SymmetricSolver(Mat matrix, std::string name) : matrix_(matrix), name_(std::move(name)) {}
-  /// Collective. Returns the solver, factorised, borrowed from this object. An EPS that has used
-  /// the solver leaves it with other operators; call get() again after it. Throws Error if the
+  /// Collective. Returns the solver, factorised, borrowed from this object. An EPS that uses the
+  /// solver changes its operators, so call get() again afterwards. Throws Error if the
   /// factorisation fails.
   KSP get() const;
 
@@ -41,26 +40,25 @@ class SymmetricSolver {
   mutable OwnedKSP solver_;
 };
 
-/// Collective. Returns the memory in bytes, summed over all ranks, that MUMPS foresees for the LDLᵀ
-/// factorisation of a symmetric matrix. Only the pattern is analysed; nothing is factorised.
+/// Collective. Returns the memory in bytes, summed over all ranks, that MUMPS estimates for the
+/// LDLᵀ factorisation of a symmetric matrix. It analyses only the pattern.
 double factorMemory(Mat matrix);
 
-/// Collective. Throws Error for unused -modes_st_* options: once a solver has been configured,
-/// these are typing errors.
+/// Collective. Throws Error for unused -modes_st_* options: after the solver is configured, these
+/// are typing errors.
 void rejectUnusedSolverOptions();
 
-/// Collective. Factorises K − σ M of symmetric matrices, so that its inertia, the number of
-/// eigenvalues of (K, M) below σ, is known, by the options of SymmetricSolver. K − σ M itself is
-/// kept no longer than its entries take to be handed over. `like` is a factorised solver of a
-/// matrix of the same distribution, whose order of elimination is taken, or null. Throws Error if
-/// it fails.
+/// Collective. Factorises K − σ M of symmetric matrices with the options of SymmetricSolver. Its
+/// inertia gives the number of eigenvalues of (K, M) below σ. K − σ M is destroyed once MUMPS has
+/// its entries. `like` is null, or a factorised solver of a matrix of the same distribution, whose
+/// elimination order is reused. Throws Error on failure.
 std::unique_ptr<MumpsFactor> shiftedFactor(Mat k, Mat m, double sigma, KSP like = nullptr);
 
 /// Collective. Returns the inertia of a symmetric matrix from the signs of the pivots of an LDLᵀ
-/// factorisation (Sylvester's law of inertia, [M.25]), by the options of SymmetricSolver. Pivots
+/// factorisation (Sylvester's law of inertia, [M.25]), with the options of SymmetricSolver. Pivots
 /// below `zero` times the norm of the scaled matrix count as zero; with 0, MUMPS decides (about
-/// 1e-21). Throws Error if the factorisation fails, or if MUMPS foresees more than twice the memory
-/// that is free.
+/// 1e-21). Throws Error if the factorisation fails, or if MUMPS estimates more than twice the free
+/// memory.
 Inertia inertia(Mat matrix, double zero = 0);
 
 }  // namespace squeal::factor

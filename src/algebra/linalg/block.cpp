@@ -16,7 +16,7 @@ DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView
   DenseMatrix result = transposedProduct(x, y);
   const int count = result.size();
   check(MPI_Allreduce(MPI_IN_PLACE, result.data(), count, MPI_DOUBLE, MPI_SUM, comm));
-  // The rounding of sums over the ranks may depend on the rank; later decisions must not.
+  // Round-off of sums over the ranks may depend on the rank; later decisions must not.
   check(MPI_Bcast(result.data(), count, MPI_DOUBLE, 0, comm));
   return result;
 }

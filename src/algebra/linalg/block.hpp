@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions work on tall matrices that are distributed by rows: the basis V and its products
-/// A V. A product of two of them is one BLAS call on the local rows and one reduction.
+/// Operations on tall matrices distributed by rows: the basis V and its products A V. A product of
+/// two of them is one BLAS call on the local rows and one reduction.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
@@ -13,7 +13,8 @@ namespace squeal::linalg {
 using Block = DenseMatrix;
 
 /// Collective. Appends A X to the columns of `result`. X and the result are given by this rank's
-/// rows; the result has its rows even before its first column, and X is not a part of it.
+/// rows. The number of rows of `result` must be set even if it has no columns, and X must not be
+/// part of it.
 void appendProduct(Mat matrix, const DenseView& x, Block& result);
 
 /// Collective. Returns a dense matrix of PETSc with `rows` rows over all ranks. It borrows the
@@ -27,31 +28,31 @@ DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView
 /// rows.
 double length(MPI_Comm comm, std::span<const double> column);
 
-/// Collective. Returns A⁻¹ times the columns, with A of the solver. They are solved for some at a
-/// time: enough for the speed of dense kernels, few enough for memory.
+/// Collective. Returns A⁻¹ times the columns, with A of the solver. It solves in blocks, large
+/// enough for fast dense kernels and small enough for memory.
 Block solved(KSP solver, const DenseView& columns);
 
 /// Collective. Returns orthogonal combinations of the columns, their principal directions, by
-/// ascending length. Those of length `small` or less are dropped.
+/// ascending length. Directions of length `small` or less are dropped.
 Block principal(MPI_Comm comm, const Block& columns, double small);
 /// Collective. Returns the columns scaled to the 2-norm 1. Columns of zeros are dropped.
 Block unitColumns(MPI_Comm comm, const Block& columns);
 
-/// A RowSet holds the rows of a matrix on this rank that have nonzero entries. A friction operator
-/// has such rows at the contact nodes only, so that products need not touch the others.
+/// The rows of a matrix on this rank that have nonzero entries. A friction operator has such rows
+/// only at the contact nodes, and products omit the others.
 class RowSet {
  public:
-  /// Collective. Finds the rows. The matrix is borrowed during this call only.
+  /// Collective. Finds the rows. Borrows the matrix only during this call.
   explicit RowSet(Mat matrix);
   PetscInt size() const { return all_ ? localRows_ : std::ssize(rows_); }
-  /// Returns true if the set holds all rows of the matrix, on every rank.
+  /// Returns true if the set contains all rows of the matrix, on every rank.
   bool all() const { return all_; }
   PetscInt localRows() const { return localRows_; }
   PetscInt operator[](PetscInt i) const { return all_ ? i : rows_[i]; }
   /// Returns these rows of X, which is given by all local rows.
   Block of(const DenseView& x) const;
-  /// Collective. Returns these rows of the matrix, with all columns. If the set holds all rows, the
-  /// matrix itself is returned, shared.
+  /// Collective. Returns these rows of the matrix, with all columns. If the set contains all rows,
+  /// it shares the matrix itself.
   OwnedMat of(Mat matrix) const;
 
  private:
@@ -66,7 +67,7 @@ DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const DenseView
                               const DenseView& y);
 /// Not collective. Computes
 ///   Y += X · C
-/// with X given by `rows`, its other rows being zero, and Y by all local rows.
+/// with X given by `rows` (its other rows are zero) and Y by all local rows.
 void multiplyAdd(const RowSet& rows, const DenseView& x, const DenseView& coefficients, Block& y);
 
 }  // namespace squeal::linalg

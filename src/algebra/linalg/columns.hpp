@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// This file gives access to the columns of a SLEPc BV as matrices.
+/// Access to the columns of a SLEPc BV as matrices.
 #include "algebra/linalg/dense.hpp"
 #include "base/petsc/owned.hpp"
 
 namespace squeal::linalg {
 
-/// A ReadColumns reads this rank's rows of a BV of type svec. The BV is borrowed and locked for
-/// reading during the life of the object.
+/// Read access to this rank's rows of a BV of type svec. The BV is borrowed and locked for reading
+/// during the lifetime of the object.
 class ReadColumns {
  public:
   explicit ReadColumns(BV bv);
@@ -22,8 +22,8 @@ class ReadColumns {
   const PetscScalar* values_ = nullptr;
 };
 
-/// Collective. Returns a BV of type svec with a copy of the columns, which are given by this rank's
-/// rows and laid out like the columns of `like`.
+/// Collective. Returns a BV of type svec with a copy of the columns, given by this rank's rows, in
+/// the layout of the columns of `like`.
 OwnedBV copiedColumns(Mat like, const DenseView& columns);
 
 }  // namespace squeal::linalg

@@ -10,8 +10,8 @@ namespace squeal {
 
 using Complex = std::complex<double>;
 
-/// Returns xᴴ y, over the entries of x; y may be longer. The parts are multiplied by hand: the
-/// product of the library looks for infinities in each factor.
+/// Returns xᴴ y, over the entries of x; y may be longer. It multiplies the parts itself: the
+/// product of the library is slower because it tests each factor for infinities.
 inline Complex innerProduct(std::span<const Complex> x, std::span<const Complex> y) {
   ensure(x.size() <= y.size(), "the second vector is as long as the first");
   double real = 0, imaginary = 0;

@@ -7,7 +7,7 @@
 
 #include "base/petsc/check.hpp"
 
-// PETSc built with real scalars declares the real routines only.
+// PETSc built with real scalars declares only the real routines.
 extern "C" {
 void zgemm_(const char* transA, const char* transB, const PetscBLASInt* m, const PetscBLASInt* n,
             const PetscBLASInt* k, const squeal::Complex* alpha, const squeal::Complex* a,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions multiply, orthonormalise and diagonalise small dense complex matrices, by BLAS
-/// and LAPACK. Not collective.
+/// Products, orthonormalisation and eigenvectors of small dense complex matrices, by BLAS and
+/// LAPACK. Not collective.
 #include "algebra/linalg/dense.hpp"
 
 namespace squeal::linalg {
@@ -13,9 +13,8 @@ ComplexMatrix product(const ComplexMatrix& x, const ComplexMatrix& c);
 /// Returns Xᴴ Y.
 ComplexMatrix adjointProduct(const ComplexMatrix& x, const ComplexMatrix& y);
 
-/// Replaces the columns, no more than there are rows, by orthonormal ones whose span contains
-/// theirs (Householder). Columns of zeros or of infinite entries must not be among them. Throws
-/// Error if LAPACK fails.
+/// Replaces the columns, at most as many as rows, by orthonormal ones whose span contains theirs
+/// (Householder). No column may be zero or have infinite entries. Throws Error if LAPACK fails.
 void orthonormalise(ComplexMatrix& x);
 
 /// All eigenvalues of a matrix with their vectors, A X = X diag(value), Yᴴ A = diag(value) Yᴴ.
@@ -24,8 +23,7 @@ struct ComplexEigen {
   ComplexMatrix right, left;  ///< columns of 2-norm 1
 };
 
-/// Returns the eigenvalues and vectors of a square matrix, in no order. Throws Error if LAPACK
-/// fails.
+/// Returns the eigenvalues and vectors of a square matrix, unsorted. Throws Error if LAPACK fails.
 ComplexEigen eigen(ComplexMatrix a);
 
 }  // namespace squeal::linalg

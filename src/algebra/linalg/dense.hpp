@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// This file holds small dense matrices, and the blocks of rows of tall ones, stored by columns.
+/// Small dense matrices, and the local rows of tall ones, stored by columns.
 #include <petscsys.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace squeal::linalg {
 
-/// A DenseView is a dense matrix that lives elsewhere, rows × columns, stored column by column
-/// without gaps. It is borrowed, and can be read only.
+/// A read-only view of a dense matrix, rows × columns, stored column by column without gaps. The
+/// entries are borrowed.
 class DenseView {
  public:
   DenseView(const double* entries, PetscInt rows, PetscInt columns)
@@ -42,8 +42,8 @@ class DenseView {
   PetscInt rows_, columns_;
 };
 
-/// A Dense is a matrix of doubles or complex numbers, rows × columns, stored column by column. It
-/// grows by columns in place, within the room that has been reserved.
+/// A matrix of doubles or complex numbers, rows × columns, stored column by column. It appends
+/// columns in place if enough space is reserved.
 template <class Scalar>
 class Dense {
  public:
@@ -83,15 +83,15 @@ class Dense {
     return DenseView(*this).columnRange(first, last);
   }
 
-  /// Makes room for this number of columns in all.
+  /// Reserves space for this total number of columns.
   void reserve(PetscInt columnCount) { entries_.reserve(offset(columnCount)); }
   /// Appends columns of zeros, or drops the last columns.
   void resizeColumns(PetscInt columnCount) {
     columns_ = columnCount;
     entries_.resize(offset(columnCount));
   }
-  /// Appends columns of the same number of rows, which are not columns of this matrix. A matrix
-  /// without columns takes their number of rows.
+  /// Appends columns with the same number of rows, which must not belong to this matrix. A matrix
+  /// without columns adopts their number of rows.
   void append(const DenseView& more) {
     if (more.columns() == 0) return;
     if (columns_ == 0) rows_ = more.rows();
@@ -115,7 +115,7 @@ class Dense {
 using DenseMatrix = Dense<double>;
 using ComplexMatrix = Dense<Complex>;
 
-/// None of the following is collective.
+/// The following functions are not collective.
 
 /// Computes
 ///   result += factor · X · C
@@ -132,15 +132,15 @@ double squaredLength(std::span<const double> x);
 DenseMatrix congruent(const DenseView& a, const DenseView& c);
 /// Returns the rows [first, last).
 DenseMatrix rowRange(const DenseView& matrix, PetscInt first, PetscInt last);
-/// Returns a square matrix A that has grown: `right` holds the new columns at full height, `below`
-/// the new rows below the columns of A. If `below` is empty, they mirror the new columns.
+/// Returns the square matrix A extended by the new columns `right`, at full height, and the new
+/// rows `below` under the columns of A. If `below` is empty, the new rows mirror the new columns.
 DenseMatrix bordered(const DenseView& a, const DenseView& right, const DenseView& below);
 /// Computes
 ///   sum += factor · A
-/// for matrices of the same size. A `sum` or an A without entries stands for zero.
+/// for matrices of the same size. A `sum` or an A without entries counts as zero.
 void addScaled(DenseMatrix& sum, double factor, const DenseView& a);
-/// Computes the same for an A of an earlier, smaller basis: it may have fewer rows and columns, and
-/// is extended by zeros. Both bases must begin with the same vectors.
+/// Computes the same for an A of an earlier, smaller basis, extended by zero rows and columns. Both
+/// bases must begin with the same vectors.
 void addExtended(DenseMatrix& sum, double factor, const DenseView& a);
 
 }  // namespace squeal::linalg

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions copy small distributed matrices to rank 0.
+/// Copies of small distributed matrices on rank 0.
 #include "algebra/linalg/dense.hpp"
 #include "base/petsc/owned.hpp"
 
@@ -10,8 +10,8 @@ namespace squeal::linalg {
 /// on the other ranks.
 OwnedMat onRankZero(Mat matrix);
 
-/// Collective. Returns the whole of a square matrix on rank 0, and a matrix without rows and
-/// columns on the other ranks. A null matrix has no rows on any rank.
+/// Collective. Returns the whole square matrix on rank 0, and an empty matrix on the other ranks.
+/// For a null matrix it is empty on all ranks.
 DenseMatrix gathered(Mat matrix);
 
 }  // namespace squeal::linalg

@@ -9,8 +9,8 @@ namespace squeal::linalg {
 
 /// Calls a routine of LAPACK twice, as
 ///   call(double* work, PetscBLASInt length),
-/// first with length = −1, where it answers with the length that it wants in work[0], and then with
-/// an array of that length. Not collective.
+/// first with length = −1, which returns the required length in work[0], and then with an array of
+/// that length. Not collective.
 template <class Call>
 void callWithWork(const Call& call) {
   double wanted = 0;

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-// PETSc built with real scalars declares the real routines only.
+// PETSc built with real scalars declares only the real routines.
 extern "C" {
 void zgetrf_(const PetscBLASInt* m, const PetscBLASInt* n, squeal::Complex* a,
              const PetscBLASInt* lda, PetscBLASInt* pivots, PetscBLASInt* info);

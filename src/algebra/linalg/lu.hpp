@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// This file solves small dense linear systems by LAPACK's LU with partial pivoting. Not
-/// collective.
+/// Small dense linear systems, solved by LAPACK's LU with partial pivoting. Not collective.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
 
 namespace squeal::linalg {
 
-/// An Lu holds the factors of a square matrix of doubles or complex numbers.
+/// The LU factors of a square matrix of doubles or complex numbers.
 template <class Scalar>
 class Lu {
  public:
-  /// Factorises a square matrix, which is taken.
+  /// Takes and factorises a square matrix.
   explicit Lu(Dense<Scalar> matrix);
-  /// Returns the smallest pivot divided by the largest, in magnitude; 0 for a singular matrix
-  /// and for one with an entry that is not a number.
+  /// Returns the smallest pivot divided by the largest, in magnitude; 0 if the matrix is singular
+  /// or has an entry that is not a number.
   double pivotRatio() const { return pivotRatio_; }
   /// Replaces pivots of zero by the machine precision times the largest pivot. Solutions then point
-  /// along the null vector, as inverse iteration needs.
+  /// along the null vector, as inverse iteration requires.
   void raiseZeroPivots();
-  /// Replaces B by A⁻¹ B, or by A⁻ᴴ B if `adjoint`. A pivot of zero gives infinite entries.
+  /// Replaces B by A⁻¹ B, or by A⁻ᴴ B if `adjoint`. A zero pivot gives infinite entries.
   void solve(Dense<Scalar>& b, bool adjoint = false) const;
   /// Does the same for one column.
   void solve(std::span<Scalar> b, bool adjoint = false) const;

@@ -17,14 +17,14 @@
 namespace squeal::linalg {
 namespace {
 
-/// Throws Error if an entry is inf or nan: LAPACK would return eigenvalues all the same.
+/// Throws Error if an entry is inf or nan: LAPACK would return eigenvalues nevertheless.
 void requireFinite(const DenseMatrix& a) {
   if (!std::ranges::all_of(a.entries(), [](double entry) { return std::isfinite(entry); }))
-    throw Error("the reduced eigenproblem has an entry that is not a finite number");
+    throw Error("the reduced eigenproblem has an entry that is not finite");
 }
 
-/// Returns true if the inverse may be formed. With this bound, eigenvalues lose at worst half of
-/// their digits, the largest ones none.
+/// Returns true if the inverse may be formed. With this bound, eigenvalues lose at most half of
+/// their digits, and the largest ones none.
 bool invertible(const Lu<double>& matrix) { return matrix.pivotRatio() > 1e-8; }
 
 /// Replaces the left vectors u of M⁻¹ A, uᴴ M⁻¹ A = μ uᴴ, by the left vectors of (A, M),
@@ -50,8 +50,8 @@ Complex rootOf(Complex mu) {
   return s.imag() < 0 ? -s : s;
 }
 
-/// A Leading holds the leading matrix M of a quadratic problem and its factors, both borrowed. M⁻¹
-/// A is formed where it can be, as QR takes a small part of the time of QZ.
+/// The leading matrix M of a quadratic problem and its factors, both borrowed. If possible, M⁻¹ A
+/// is formed, since QR takes a fraction of the time of QZ.
 struct Leading {
   const DenseMatrix& matrix;
   const Lu<double>& factors;
@@ -59,9 +59,8 @@ struct Leading {
 
 std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness,
                                       Vectors vectors, const Wanted& wanted) {
-  //   K q = μ M q,   μ = −s²
-  // Both roots ±s are eigenvalues. One of them has Im s ≥ 0, or both if they are real. The double
-  // root of μ = 0 is listed once.
+  // K q = μ M q, μ = −s² Both roots ±s are eigenvalues. One of these roots has Im s ≥ 0, or both if
+  // they are real. The double root of μ = 0 is listed once.
   const Wanted either = [&](Complex mu) {
     const Complex s = rootOf(mu);
     return wanted(s) || (s.imag() == 0 && wanted(-s));
@@ -99,7 +98,7 @@ std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping
                                  const DenseMatrix& stiffness, Vectors vectors,
                                  const Wanted& wanted) {
   const PetscInt m = stiffness.rows();
-  // s = unit ŝ (Fan, Lin and Van Dooren 2004); a matrix of zeros says nothing of the unit
+  // s = unit ŝ (Fan, Lin and Van Dooren 2004); a zero matrix does not determine the unit
   const double ratio = norm(stiffness) / norm(mass.matrix),
                unit = ratio > 0 && std::isfinite(ratio) ? std::sqrt(ratio) : 1;
   //   [0 I; −K̂ −Ẑ] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq),   K̂ = K / unit², Ẑ = Z / unit
@@ -144,7 +143,7 @@ void normalise(std::vector<Complex>& vector) {
   vector[largest] = vector[largest].real();
 }
 
-/// Returns true if A = sign Aᵀ up to rounding: max |A_ij − sign A_ji| ≤ 1e-13 max |A_ij|.
+/// Returns true if A = sign Aᵀ within round-off: max |A_ij − sign A_ji| ≤ 1e-13 max |A_ij|.
 bool hasSymmetry(const DenseMatrix& a, double sign) {
   double size = 0, difference = 0;
   for (PetscInt j = 0; j < a.columns(); ++j)
@@ -162,8 +161,8 @@ bool positiveDefinite(DenseMatrix a) {
   return info == 0;
 }
 
-/// Returns the conjugate of s = 1/t for a root t of the reversed polynomial with Im t ≥ 0, so that
-/// the imaginary part of the result is not negative either.
+/// Returns the conjugate of s = 1/t for a root t of the reversed polynomial with Im t ≥ 0. Its
+/// imaginary part is not negative either.
 Complex turnedRound(Complex t) { return 1.0 / std::conj(t); }
 
 }  // namespace
@@ -176,8 +175,8 @@ bool conservative(const DenseProblem& problem) {
 
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors,
                                       const Wanted& wanted) {
-  // Where K is the better matrix to invert, as in a basis that is orthonormal in energy, the roots
-  // of the reversed polynomial are found:
+  // If K is better conditioned, as in a basis that is orthonormal in energy, the roots of the
+  // reversed polynomial are computed:
   //   t² K + t Z + M,   t = 1/s
   constexpr double beyondDoubt = 0.01;
   if (problem.order() == 0) return {};
@@ -202,8 +201,8 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
     if (!reversed) break;
     pair = {turnedRound(pair.s), conjugated(std::move(pair.q)), conjugated(std::move(pair.left))};
   }
-  // Growth rates are exactly zero here. If rounding errors stayed in them, eigenvalues that a small
-  // friction makes unstable would be reported as unstable at friction 0.
+  // Growth rates are exactly zero here. With round-off in them, eigenvalues that a small friction
+  // makes unstable would be reported as unstable at friction 0.
   if (!problem.damping.empty() && conservative(problem))
     for (auto& pair : pairs)
       if (std::abs(pair.s.real()) <= 1e-6 * std::abs(pair.s)) pair.s = {0, pair.s.imag()};
@@ -219,7 +218,7 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
 
 namespace {
 
-/// Returns one vector of each pair by its real parts, then by its imaginary parts, m × 2 pairs.
+/// Returns the right or left vectors of the pairs as real parts, then imaginary parts, m × 2 pairs.
 DenseMatrix partsOf(const std::vector<DensePair>& pairs, std::vector<Complex> DensePair::*vector) {
   const PetscInt count = pairs.size(), m = count > 0 ? (pairs[0].*vector).size() : 0;
   DenseMatrix parts(m, 2 * count);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions solve small dense quadratic eigenproblems with real unsymmetric matrices, by
-/// LAPACK.
+/// Small dense quadratic eigenproblems with real unsymmetric matrices, solved by LAPACK.
 #include <functional>
 #include <vector>
 
@@ -9,52 +8,53 @@
 
 namespace squeal::linalg {
 
-/// A DenseProblem is the quadratic eigenproblem
+/// The quadratic eigenproblem
 ///   (s² M + s Z + K) q = 0
-/// with real matrices of order m. An empty Z stands for zero.
+/// with real matrices of order m. An empty Z counts as zero.
 struct DenseProblem {
   DenseMatrix mass, damping, stiffness;
   PetscInt order() const { return stiffness.rows(); }  ///< m
 };
 
-/// Returns true if, up to rounding, M and K are symmetric positive definite and Z is antisymmetric.
-/// Gyroscopic forces do no work, and all eigenvalues are imaginary: with q of length 1,
+/// Returns true if, within round-off, M and K are symmetric positive definite and Z is
+/// antisymmetric. Gyroscopic forces do no work, and all eigenvalues are imaginary: with q of length
+/// 1,
 ///   s² m + i s g + k = 0,   m = qᴴ M q > 0,   k = qᴴ K q > 0,   i g = qᴴ Z q,
-/// has imaginary roots only.
+/// has only imaginary roots.
 bool conservative(const DenseProblem& problem);
 
 /// An eigenvalue with its vectors.
 struct DensePair {
   Complex s;               ///< 1/s
   std::vector<Complex> q;  ///< right vector, [m], 2-norm 1
-  /// Left vector y with yᴴ P(s) = 0, [m], 2-norm 1; empty unless it is asked for.
+  /// Left vector y with yᴴ P(s) = 0, [m], 2-norm 1; empty unless requested.
   std::vector<Complex> left = {};
 };
 
 /// The eigenvectors that a solve returns: the right ones, or both the right and the left ones.
 enum class Vectors { right, both };
 
-/// Returns true for each eigenvalue s that is to be returned. An empty function selects all.
+/// Returns true for the eigenvalues s to return. An empty function selects all.
 using Wanted = std::function<bool(Complex)>;
 
-/// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that are `wanted`, by ascending Im
-/// s, then by ascending Re s. If Z is empty, s = 0 is double for each vector and is listed once.
+/// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that `wanted` selects, by ascending
+/// Im s, then by ascending Re s. If Z is empty, s = 0 is double for each vector and is listed once.
 ///
 /// If Z is empty, the problem is linear in s² and is solved at size m. Otherwise its companion form
-/// of size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The QR algorithm is applied with
-/// the inverse of K where that is well conditioned, otherwise with that of M or K, whichever is
-/// better conditioned. Where neither can be inverted safely, the QZ algorithm is used, which takes
-/// ten times as long.
+/// of size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The QR algorithm uses the
+/// inverse of K if K is well conditioned, otherwise that of M or K, whichever is better
+/// conditioned. If neither can be inverted safely, the QZ algorithm is used, which takes ten times
+/// as long.
 ///
-/// Throws Error if an entry is not a finite number, if LAPACK fails, or if M and K have a common
-/// null vector.
+/// Throws Error if an entry is not finite, if LAPACK fails, or if M and K have a common null
+/// vector.
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right,
                                       const Wanted& wanted = {});
 
-/// Not collective. Returns A times the right vectors of the pairs, m × pairs. An empty A stands for
+/// Not collective. Returns A times the right vectors of the pairs, m × pairs. An empty A counts as
 /// zero.
 ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pairs);
-/// Not collective. Returns Aᵀ times the left vectors of the pairs, m × pairs. An empty A stands for
+/// Not collective. Returns Aᵀ times the left vectors of the pairs, m × pairs. An empty A counts as
 /// zero.
 ComplexMatrix transposedTimesLeft(const DenseView& a, const std::vector<DensePair>& pairs);
 

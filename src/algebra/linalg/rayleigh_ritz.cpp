@@ -42,8 +42,8 @@ Entries combined(Complex a, const Entries& x, Complex b, const Entries& y) {
   return z;
 }
 
-/// A Factors holds the LU factors of P(σ). Without damping P(σ) is real for an imaginary σ; the
-/// factors are then real too, at a quarter of the cost.
+/// The LU factors of P(σ). Without damping, P(σ) is real for an imaginary σ; its factors are then
+/// real too, at a quarter of the cost.
 class Factors {
  public:
   Factors(const DenseProblem& problem, Complex shift) {
@@ -82,7 +82,7 @@ class Factors {
   std::optional<Lu<Complex>> complex_;
 };
 
-/// A Lifted is a vector of the companion form
+/// A vector of the companion form
 ///   [0 I; −K −Z] z = s [I 0; 0 M] z.
 /// A right vector is (x, s x), and a left vector is ((s M + Z)ᴴ y, y).
 struct Lifted {
@@ -94,7 +94,7 @@ Lifted combined(Complex a, const Lifted& x, Complex b, const Lifted& y) {
 }
 
 /// Orthonormalises one or two columns. `weight` multiplies the bottom halves in the inner product,
-/// so that both halves count alike.
+/// which gives both halves the same weight.
 void orthonormalise(std::vector<Lifted>& z, double weight) {
   const auto product = [&](const Lifted& x, const Lifted& y) {
     return dot(x.top, y.top) + weight * weight * dot(x.bottom, y.bottom);
@@ -165,7 +165,6 @@ class TwoSidedIteration {
               (gram[0] * projected[3] - gram[1] * projected[2]) / det};
   }
 
-  /// Returns the mean of the eigenvalues minus the shift.
   Complex mean() const { return right_.size() == 1 ? small_[0] : 0.5 * (small_[0] + small_[3]); }
   /// Returns ((s1 − s2)/2)², or zero for one eigenvalue.
   Complex square() const {
@@ -217,7 +216,7 @@ class TwoSidedIteration {
 
 Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess,
                     double isolation) {
-  // The shift keeps some distance from the mean, a part of that to the next eigenvalue: with a
+  // The shift stays away from the mean by a fraction of the distance to the next eigenvalue: with a
   // shift at the mean, the two vectors would become parallel.
   constexpr double aside = 0.05, rounding = 4e-15;
   constexpr int factorisations = 3, solves = 25;
@@ -227,8 +226,8 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
   Complex square = 0;
   for (int attempt = 0; attempt < factorisations && !cluster.converged; ++attempt) {
     Complex shift = cluster.mean + aside * isolation;
-    // Without damping, neutral eigenvalues and split pairs have means on the imaginary axis, up to
-    // rounding.
+    // Without damping, neutral eigenvalues and split pairs have means on the imaginary axis, within
+    // round-off.
     if (problem.damping.empty() && std::abs(cluster.mean.real()) < 1e-6 * std::abs(cluster.mean))
       shift = Complex(0, cluster.mean.imag() + aside * isolation);
     const Factors factors(problem, shift);
@@ -247,7 +246,7 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
       const double change = std::isnan(inSquare) ? inSquare : std::max(inMean, inSquare);
       cluster.mean = mean;
       square = iteration.square();
-      // Rounding ends the descent above the bound where eigenvalues are ill-conditioned.
+      // For ill-conditioned eigenvalues, round-off ends the convergence above the bound.
       cluster.converged = k > 0 && (change < rounding || (change < 1e-10 && change > 0.3 * before));
       if (cluster.converged || !std::isfinite(change) || (k > 4 && change > 0.5 * before)) break;
       before = change;

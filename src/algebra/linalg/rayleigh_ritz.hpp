@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions continue one or two eigenvalues of a dense quadratic problem, with their
-/// invariant subspace, from a neighbouring problem. This takes one to three factorisations; all
-/// eigenvalues would take a hundred times as long as one.
+/// Continuation of one or two eigenvalues of a dense quadratic problem, with their invariant
+/// subspace, from a neighbouring problem. It takes one to three factorisations; all eigenvalues
+/// would take a hundred times as long as one factorisation.
 #include "algebra/linalg/quadratic.hpp"
 
 namespace squeal::linalg {
@@ -19,16 +19,16 @@ struct Cluster {
 ///   A z = s B z,   A = [0 I; −K −Z],   B = [I 0; 0 M].
 /// The shift is fixed within a factorisation, near `guess`, the expected mean. `isolation` is the
 /// distance of the mean from the next eigenvalue, in 1/s, within a factor of ten. Vectors of a
-/// smaller basis are extended by zeros. The result has converged = false where the iteration does
-/// not converge or P(shift) is singular.
+/// smaller basis are extended by zeros. The result has converged = false if the iteration does not
+/// converge or P(shift) is singular.
 Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess,
                     double isolation);
 
-/// A Spectrum holds eigenvalues of one problem with left and right vectors, prepared for comparison
-/// with those of a neighbouring problem. Not collective.
+/// Eigenvalues of one problem with left and right vectors, prepared for comparison with a
+/// neighbouring problem. Not collective.
 class Spectrum {
  public:
-  /// The problem is read during this call only; the pairs, with left vectors, are taken.
+  /// Reads the problem only during this call, and takes the pairs, with their left vectors.
   Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs);
   const std::vector<DensePair>& pairs() const { return pairs_; }
   /// Returns yᴴ P′(s) x of pair i, with P′ = 2 s M + Z.
@@ -38,8 +38,8 @@ class Spectrum {
   bool damped() const { return !linear_; }  ///< the problem has a term in s
   /// Returns the trace of the product of two spectral projectors, tr(Π_i Π_j) [M.41], of pair i of
   /// this problem and pair j of the other. It does not depend on the scaling of the vectors. It is
-  /// 1 for the same pair and 0 for another. Its sum over all j is 1. Its sum over two groups of
-  /// pairs is the dimension of the subspace that both share.
+  /// 1 for the same pair and 0 for different ones. Its sum over all j is 1. Its sum over two groups
+  /// of pairs is the dimension of their common subspace.
   Complex overlap(std::size_t i, const Spectrum& other, std::size_t j) const;
 
  private:

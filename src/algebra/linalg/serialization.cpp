@@ -7,7 +7,7 @@
 namespace squeal::linalg {
 
 void fields(Stream& stream, DensePair& pair) {
-  // All members are named, so that a new one does not compile until it is written too.
+  // This lists all members: a new one does not compile until it is added here.
   auto& [s, q, left] = pair;
   stream(s, q, left);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Dense matrices, eigenpairs and complex vectors are written to checkpoints and read back.
+/// Serialisation of dense matrices, eigenpairs and complex vectors for checkpoints.
 #include <memory>
 
 #include "algebra/linalg/complexvector.hpp"
@@ -10,7 +10,7 @@
 
 namespace squeal::linalg {
 
-/// Not collective. Writes a matrix, or sets it.
+/// Not collective. Writes or reads a matrix.
 template <class Scalar>
 void fields(Stream& stream, Dense<Scalar>& matrix) {
   PetscInt rows = matrix.rows(), columns = matrix.columns();
@@ -19,14 +19,14 @@ void fields(Stream& stream, Dense<Scalar>& matrix) {
   stream.raw(matrix.data(), matrix.size() * sizeof(Scalar));
 }
 
-/// Not collective. Writes a pair, or sets it.
+/// Not collective. Writes or reads a pair.
 void fields(Stream& stream, DensePair& pair);
 
-/// Not collective. Writes a matrix without a copy of its entries, which are borrowed; `owner` is
-/// kept during the life of the stream. It is read as a DenseMatrix.
+/// Not collective. Writes a matrix without a copy of its entries, which the stream borrows while it
+/// shares `owner`. Reading returns a DenseMatrix.
 void borrow(Stream& stream, const DenseView& matrix, std::shared_ptr<const void> owner = {});
 
-/// Collective. Writes both parts, or makes them with the layout that they had.
+/// Collective. Writes both parts, or creates them with their original layout.
 void exchange(checkpoint::Archive& archive, ComplexVector& vector);
 
 }  // namespace squeal::linalg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Dense quadratic eigenproblems solved on several ranks, and pairs sent to all of them.
+/// Dense quadratic eigenproblems solved in parallel, one problem per rank, with results on all
+/// ranks.
 #include <mpi.h>
 
 #include <functional>
@@ -11,13 +12,13 @@
 namespace squeal::linalg {
 
 /// Collective. Calls solve(i) for i below `count`, each on the rank i modulo the number of ranks,
-/// and returns the pairs on all ranks, so that rounding cannot make the ranks disagree on the order
+/// and returns the pairs on all ranks. Round-off then cannot make the ranks disagree on the order
 /// or number of eigenvalues. Throws Error on all ranks if one call does.
 std::vector<std::vector<DensePair>> spread(
     MPI_Comm comm, std::size_t count, Vectors vectors,
     const std::function<std::vector<DensePair>(std::size_t)>& solve);
 
-/// Collective. Solves several problems by spread(). The rank that solves a problem alone needs its
+/// Collective. Solves several problems by spread(). Only the rank that solves a problem needs its
 /// matrices.
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
                                                 const std::vector<DenseProblem>& problems,
@@ -28,9 +29,9 @@ std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseProblem& problem,
                                      Vectors vectors = Vectors::right);
 
-/// Collective. Sends the pairs of rank `root` to all ranks; all vectors travel in one message.
-/// Vectors of a smaller basis are extended by zeros to the length of the longest one. `vectors`
-/// says whether left vectors are sent too.
+/// Collective. Sends the pairs of rank `root` to all ranks in one message. Vectors of a smaller
+/// basis are extended by zeros to the length of the longest one. `vectors` selects whether left
+/// vectors are included.
 void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors);
 
 }  // namespace squeal::linalg

@@ -16,8 +16,8 @@
 namespace squeal::linalg {
 namespace {
 
-/// Throws Error if a routine of LAPACK has failed, or has returned what is not a number: it does so
-/// in silence where the matrix has such an entry.
+/// Throws Error if a LAPACK routine has failed or returned NaN, which it does silently if the
+/// matrix contains one.
 void requireEigenvalues(const char* routine, PetscBLASInt info, const std::vector<double>& values) {
   const std::string of = std::to_string(values.size());
   if (info != 0)
@@ -25,7 +25,7 @@ void requireEigenvalues(const char* routine, PetscBLASInt info, const std::vecto
                 " (info " + std::to_string(info) + ")");
   if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
     throw Error("a symmetric matrix of order " + of +
-                " has an entry that is not a finite number, or too large a one");
+                " has an entry that is not finite or too large");
 }
 
 }  // namespace
@@ -44,8 +44,8 @@ std::vector<double> symmetricEigen(DenseMatrix& a) {
   if (order == 0) return values;
   const LoggedWork logged(Work::denseEigenvalues);
   double workLength = 0;
-  // Divide and conquer is on some hundred columns several times faster than dsyev, whose rotations
-  // (dlasr) are not blocked.
+  // For some hundred columns, divide and conquer is several times faster than dsyev, whose
+  // rotations (dlasr) are not blocked.
   LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), &workLength, &length,
                &integerLength, &integers, &info);
   length = workLength;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions solve small dense symmetric eigenproblems by LAPACK. Not collective.
+/// Small dense symmetric eigenproblems, solved by LAPACK. Not collective.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
@@ -10,9 +10,9 @@ namespace squeal::linalg {
 /// Returns (A + Aᵀ)/2.
 DenseMatrix symmetricPart(const DenseView& a);
 
-/// Returns the eigenvalues of a symmetric matrix, ascending. Only the lower triangle of A is read.
-/// Orthonormal eigenvectors replace it, as columns. Throws Error if LAPACK fails or an eigenvalue
-/// is not a finite number, as with entries that are not.
+/// Returns the eigenvalues of a symmetric matrix, ascending. Reads only the lower triangle of A and
+/// replaces A by orthonormal eigenvectors, as columns. Throws Error if LAPACK fails or an
+/// eigenvalue is not finite.
 std::vector<double> symmetricEigen(DenseMatrix& a);
 
 /// Returns the eigenvalues λ of

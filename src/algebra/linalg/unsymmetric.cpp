@@ -31,7 +31,7 @@ std::vector<Complex> complexColumn(const DenseMatrix& vectors, PetscInt j, bool 
 }
 
 /// Returns the wanted eigenvalues from LAPACK's real storage of conjugate pairs as complex numbers.
-/// Each number of a conjugate pair is tested, and listed if it is wanted.
+/// Each eigenvalue of a conjugate pair is tested separately.
 std::vector<EigenPair> unpacked(const std::vector<double>& real,
                                 const std::vector<double>& imaginary,
                                 const std::vector<double>& beta, const DenseMatrix& right,

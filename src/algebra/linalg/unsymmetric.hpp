@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Unsymmetric dense eigenproblems, linear in the eigenvalue, by LAPACK. Nothing here is
-/// collective.
+/// Unsymmetric dense eigenproblems, linear in the eigenvalue, solved by LAPACK. Not collective.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
@@ -13,16 +12,16 @@ namespace squeal::linalg {
 struct EigenPair {
   Complex value;
   std::vector<Complex> right;
-  std::vector<Complex> left;  ///< empty unless asked for
+  std::vector<Complex> left;  ///< empty unless requested
 };
 
 /// Returns the finite wanted eigenvalues, with eigenvectors, of A x = μ B x, by QZ. Throws Error if
 /// A and B have a common null vector, or if LAPACK fails.
 std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, Vectors sides,
                                    const Wanted& wanted);
-/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ x, from its Schur form. Only the
-/// wanted eigenvectors are computed: computing all of them would take most of the time. Throws
-/// Error if LAPACK fails.
+/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ x, from its Schur form. It
+/// computes only the wanted eigenvectors, since all eigenvectors would take most of the time.
+/// Throws Error if LAPACK fails.
 std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const Wanted& wanted);
 
 /// Returns the conjugate of a vector.

@@ -26,9 +26,9 @@ class Checkpoint {
  public:
   /// Makes a disabled checkpoint without entries.
   Checkpoint() = default;
-  /// Collective. If the settings say so, next() reads the entries in the folder. Throws Error if
-  /// they have another identity or are damaged. If there are none, the log reports it, and the run
-  /// starts from scratch.
+  /// Collective. With `-resume`, next() reads the entries in the folder, and Error is thrown if
+  /// they belong to another run or are damaged. If there are none, the log reports this, and the
+  /// run starts from scratch.
   Checkpoint(MPI_Comm comm, std::filesystem::path folder, Identity identity,
              const Settings& settings);
 
@@ -36,10 +36,10 @@ class Checkpoint {
   /// cannot be read or is damaged.
   std::optional<Archive> next(const std::string& log);
   /// Collective. Returns true if it is time for an entry: `-checkpoint_interval`, or longer if
-  /// writing is slow, has passed since the last one, or the run has been asked to stop.
+  /// writing is slow, has passed since the last one, or a stop of the run has been requested.
   bool due();
-  /// Collective. Returns true if work of this duration justifies an entry at its end, since the
-  /// next one may not follow for a while.
+  /// Collective. Returns true if work of this duration justifies an entry at its end. The next
+  /// regular entry may come much later.
   bool isWorth(double seconds) const;
   /// Collective. Writes the next entry of a log.
   void write(const std::string& log, const Archive& archive);

@@ -88,7 +88,7 @@ Layout::Part partOf(const Stream& stream) {
   return part;
 }
 
-/// Returns the layout of a file; none if it is not that of an entry for this number of ranks.
+/// Returns the layout of a file; none if the file is not an entry for this number of ranks.
 std::optional<Layout> readLayout(const File& file, int ranks) {
   Layout layout;
   layout.parts.resize(ranks);

@@ -70,8 +70,8 @@ class IntegerOption : public Option {
   int lowest_, highest_;
 };
 
-/// A vector as an option gives it. How many components it must have depends on the dimension of the
-/// mesh, which is known later than the options.
+/// A vector given by an option. The dimension of the mesh, known only later, determines the number
+/// of components.
 class VectorValue {
  public:
   VectorValue() = default;

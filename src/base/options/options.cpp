@@ -170,7 +170,7 @@ std::vector<std::string> unusedOptions() {
                                    : std::find(left.begin(), left.end(), name) == left.end();
     if (!used)
       unused.push_back(optionText(name, value, value) +
-                       " was not used: nothing in this run asks for it");
+                       " was not used: no stage of this run reads it");
   }
   return unused;
 }

@@ -70,8 +70,8 @@ Setting origin(const std::string& name, const std::string& value);
 /// file; an empty `value` is omitted.
 std::string optionText(const std::string& name, const std::string& value, const std::string& given);
 
-/// Returns a line for each setting of a file that a later one has replaced by another value:
-/// "option -a 2 replaces 1 (case.yaml, line 3)".
+/// Returns a line for each setting of a file that a later setting has overridden: "option -a 2
+/// replaces 1 (case.yaml, line 3)".
 std::vector<std::string> replacedSettings();
 
 /// Returns a line of an options file, with quotes if the value needs them.

@@ -63,7 +63,7 @@ class Splitter {
   bool beginsComment(std::size_t i) const { return comments_ && text_[i] == '#'; }
   std::size_t quoteEnd(std::size_t begin) const {
     const auto end = text_.find_first_of(std::string(1, text_[begin]) + "\n", begin + 1);
-    if (end == std::string::npos || text_[end] == '\n') fail("a quote is left open");
+    if (end == std::string::npos || text_[end] == '\n') fail("a quote is not closed");
     if (end + 1 < text_.size() && !isBlank(end + 1)) fail("text follows a closing quote");
     return end;
   }

@@ -51,7 +51,7 @@ void reserve(const std::filesystem::path& path, unsigned long long bytes) {
   int error = getrlimit(RLIMIT_FSIZE, &most) == 0 && bytes > most.rlim_cur ? EFBIG : 0;
   if (error == 0 && bytes > 0 && fallocate(file, FALLOC_FL_KEEP_SIZE, 0, bytes) != 0) error = errno;
   close(file);
-  // NFS, for example, cannot reserve space; a write then finds out.
+  // Some file systems, such as NFS, cannot reserve space: a full disk then shows up in the write.
   if (error != 0 && error != EOPNOTSUPP) throw WriteError(cannotWrite(path, error));
 }
 

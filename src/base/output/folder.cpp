@@ -28,8 +28,8 @@ std::vector<fs::path> entriesOf(const fs::path& folder) {
   return names;
 }
 
-/// The time that the first ranks wait on termination for the last one to remove files, since mpirun
-/// kills all ranks as soon as one has ended. mpirun itself waits no longer.
+/// Time that the other ranks wait on termination while the last one removes files: mpirun kills all
+/// ranks as soon as one has ended. mpirun itself waits no longer.
 constexpr std::chrono::milliseconds patience(1000);
 
 std::string inTheWay(const fs::path& path) {

@@ -41,10 +41,10 @@ struct Naming {
 /// the new files into the folder, then the manifest, and `last` at the very end.
 class Folder {
  public:
-  /// Collective. Creates the folder if necessary and locks it; completes the commit of a run that
-  /// was killed during it, and removes the remains of a killed run. Throws Error if the run may not
-  /// write to the folder (claim.hpp) or cannot, if another run is writing to it, or if a file that
-  /// belongs to no run has a name that this run may write.
+  /// Collective. Creates the folder if necessary and locks it; completes the interrupted commit of
+  /// a killed run, and removes its remains. Throws Error if the run may not write to the folder
+  /// (claim.hpp) or cannot, if another run is writing to it, or if a file that belongs to no run
+  /// has a name that this run may write.
   Folder(MPI_Comm comm, Naming naming, std::filesystem::path path);
   ~Folder();
   Folder(const Folder&) = delete;

@@ -92,7 +92,7 @@ void Lock::join() {
 void Lock::release(const std::function<void()>& asLast, std::chrono::milliseconds patience) {
   if (state_ == State::unlockable) asLast();
   if (state_ == State::held) {
-    // The last rank is the one that can lock exclusively. The attempt releases the shared lock.
+    // Only the last rank can lock exclusively. The attempt releases the shared lock.
     constexpr std::chrono::milliseconds pause(10);
     int error = lockFile(file_, LOCK_EX);
     for (; error == EWOULDBLOCK && patience.count() > 0; patience -= pause) {

@@ -17,8 +17,8 @@ KeptError* keeper = nullptr;
 
 bool lacks = false;
 
-/// Replaces PETSc's handler, which prints a trace if an allocation fails. This one only passes the
-/// code on to check(), which reports it in one line. PetscMallocAlign of PETSc 3.18 raises a line
+/// Replaces PETSc's handler, which prints a trace if an allocation fails. This one forwards the
+/// code to check(), which reports it in one line. PetscMallocAlign of PETSc 3.18 raises a line
 /// number instead of PETSC_ERR_MEM, and is recognised by its name.
 PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const char* file,
                            PetscErrorCode code, PetscErrorType type, const char* message,

@@ -27,7 +27,6 @@ class LoggedWork {
   ~LoggedWork();
   LoggedWork(const LoggedWork&) = delete;
   LoggedWork& operator=(const LoggedWork&) = delete;
-  /// Counts floating-point operations.
   static void addOperations(double count) { PetscLogFlops(count); }
 
  private:

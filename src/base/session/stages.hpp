@@ -60,8 +60,8 @@ void print(const std::string& text);
 int outputError();
 /// Not collective. Prints a warning on the standard error output of rank 0, also with -quiet.
 void printWarning(MPI_Comm comm, const std::string& text);
-/// Not collective. Returns all finished stages in order; borrowed. If a stage was finished several
-/// times, such as once per friction, its times are summed, and its memory is the last one.
+/// Not collective. Returns all finished stages in order; borrowed. A stage that finishes several
+/// times, such as once per friction, has the sum of the times and the last memory value.
 const std::vector<StageRecord>& stageRecords();
 
 }  // namespace squeal

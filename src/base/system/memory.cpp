@@ -76,7 +76,7 @@ void keepFreedMemory() {
 }
 
 void outOfMemory() {
-  std::fprintf(stderr, "squeal: error: rank %d got no more memory: %s\n", mpi::rank(MPI_COMM_WORLD),
+  std::fprintf(stderr, "squeal: error: rank %d is out of memory: %s\n", mpi::rank(MPI_COMM_WORLD),
                lessMemory);
   abortRun();
 }

@@ -23,7 +23,7 @@ namespace {
 constexpr int endings[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGUSR2};
 
 /// Returns the mutex that is locked while handlers are registered or run, and while termination is
-/// delayed. It is recursive, since such work may fail and abort.
+/// delayed. It is recursive because this work may fail and abort.
 std::recursive_mutex& gate() {
   static std::recursive_mutex mutex;
   return mutex;
@@ -97,8 +97,8 @@ std::optional<int> awaitEnding(int rank, bool hasTime) {
       if (errno != EINTR) return {};
     const bool ends = signal == SIGTERM && !hasTime;
     if ((signal != SIGTERM && signal != SIGUSR1) || ends) return signal;
-    // The batch system and mpirun may send the same request at nearly the same time. A later one is
-    // the last before SIGKILL.
+    // The batch system and mpirun may send the same request at nearly the same time. A later one
+    // announces SIGKILL.
     if (signal == SIGTERM && asked && Clock::now() - *asked > std::chrono::seconds(5))
       return signal;
     if (!asked) asked = Clock::now();
@@ -120,9 +120,9 @@ void awaitSignal(int rank, bool hasTime) {
   raise(signal);
 }
 
-/// Shares a request to stop between ranks that work independently. In rounds, each a nonblocking
-/// sum over all ranks, they count the ranks that have been asked and those that are done, until all
-/// are done or one has been asked.
+/// Shares a request to stop between ranks that work independently. The ranks count requests and
+/// finished ranks in rounds, each a nonblocking sum over all ranks, until all are done or one has a
+/// request.
 class SharedStop {
  public:
   explicit SharedStop(MPI_Comm comm) : comm_(comm), size_(mpi::size(comm)) {
@@ -131,7 +131,7 @@ class SharedStop {
   SharedStop(const SharedStop&) = delete;
   SharedStop& operator=(const SharedStop&) = delete;
 
-  /// Not collective. Returns true once any rank is known to have been asked.
+  /// Not collective. Returns true once a request on any rank is known.
   bool asked() {
     if (stop || asked_) return true;
     if (over_ || size_ == 1) return false;
@@ -144,7 +144,7 @@ class SharedStop {
     }
     return asked_;
   }
-  /// Collective. Waits for the other ranks. Returns true if any has been asked.
+  /// Collective. Waits for the other ranks. Returns true if a stop has been requested on any rank.
   bool join() {
     if (size_ == 1) return stop;
     while (!over_) {

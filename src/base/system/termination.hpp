@@ -45,15 +45,15 @@ void runTerminationHandlers() noexcept;
 /// derive from std::exception.
 struct Interrupted {};
 
-/// Not collective. Returns true once this rank has been asked to stop, by SIGTERM or SIGUSR1.
+/// Not collective. Returns true once SIGTERM or SIGUSR1 has requested a stop on this rank.
 bool stopAsked();
-/// Collective. Throws Interrupted on all ranks once one of them has been asked to stop.
+/// Collective. Throws Interrupted on all ranks once a stop has been requested on any of them.
 void stopIfAsked(MPI_Comm comm);
 
 /// Returns false if the work throws Interrupted. Its results so far remain.
 bool completed(const std::function<void()>& work);
 
-/// Returns true once a rank has been asked to stop.
+/// Returns true once a stop has been requested on any rank.
 using StopAsked = std::function<bool()>;
 
 /// Collective. Runs work(asked) independently on each rank: the work makes no collective calls, and
@@ -62,10 +62,10 @@ using StopAsked = std::function<bool()>;
 /// one has been asked to stop; otherwise Error on all ranks if the work of any rank throws it.
 void workApart(MPI_Comm comm, const std::function<void(const StopAsked& asked)>& work);
 
-/// Handles the signals by which batch systems, mpirun and the terminal ask the program to end.
-/// SIGUSR1, and SIGTERM unless SIGKILL follows at once, ask the run to stop at the next point where
-/// it can: stopAsked(). For other signals (SIGINT, SIGHUP, …), and for a SIGTERM some seconds after
-/// the first, a thread runs the termination handlers, reports the signal in one line on rank 0, and
+/// Handles the signals by which batch systems, mpirun and the terminal end the program. SIGUSR1,
+/// and SIGTERM unless SIGKILL follows at once, request a stop at the next possible point:
+/// stopRequested(). For other signals (SIGINT, SIGHUP, …), and for a SIGTERM some seconds after the
+/// first, a thread runs the termination handlers, reports the signal in one line on rank 0, and
 /// ends the process by it. Signals that are already ignored (nohup) stay ignored. A write to a
 /// closed pipe or beyond the file size limit only makes that write fail.
 class SignalWatch {

@@ -11,7 +11,7 @@
 namespace squeal::direct {
 namespace {
 
-/// Solves for more and more eigenvalues until the band is covered or the limit is reached.
+/// Increases the number of eigenvalues until the band is covered or the limit is reached.
 NearestPairs solveBand(NearestSolver& solver, const Settings& settings) {
   const auto& [start, limit, low, high, confirmed, criteria] = settings;
   for (PetscInt count = std::min(start, limit);; count = std::min(2 * count, limit)) {
@@ -26,7 +26,8 @@ NearestPairs solveBand(NearestSolver& solver, const Settings& settings) {
   }
 }
 
-/// Returns the nearest eigenvalues, as many as are wanted, and those as near as the last of them.
+/// Returns the requested number of nearest eigenvalues, and all others at the distance of the last
+/// one.
 NearestPairs solveCount(NearestSolver& solver, const Settings& settings) {
   NearestPairs found = solver.solve(settings.count);
   if (settings.confirmed) addMissed(solver, settings.count, found);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The direct method solves the eigenproblem on all unknowns, without reduction.
+/// The direct method: the eigenproblem in all unknowns, without reduction.
 #include "eigen/direct/settings.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/pencil.hpp"
@@ -8,11 +8,11 @@
 
 namespace squeal::direct {
 
-/// Collective. Solves the problem on all unknowns by SLEPc with shift-and-invert at zero. Returns
-/// the `count` eigenvalues nearest to zero, with others that are as near as the last of them, or
-/// all in the band (low ≤ Im s ≤ high, |s| ≤ high) that `limit` of them reach:
-/// ComplexModes::coveredTo. `trial` is T, N×n, for the shapes. Throws Error if the solver does not
-/// converge.
+/// Collective. Solves the problem in all unknowns by SLEPc with shift-and-invert at zero. Returns
+/// the `count` eigenvalues nearest to zero, with all others at the distance of the last one. With a
+/// band, returns all eigenvalues in it (low ≤ Im s ≤ high, |s| ≤ high), at most `limit`;
+/// ComplexModes::coveredTo is the end of the covered part. `trial` is T, N×n, for the shapes.
+/// Throws Error if the solver does not converge.
 pencil::ComplexModes solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                  Mat trial, const Settings& settings);
 

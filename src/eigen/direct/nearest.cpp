@@ -69,18 +69,19 @@ NearestPair copied(const NearestPair& pair) {
   return {linalg::ComplexVector::copied(pair.real, pair.imaginary), pair.s};
 }
 
-/// Removes from v its part in the span of the orthonormal `basis`, twice because of rounding, and
-/// returns the 2-norm that is left.
+/// Removes from v its part in the span of the orthonormal `basis`, twice because of round-off, and
+/// returns the 2-norm of the remainder.
 double project(NearestPair& v, const std::vector<NearestPair>& basis) {
   for (int pass = 0; pass < 2; ++pass)
     for (const auto& u : basis) add(v, -dot(u, v), u);
   return length(v);
 }
 
-/// Eigenvalues within this relative distance count as one, whose vectors may mix.
+/// Eigenvalues within this relative distance count as one multiple eigenvalue, whose vectors may
+/// mix.
 constexpr double oneCluster = 1e-6;
-/// A unit vector is new if its part outside of the span of a cluster is longer than this. Rounding
-/// and the tolerance of the solver, 1e-12, turn that span by at most 1e-12 / oneCluster, times a
+/// A unit vector is new if its part outside the span of a cluster is longer than this. Round-off
+/// and the tolerance of the solver, 1e-12, rotate that span by at most 1e-12 / oneCluster, times a
 /// condition number.
 constexpr double newVector = 1e-2;
 
@@ -89,8 +90,7 @@ bool isNew(const NearestPair& pair, const std::vector<NearestPair>& known) {
   for (const auto& other : known) {
     if (std::abs(other.s - pair.s) > oneCluster * std::abs(pair.s)) continue;
     NearestPair last = copied(other);
-    if (project(last, basis) < 1e-12)
-      continue;  // two vectors of a defective eigenvalue that became one
+    if (project(last, basis) < 1e-12) continue;  // two vectors of a defective eigenvalue coincide
     normalise(last);
     basis.push_back(std::move(last));
   }
@@ -99,7 +99,7 @@ bool isNew(const NearestPair& pair, const std::vector<NearestPair>& known) {
 }
 
 /// Returns the |s| up to which all eigenvalues are listed. The `wanted` ones are the nearest;
-/// further ones that have converged may leave gaps.
+/// further converged ones may leave gaps.
 double reachedBy(std::vector<double> sizes, PetscInt wanted, PetscInt all) {
   std::sort(sizes.begin(), sizes.end());
   return wanted == all ? INFINITY : sizes.at(wanted - 1);
@@ -137,7 +137,7 @@ class Undamped : public NearestSolver {
     check(EPSGetDS(eps_, &ds));
     check(DSSetParallel(
         ds,
-        DS_PARALLEL_SYNCHRONIZED));  // or rounding makes the ranks disagree on what has converged
+        DS_PARALLEL_SYNCHRONIZED));  // otherwise round-off makes the ranks disagree on convergence
     applySolverOptions([&] { return EPSSetFromOptions(eps_); });
     epsPrefix.rejectUnused();
   }
@@ -260,15 +260,15 @@ NearestSolver::NearestSolver(const pencil::Pencil& pencil, const sweep::Paramete
 }
 
 NearestPairs NearestSolver::solve(PetscInt count) {
-  // Where a Krylov space ends early, the ranks may disagree in SLEPc 3.18, as each decides by its
-  // own rounding. Small problems therefore go to LAPACK.
+  // If a Krylov space ends early, the ranks may disagree in SLEPc 3.18, since each decides by its
+  // own round-off. LAPACK therefore solves small problems.
   constexpr PetscInt largestWhole = 1000;
   return size_ <= std::min(2 * count + 20, largestWhole) ? whole() : krylov(count);
 }
 
-/// SLEPc sorts a Schur form by swapping adjacent blocks, which dtrexc of LAPACK refuses where their
-/// eigenvalues are nearly equal. SLEPc 3.18 gives up there, although another start vector gives
-/// other roundings and, as a rule, a Schur form that can be sorted.
+/// SLEPc sorts a Schur form by swapping adjacent blocks, but LAPACK's dtrexc rejects blocks with
+/// nearly equal eigenvalues. SLEPc 3.18 then fails. Another start vector changes the round-off and
+/// usually gives a Schur form that can be sorted.
 NearestPairs NearestSolver::krylov(PetscInt count) {
   constexpr int mostStarts = 5;  // a probability of 1 % that one fails leaves 1e-10
   std::string failure;
@@ -289,7 +289,7 @@ std::string NearestSolver::lapackFailure() {
   const PetscErrorCode code = run();
   if (code == 0) return "";
   if (error.message().find("LAPACK") == std::string::npos) check(code);
-  discard();  // it is left halfway
+  discard();  // it is in an undefined state
   return error.message();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The eigenvalues nearest to zero of the problem on all unknowns are found by SLEPc.
+/// The eigenvalues nearest to zero of the problem in all unknowns, by SLEPc.
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,8 +12,7 @@
 
 namespace squeal::direct {
 
-/// An eigenvalue with its right vector, which has the 2-norm 1. The imaginary part of a real vector
-/// is zero.
+/// An eigenvalue with its right vector of 2-norm 1. The imaginary part of a real vector is zero.
 struct NearestPair : linalg::ComplexVector {
   Complex s;
 };
@@ -31,10 +30,10 @@ class NearestSolver {
   NearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at);
   virtual ~NearestSolver() = default;
   /// Collective. Returns at least the `count` eigenvalues nearest to zero, or all if there are
-  /// fewer, with conjugate pairs counted once. Each call begins with another vector and keeps the
-  /// factorisation. Where the Krylov space would be the whole space of a small problem, LAPACK is
-  /// called instead. Throws Error if SLEPc does not converge, or if LAPACK fails within it from
-  /// each of several start vectors.
+  /// fewer, with conjugate pairs counted once. Each call uses another start vector and the same
+  /// factorisation. If the Krylov space would be the whole space of a small problem, it calls
+  /// LAPACK instead. Throws Error if SLEPc does not converge, or if LAPACK fails within it for
+  /// several start vectors.
   NearestPairs solve(PetscInt count);
 
  protected:
@@ -44,18 +43,18 @@ class NearestSolver {
   PetscInt size_ = 0;
 
  private:
-  /// Collective. Makes SLEPc's solver ready for `count` eigenvalues and for this start vector.
+  /// Collective. Sets up SLEPc's solver for `count` eigenvalues and this start vector.
   virtual void prepare(PetscInt count, Vec start) = 0;
   /// Collective. Runs SLEPc's solver and returns its error code.
   virtual PetscErrorCode run() = 0;
   /// Collective. Destroys SLEPc's solver; prepare() makes another one.
   virtual void discard() = 0;
-  /// Collective. Returns what SLEPc's solver has found. Throws Error if fewer than `count`
+  /// Collective. Returns the results of SLEPc's solver. Throws Error if fewer than `count`
   /// eigenvalues have converged.
   virtual NearestPairs collected(PetscInt count) = 0;
   NearestPairs krylov(PetscInt count);
-  /// Collective. Runs SLEPc's solver. Returns an empty text, or the message of a failure of LAPACK,
-  /// after which the solver is gone.
+  /// Collective. Runs SLEPc's solver. Returns an empty text, or the message of a LAPACK failure,
+  /// after which the solver no longer exists.
   std::string lapackFailure();
   NearestPairs whole() const;
   int runs_ = 0;  // start vectors taken so far
@@ -67,14 +66,14 @@ class NearestSolver {
 std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,
                                              const sweep::Parameters& at);
 
-/// Collective. Adds to `found`, the result of solver.solve(count), the pairs that further solves
-/// from other start vectors find, until a solve finds no new one. A Krylov space from one vector
-/// holds only one vector of a multiple eigenvalue, except for rounding. A pair is new if its vector
-/// is not in the span of those already known with nearly the same s.
+/// Collective. Repeats the solve from other start vectors, and adds new pairs to `found`, the
+/// result of solver.solve(count), until a solve finds none. A Krylov space from one vector contains
+/// only one vector of a multiple eigenvalue, except for round-off. A pair is new if its vector is
+/// not in the span of known vectors with nearly the same s.
 void addMissed(NearestSolver& solver, PetscInt count, NearestPairs& found);
 
-/// Throws Error if -flutter_eps_*, -flutter_pep_* or -flutter_st_* options are given and the method
-/// is not the direct one, which is the only one that uses them.
+/// Throws Error if -flutter_eps_*, -flutter_pep_* or -flutter_st_* options are given without the
+/// direct method, which is the only one that uses them.
 void rejectIdleSolverOptions(pencil::Method method);
 
 }  // namespace squeal::direct

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The choices of the direct method.
+/// The settings of the direct method.
 #include "eigen/pencil/settings.hpp"
 
 namespace squeal::direct {

@@ -15,16 +15,15 @@
 namespace squeal::modes {
 namespace {
 
-/// The part of the wanted eigenvalues that the second pole is to lie above. The fewest solves were
-/// needed with this.
+/// Fraction of the wanted eigenvalues below the second pole; measured to need the fewest solves.
 constexpr double partBelowPole = 0.88;
-/// The second pole is placed when the basis has this many vectors for each wanted eigenvalue: its
-/// Ritz values then say where the pole belongs.
+/// The second pole is placed once the basis has this many vectors per wanted eigenvalue: its Ritz
+/// values then determine the pole.
 constexpr double vectorsBeforePole = 0.6;
-/// After so many vectors a further pole takes the place of the second one, amid the eigenvalues
-/// that have not converged.
+/// After this many vectors a further pole, amid the unconverged eigenvalues, replaces the second
+/// one.
 constexpr PetscInt vectorsOfPole = 300;
-/// Fewer eigenvalues than this converge before a second pole has paid for itself.
+/// With fewer eigenvalues than this, a second pole costs more than it saves.
 constexpr PetscInt fewestForPole = 40;
 
 /// The private part of an EPS of this type.
@@ -44,10 +43,10 @@ Pole firstPole(EPS eps) {
   return {0, [ksp](Mat b, Mat x) { check(KSPMatSolve(ksp, b, x)); }};
 }
 
-/// Returns a place for the second pole from Ritz values, or the target if these say nothing. The
-/// number of eigenvalues below λ grows like
+/// Returns a place for the second pole from Ritz values, or the target if these do not determine
+/// one. The number of eigenvalues below λ grows like
 ///   N(λ) = a λ^½ + c λ^(3/2),
-/// as in plates and in solids (Weyl's law), with a and c from those that have nearly converged.
+/// as in plates and in solids (Weyl's law); a and c are fitted to nearly converged Ritz values.
 double placeOfPole(EPS eps, const RitzPairs& ritz) {
   constexpr double nearly = 0.1, distinct = 1.001;
   std::size_t known = 0;
@@ -55,7 +54,8 @@ double placeOfPole(EPS eps, const RitzPairs& ritz) {
   const std::size_t half = known / 2;
   if (half < 4) return eps->target;
   const double x = 1 / ritz.value[half - 1], y = 1 / ritz.value[known - 1];  // less the target
-  if (!(y > distinct * x)) return eps->target;  // one multiple eigenvalue: a pole would meet it
+  if (!(y > distinct * x))
+    return eps->target;  // one multiple eigenvalue: a pole would coincide with it
   // a + c λ = N(λ) / √λ at both
   const double atX = half / std::sqrt(x), atY = known / std::sqrt(y);
   const double c = std::max(0.0, (atY - atX) / (y - x)), a = std::max(0.0, atY - c * y);
@@ -70,7 +70,7 @@ double placeOfPole(EPS eps, const RitzPairs& ritz) {
   return eps->target + high;
 }
 
-/// Returns the wanted eigenvalues, less the target, that have not converged.
+/// Returns the wanted eigenvalues that have not converged, minus the target.
 std::vector<double> unconverged(EPS eps, const RitzPairs& ritz) {
   std::vector<double> rest;
   for (PetscInt i = 0; i < eps->nev; ++i)
@@ -78,8 +78,8 @@ std::vector<double> unconverged(EPS eps, const RitzPairs& ritz) {
   return rest;
 }
 
-/// Returns a place for a further pole, below all but half of the eigenvalues `rest` that have not
-/// converged, in the middle of the widest gap near there.
+/// Returns a place for a further pole: the middle of the widest gap near the median of the
+/// unconverged eigenvalues `rest`.
 double placeOfNextPole(EPS eps, const RitzPairs& ritz, const std::vector<double>& rest) {
   const double middle = rest[rest.size() / 2];
   double place = middle, widest = 0;
@@ -107,7 +107,7 @@ Pole poleAt(EPS eps, double sigma) {
   return {sigma - eps->target, [made](Mat b, Mat x) { factor::solve(*made, b, x); }};
 }
 
-/// Collective. Hands the Ritz pairs to SLEPc, which decides what has converged.
+/// Collective. Passes the Ritz pairs to SLEPc, which decides on convergence.
 void judge(EPS eps, const RitzPairs& ritz, bool full) {
   const PetscInt count = std::min<PetscInt>(std::ssize(ritz.value), eps->ncv);
   bool all = true;
@@ -155,11 +155,11 @@ void iterate(EPS eps) {
       lanczos.finish(ritz, eps->nconv);
       return;
     }
-    // The lowest that has not converged gains most by the nearer pole.
+    // The lowest unconverged eigenvalue gains most from the nearer pole.
     const std::vector<double> rest = unconverged(eps, ritz);
     if (second && lanczos.size() >= vectorsBefore + vectorsOfPole &&
         10 * std::ssize(rest) > count) {
-      second.reset();  // its factor leaves first
+      second.reset();  // frees its factor before the next one is made
       second.emplace(poleAt(eps, placeOfNextPole(eps, ritz, rest)));
       vectorsBefore = lanczos.size();
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// This file adds rational block Lanczos to SLEPc, as a type of EPS. It finds the eigenvalues of a
-/// symmetric definite pencil (K, M) nearest to a target below all of them.
+/// Rational block Lanczos as an EPS type of SLEPc. It finds the eigenvalues of a symmetric definite
+/// pencil (K, M) nearest to a target that lies below all eigenvalues.
 #include <optional>
 
 #include "base/petsc/owned.hpp"
@@ -17,22 +17,22 @@ constexpr const char* blockLanczosType = "blocklanczos";
 ///   -eps_blocklanczos_blocksize <8>, right-hand sides that are solved for together,
 ///   -eps_blocklanczos_pole <true>, whether further poles are placed amid the wanted eigenvalues,
 ///     where the inertia counts those below.
-/// The spectral transformation has to be shift-and-invert.
+/// The spectral transformation must be shift-and-invert.
 void registerBlockLanczos();
 
 /// Sets the defaults of the options of the type.
 void setBlockLanczos(EPS eps, PetscInt blockSize, bool secondPole);
 
-/// Returns the number of vectors that `count` eigenvalues need room for. A run nearly always
-/// converges before the first restart, with 2 to 3 vectors an eigenvalue.
+/// Returns the maximum number of basis vectors for `count` eigenvalues. A run nearly always
+/// converges before the first restart, with 2 to 3 vectors per eigenvalue.
 constexpr int lanczosVectors(int count, int blockSize) { return 3 * count + 8 * blockSize; }
 
-/// The facts of a solve are what it has found besides the eigenvalues.
+/// Results of a solve in addition to the eigenvalues.
 struct BlockLanczosFacts {
-  int solves = 0;  ///< right-hand sides solved for
+  int solves = 0;  ///< number of right-hand sides
   int restarts = 0;
-  /// A place σ and the number of eigenvalues below it, by the inertia of K − σ M; 0 if there is
-  /// none of the wanted ones.
+  /// A shift σ and the number of eigenvalues below it, by the inertia of K − σ M; 0 if no shift
+  /// lies amid the wanted eigenvalues.
   double countedTo = 0;
   int below = 0;
 };

@@ -66,9 +66,9 @@ void setUp(EPS eps) {
   factor::rejectUnusedSolverOptions();
 }
 
-/// Returns the number of modes, at most all but one, above which the widest relative gap of the
-/// topmost ten begins, so that rounding cannot move an eigenvalue across it. If these are all
-/// copies of one multiple eigenvalue, the gap is sought below it.
+/// Returns the number of modes below the widest relative gap of the topmost ten, at most all but
+/// one. Round-off cannot move an eigenvalue across this gap. If the ten are copies of one multiple
+/// eigenvalue, the gap lies below it.
 std::size_t modesBelowGap(const std::vector<double>& w) {
   constexpr double distinct = 1e-6;
   std::size_t below = 0;
@@ -78,8 +78,8 @@ std::size_t modesBelowGap(const std::vector<double>& w) {
   return widest < distinct ? 0 : below;
 }
 
-/// Returns true if the modes below the shift are as many as the inertia has counted there, and the
-/// shift lies between two of them beyond doubt.
+/// Returns true if the number of modes below the shift equals the inertia count, and the shift lies
+/// clearly between two modes.
 bool isCounted(const Modes& modes) {
   constexpr double apart = 1e-6;  // of λ
   const double shift = modes.inertiaShift;
@@ -90,8 +90,8 @@ bool isCounted(const Modes& modes) {
          std::ranges::count_if(modes.lambda, below) == modes.inertiaCount;
 }
 
-/// Collective. Counts the eigenvalues below a shift in the gap of modesBelowGap(), unless a count
-/// that has been made already agrees.
+/// Collective. Counts the eigenvalues below a shift in the gap of modesBelowGap(), unless an
+/// existing count already agrees.
 void confirmCount(Mat k, Mat m, Modes& modes) {
   modes.countConfirmed = isCounted(modes);
   if (modes.lambda.empty() || modes.countConfirmed) return;
@@ -134,13 +134,13 @@ void takeModes(EPS eps, int count, Modes& modes) {
   }
 }
 
-/// Collective. Finds the modes by the type of EPS that -modes_eps_type names. Throws Error if too
-/// few converge.
+/// Collective. Finds the modes by the EPS type of -modes_eps_type. Throws Error if too few
+/// converge.
 void solveByEps(const factor::AssociatedSystem& system, const Settings& settings, Stage& stage,
                 Modes& modes) {
   const int count = settings.count;
   const OwnedEPS eps = solver(system, settings, EPSKRYLOVSCHUR, stage);
-  // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
+  // A basis of 1.5 times the number of modes, enlarged in portions of 100, took the fewest solves.
   const PetscInt vectors =
       std::min<PetscInt>(rowsOf(system.k0()),
                          count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
@@ -155,9 +155,9 @@ void solveByEps(const factor::AssociatedSystem& system, const Settings& settings
   modes.iterations = iterations;
 }
 
-/// Collective. Finds the modes by block Lanczos. Returns false if fewer than wanted have converged;
-/// `modes` is then as it was. Eigenvalues that lie close together, as those of a thin ring held at
-/// its hub, need a larger basis: more restarts do not help.
+/// Collective. Finds the modes by block Lanczos. Returns false if too few have converged; `modes`
+/// is then unchanged. Close eigenvalues, such as those of a thin ring clamped at its hub, need a
+/// larger basis, not more restarts.
 bool solveByLanczos(const factor::AssociatedSystem& system, const Settings& settings, int blockSize,
                     Stage& stage, Modes& modes) {
   constexpr PetscInt restartsBeforeGrowth = 4, mostRestarts = 20;
@@ -186,23 +186,23 @@ bool solveByLanczos(const factor::AssociatedSystem& system, const Settings& sett
 
 /// Solves
 ///   M d = (1/λ) K d
-/// by LAPACK on rank 0, so that the ranks agree. It gets the largest eigenvalues best, those of the
-/// lowest modes.
+/// by LAPACK on rank 0, so that the ranks agree. This form gives the largest 1/λ, those of the
+/// lowest modes, with the highest accuracy.
 void solveDense(const factor::AssociatedSystem& system, int count, Modes& modes) {
   const MPI_Comm comm = commOf(system.k0());
   const PetscInt n = rowsOf(system.k0());
   linalg::DenseMatrix all = linalg::gathered(system.m0()),
                       stiffness = linalg::gathered(system.k0()), vectors(n, count);
-  onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ",
-              [&] {
-                const auto inverse = linalg::symmetricEigen(all, stiffness);
-                for (PetscInt j = 0; j < count; ++j) {
-                  const PetscInt last = n - 1 - j;
-                  modes.lambda.push_back(1 / inverse[last]);
-                  for (PetscInt i = 0; i < n; ++i)
-                    vectors(i, j) = all(i, last) / std::sqrt(inverse[last]);
-                }
-              });
+  onFirstRank(
+      comm, "free vibration: the stiffness is not positive definite; is a body under-constrained? ",
+      [&] {
+        const auto inverse = linalg::symmetricEigen(all, stiffness);
+        for (PetscInt j = 0; j < count; ++j) {
+          const PetscInt last = n - 1 - j;
+          modes.lambda.push_back(1 / inverse[last]);
+          for (PetscInt i = 0; i < n; ++i) vectors(i, j) = all(i, last) / std::sqrt(inverse[last]);
+        }
+      });
   modes.lambda.resize(count);
   check(MPI_Bcast(modes.lambda.data(), count, MPI_DOUBLE, 0, comm));
   check(MPI_Bcast(vectors.data(), vectors.size(), MPI_DOUBLE, 0, comm));
@@ -211,10 +211,10 @@ void solveDense(const factor::AssociatedSystem& system, int count, Modes& modes)
   modes.vectors = linalg::copiedColumns(system.k0(), linalg::rowRange(vectors, first, end));
 }
 
-/// Collective. Measures the residuals, and by [M.26]
+/// Collective. Computes the residuals and, by [M.26],
 ///   ε Σ K_jj d_j² / λ
-/// the relative change of λ that rounding in K makes, whose entries may cancel in d. If it is near
-/// one, λ says nothing.
+/// the relative change of λ by round-off in K, whose entries may cancel in dᵀK d. If it is near
+/// one, λ has no meaning.
 void measureResiduals(const factor::AssociatedSystem& system, Modes& modes) {
   constexpr double noise = 1e-3;  // of λ: three digits are no frequency
   constexpr PetscInt atOnce = 32;
@@ -245,17 +245,16 @@ void measureResiduals(const factor::AssociatedSystem& system, Modes& modes) {
     modes.rounding =
         std::max(modes.rounding, PETSC_MACHINE_EPSILON * sums(0, i) / std::abs(lambda));
     if (!(lambda > 0) || modes.rounding > noise)
-      throw Error(formatted("free vibration: eigenvalue %" PetscInt_FMT
-                            ", %g, is not positive or nothing "
-                            "but rounding; a body is loose or nearly so",
-                            i + 1, lambda));
+      throw Error(formatted(
+          "free vibration: eigenvalue %" PetscInt_FMT
+          " (%g) is not positive within round-off: a body has a rigid-body mode, or nearly so",
+          i + 1, lambda));
     modes.angularFrequency.push_back(std::sqrt(lambda));
     modes.relativeResidual.push_back(std::sqrt(sums(2, i) / sums(1, i)) / lambda);
   }
 }
 
-/// Returns true if block Lanczos cannot run out of directions, of which it keeps up to
-/// lanczosVectors() at first.
+/// Returns true if the space has enough dimensions for the lanczosVectors() of block Lanczos.
 bool lanczosFits(int count, int blockSize, PetscInt size) {
   return 2 * lanczosVectors(count, blockSize) <= size;
 }
@@ -264,18 +263,18 @@ bool lanczosWanted(const Settings& settings, PetscInt size) {
   const bool fits = lanczosFits(settings.count, settings.blockSize, size);
   if (settings.solver == Settings::Solver::blockLanczos && !fits)
     throw Error(formatted("option -modes_solver block_lanczos: %d modes of %" PetscInt_FMT
-                          " unknowns are too many for it; use eps",
+                          " unknowns are too many for block Lanczos; use eps",
                           settings.count, size));
   return settings.solver != Settings::Solver::eps && fits;
 }
 
-/// Returns true where most of the modes of a small problem are wanted, for which Krylov methods
-/// have no room.
+/// Returns true if most modes of a small problem are wanted, which leaves too few dimensions for
+/// Krylov methods.
 bool denseWanted(const Settings& settings, PetscInt size) {
   return settings.solver == Settings::Solver::automatic && size <= 400 && 2 * settings.count > size;
 }
 
-/// Measures the residuals and, if that is wanted, counts the modes by the inertia. Returns false if
+/// Computes the residuals and, with -modes_sturm, counts the modes by the inertia. Returns false if
 /// modes are missing.
 bool examine(const factor::AssociatedSystem& system, const Settings& settings, Modes& modes) {
   measureResiduals(system, modes);
@@ -284,9 +283,9 @@ bool examine(const factor::AssociatedSystem& system, const Settings& settings, M
   return modes.countConfirmed;
 }
 
-/// Collective. Computes the modes by block Lanczos. A block of b vectors meets b copies of a
-/// multiple eigenvalue: where some are missing, a block twice as large is taken. Returns false if
-/// there are no modes, or if some are missing still.
+/// Collective. Computes the modes by block Lanczos. A block of b vectors finds b copies of a
+/// multiple eigenvalue: if some are missing, the block size is doubled. Returns false if this fails
+/// or if modes are still missing.
 bool computeByLanczos(const factor::AssociatedSystem& system, const Settings& settings,
                       Stage& stage, Modes& modes) {
   const PetscInt size = rowsOf(system.k0());
@@ -296,7 +295,8 @@ bool computeByLanczos(const factor::AssociatedSystem& system, const Settings& se
     const bool complete = examine(system, settings, found);
     modes = std::move(found);
     if (complete) return true;
-    stage.progress(formatted("the inertia counts more modes than blocks of %d have found", block));
+    stage.progress(formatted(
+        "the inertia counts more modes than block Lanczos has found with blocks of %d", block));
   }
   return false;
 }
@@ -344,11 +344,12 @@ Modes compute(const factor::AssociatedSystem& system, const Settings& given) {
   Stage stage(comm, "modes");
   Modes modes = computeBy(system, settings, stage);
   if (modes.rounding > 1e-6)
-    printWarning(comm,
-                 formatted("free vibration: rounding of the entries of the stiffness may change "
-                           "the lowest eigenvalues by %.0e of their "
-                           "size; is a body nearly loose, or a spring very stiff?",
-                           modes.rounding));
+    printWarning(
+        comm,
+        formatted(
+            "free vibration: round-off in the stiffness may change the lowest eigenvalues by %.0e "
+            "of their value; is a body nearly under-constrained, or a spring very stiff?",
+            modes.rounding));
   stage.finish(formatted(
       "%d modes to %.4g Hz, worst relative residual %.1e%s", settings.count,
       modes.angularFrequency.back() / (2 * M_PI),

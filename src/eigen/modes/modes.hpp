@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// This file computes the free vibration of the ideal associated system [4.17],
+/// The free vibration of the ideal associated system [4.17],
 ///   (K0 − ω² M0) d = 0,
-/// whose modes are the basis of the reduced problem.
+/// whose modes start the basis of the reduced problem.
 #include <vector>
 
 #include "algebra/factor/associated_system.hpp"
@@ -18,21 +18,20 @@ struct Modes {
   std::vector<double> relativeResidual;  ///< [mode] ‖K0 d − ω² M0 d‖ / (ω² ‖M0 d‖)
   OwnedBV vectors;                       ///< n × count, M0-orthonormal
   int iterations = 0;                    ///< restarts of the eigensolver; 0 with LAPACK
-  /// True if the number of modes below σ is that of the inertia of K0 − σ M0 [M.25]; false without
+  /// True if the inertia of K0 − σ M0 [M.25] confirms the number of modes below σ; false without
   /// `-modes_sturm`.
   bool countConfirmed = false;
   int inertiaCount = 0;     ///< number of eigenvalues of (K0, M0) below σ
   double inertiaShift = 0;  ///< σ, in the widest gap of the topmost modes, rad²/s²
-  /// The largest relative error that rounding of the entries of K0 may make in a λ [M.26].
+  /// The largest relative error of a λ that round-off in the entries of K0 may cause [M.26].
   double rounding = 0;
 };
 
 /// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
-/// Unless `-modes_solver` chooses one of them, LAPACK takes their place where most of the modes of
-/// a small problem are wanted, or where EPS too has missed modes of a problem of at most 2000
-/// unknowns. An unconfirmed count is not an error. Throws Error if a count that is given
-/// exceeds the number of unknowns, if the solver does not converge, or if an eigenvalue is not
-/// positive or could have been made by rounding.
+/// Unless `-modes_solver` selects one of these, LAPACK replaces them if most modes of a small
+/// problem are wanted, or if EPS too has missed modes of a problem of at most 2000 unknowns. An
+/// unconfirmed count is not an error. Throws Error if a given count exceeds the number of unknowns,
+/// if the solver does not converge, or if an eigenvalue is not positive within round-off.
 Modes compute(const factor::AssociatedSystem& system, const Settings& settings);
 
 }  // namespace squeal::modes

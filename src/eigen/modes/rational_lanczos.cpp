@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-/// A direct solver answers a block of right-hand sides many times faster than as many single ones,
-/// because the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a
-/// time.
+/// A direct solver solves a block of right-hand sides many times faster than the same number of
+/// single ones, because it reads the factor from memory once per block. SLEPc's Krylov-Schur solves
+/// one right-hand side at a time.
 #include "eigen/modes/rational_lanczos.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ RationalLanczos::RationalLanczos(Mat m, BV basis, PetscInt blockSize)
   check(MatMatMult(m_, asMat_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, mw_.out()));
   a_ = b_ = DenseMatrix(limit_, limit_);
   check(BVGetArray(basis_, &columns_));
-  // Each rank draws its own part; the seed is fixed, so that a run can be repeated.
+  // Each rank draws its own part. The seed is fixed, so a run is reproducible.
   int rank = 0;
   check(MPI_Comm_rank(comm_, &rank));
   random_.seed(rank + 1);
@@ -55,11 +55,11 @@ void RationalLanczos::expand(const Pole& pole) {
     massTimesW();
   }
   solve(pole);
-  // In exact arithmetic only the last two blocks have a part in W, except in the first two steps
-  // with a pole.
+  // In exact arithmetic, W has components only along the last two blocks, except in the first two
+  // steps with a pole.
   const DenseMatrix h = orthogonalise(sinceChange_ >= 2);
   ++sinceChange_;
-  double size = 0;  // of W before V was taken out of it, squared
+  double size = 0;  // of W before orthogonalisation against V, squared
   for (PetscInt j = 0; j < width_; ++j) size = std::max(size, linalg::squaredLength(h.column(j)));
   orthonormalise(size);
   append();
@@ -78,8 +78,8 @@ void RationalLanczos::expand(const Pole& pole) {
 RitzPairs RationalLanczos::ritz() const {
   const PetscInt k = size_, known = k - width_;
   //   A = Q [R; 0],   QᵀB R⁻¹ = [T; C],   T = Tᵀ:  S V Q₁ = V Q₁ T + V Q₂ C
-  // The steps with other poles than σ0 come first. Their columns of A may be nearly parallel, and
-  // so must not meet the rounding of those of B that hold the largest θ.
+  // The steps with poles other than σ0 come first. Their columns of A may be nearly parallel, and
+  // must stay free of round-off from the columns of B with the largest θ.
   DenseMatrix a(k), b(k);
   for (const bool foreign : {true, false})
     for (PetscInt j = 0; j < known; ++j)
@@ -101,7 +101,7 @@ RitzPairs RationalLanczos::ritz() const {
   pairs.coupling = linalg::product(linalg::rowRange(products, known, k), turned);
   pairs.vectors = linalg::product(qr.q().columnRange(0, known), turned);
   pairs.vectors.append(qr.q().columnRange(known, k));
-  // The ranks must not disagree on what has converged.
+  // The ranks must agree on convergence.
   for (auto entries : {std::span(pairs.value), pairs.coupling.entries(), pairs.vectors.entries()})
     check(MPI_Bcast(entries.data(), entries.size(), MPI_DOUBLE, 0, comm_));
   for (PetscInt j = 0; j < known; ++j)
@@ -175,7 +175,7 @@ DenseMatrix RationalLanczos::timesMassTimesW(const DenseView& x) const {
 }
 
 /// Replaces W by W − X (Xᵀ M W) for the columns X of V from `first` on, and adds the coefficients
-/// to the rows of `sum`, k × b, from `first` on. M W is left as it was.
+/// to the rows of `sum`, k × b, from `first` on. M W is unchanged.
 void RationalLanczos::subtract(PetscInt first, DenseMatrix& sum) {
   massTimesW();
   const DenseView x = columnRange(first, size_);
@@ -185,9 +185,9 @@ void RationalLanczos::subtract(PetscInt first, DenseMatrix& sum) {
     for (PetscInt i = 0; i < h.rows(); ++i) sum(first + i, j) += h(i, j);
 }
 
-/// Makes W M-orthogonal to V and returns the summed coefficients, k × b: one pass over the last two
-/// blocks, where the recurrence says that only these have a part in W, and one over all of V;
-/// otherwise two over all of V.
+/// Makes W M-orthogonal to V and returns the summed coefficients, k × b. Two passes run over all of
+/// V; with `recurrence`, W has components only along the last two blocks, and the first pass is
+/// limited to these.
 DenseMatrix RationalLanczos::orthogonalise(bool recurrence) {
   DenseMatrix sum(size_, width_);
   subtract(recurrence ? std::max<PetscInt>(0, size_ - 2 * width_) : 0, sum);
@@ -196,10 +196,10 @@ DenseMatrix RationalLanczos::orthogonalise(bool recurrence) {
 }
 
 /// Splits W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice; Q
-/// replaces W. Directions that have vanished beside `size`, the square of what W was before V was
-/// taken out of it (an invariant subspace is complete), are replaced by random ones orthogonal to
-/// V, with zero rows in R. It follows orthogonalise(), whose last M W serves: W, orthogonal to V,
-/// has the same products with it as with M W. In the end M W is that of Q.
+/// replaces W. Directions that are negligible compared with `size`, the squared norm of W before
+/// orthogonalisation against V, show a complete invariant subspace: random ones orthogonal to V
+/// replace them, with zero rows in R. Call it after orthogonalise(), whose last M W it reuses: W,
+/// orthogonal to V, has the same products with it as with the exact M W. Finally M W is that of Q.
 void RationalLanczos::orthonormalise(double size) {
   r_ = DenseMatrix(width_, width_);
   for (PetscInt i = 0; i < width_; ++i) r_(i, i) = 1;
@@ -221,7 +221,7 @@ void RationalLanczos::orthonormalise(double size) {
         up(i, j) *= lost[j] ? 0 : std::sqrt(d[j]);
       }
     r_ = linalg::transposedProduct(up, r_);
-    // W keeps its place in memory, as the matrix of PETSc borrows it.
+    // W stays at its address, since the matrix of PETSc borrows it.
     std::ranges::copy(linalg::product(w_, down).entries(), w_.data());
     if (any) {
       if (++refills > 5)
@@ -229,7 +229,7 @@ void RationalLanczos::orthonormalise(double size) {
       refill(lost);
       pass = -1;
     } else if (pass == 0 && d.front() < 1e-8 * largest) {
-      // What is left of V in W has grown with the directions that were small.
+      // Scaling up the small directions has amplified the remaining components along V.
       DenseMatrix rest(size_, width_);
       subtract(0, rest);
     } else if (pass > 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Rational block Lanczos makes a basis by solves with several shifted matrices (Ruhe 1984, 1998;
+/// Rational block Lanczos: a basis from solves with several shifted matrices (Ruhe 1984, 1998;
 /// Grimes, Lewis and Simon 1994).
 #include <functional>
 #include <random>
@@ -11,7 +11,7 @@
 
 namespace squeal::modes {
 
-/// A pole σ of the rational functions of S whose vectors make the basis.
+/// A pole σ of the rational functions of S that generate the basis.
 struct Pole {
   double distance;  ///< δ = σ − σ0
   /// Collective. Computes X = (K − σ M)⁻¹ B, both n × b.
@@ -23,23 +23,23 @@ struct RitzPairs {
   std::vector<double> value;     ///< θ, descending
   std::vector<double> residual;  ///< ‖S x − θ x‖_M
   /// [k × k]: coordinates of the M-orthonormal Ritz vectors x, then of the b directions, orthogonal
-  /// to these, in which their residuals lie.
+  /// to these, that span their residuals.
   linalg::DenseMatrix vectors;
   linalg::DenseMatrix coupling;  ///< [b × pairs] coordinates of the residuals in these directions
 };
 
-/// A RationalLanczos is a growing M-orthonormal basis V. A step from its last block V_l,
+/// A growing M-orthonormal basis V. A step from its last block V_l,
 ///   W = (K − σ M)⁻¹ M V_l = V h + Q R,
-/// appends Q. With S it means
+/// appends Q. In terms of S,
 ///   S (V_l + δ W) = W,
-/// so that all steps together say  S V A = V B  with small matrices A and B of b rows more than
-/// columns, whatever the poles are. Rayleigh–Ritz is made on V A, where the residuals are known
-/// without a further solve. With δ = 0 this is block Lanczos with full orthogonalisation and thick
-/// restart (Golub and Underwood 1977; Wu and Simon 2000).
+/// so all steps together satisfy S V A = V B for any poles, with small matrices A and B that have b
+/// more rows than columns. Rayleigh–Ritz uses V A, where the residuals are known without a further
+/// solve. With δ = 0 this is block Lanczos with full orthogonalisation and thick restart (Golub and
+/// Underwood 1977; Wu and Simon 2000).
 class RationalLanczos {
  public:
   /// Collective. Borrows M, symmetric positive definite, and the columns of a BV of type svec,
-  /// which it fills, during the life of the object. `blockSize` is b.
+  /// which it fills, during the lifetime of the object. `blockSize` is b.
   RationalLanczos(Mat m, BV basis, PetscInt blockSize);
   ~RationalLanczos() { BVRestoreArray(basis_, &columns_); }
   RationalLanczos(const RationalLanczos&) = delete;
@@ -47,11 +47,12 @@ class RationalLanczos {
 
   PetscInt size() const { return size_; }  ///< k, number of vectors of V
   bool full() const { return size_ + width_ > limit_; }
-  int solves() const { return solves_; }  ///< right-hand sides solved for
-  /// Collective. Makes the first block: S applied to a random one, which damps what belongs to high
-  /// frequencies. The pole is σ0.
+  int solves() const { return solves_; }  ///< number of right-hand sides
+  /// Collective. Creates the first block: S applied to a random one, which damps components of high
+  /// frequency. The pole is σ0.
   void start(const Pole& pole);
-  /// Collective. Appends a block by a step with this pole. Throws Error if it cannot.
+  /// Collective. Appends a block by a step with this pole. Throws Error if the basis cannot be
+  /// extended.
   void expand(const Pole& pole);
   /// Collective. Returns k − b Ritz pairs, the same on all ranks.
   RitzPairs ritz() const;

@@ -9,7 +9,7 @@
 namespace squeal::modes {
 
 void exchange(checkpoint::Archive& archive, Modes& modes, Mat like) {
-  // All members are named, so that a new one does not compile until it is kept too.
+  // This lists all members: a new one does not compile until it is added here.
   auto& [lambda, angularFrequency, relativeResidual, vectors, iterations, countConfirmed,
          inertiaCount, inertiaShift, rounding] = modes;
   archive.common(lambda, angularFrequency, relativeResidual, iterations, countConfirmed,

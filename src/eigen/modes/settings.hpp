@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The choices of the free vibration.
+/// The settings of the free vibration.
 
 namespace squeal::modes {
 
@@ -15,7 +15,7 @@ struct Settings {
   bool sturm = true;                  ///< `-modes_sturm`: confirm the count by the inertia
   /// Not collective. Reads the options.
   static Settings given();
-  /// Returns the same settings for another number of modes, as if it were given.
+  /// Returns the same settings for another number of modes, treated as given.
   Settings withCount(int other) const;
 };
 

@@ -7,9 +7,9 @@
 namespace squeal::pencil {
 double bandBelow(const std::vector<double>& w, double asked) {
   constexpr double apart = 1 + 1e-4;
-  // The edge lies between two modes of different frequency, so that rounding does not decide
-  // whether an eigenvalue is inside. The last mode may be one of an equal pair whose other mode is
-  // not in the list.
+  // The edge lies between two modes of different frequency, so round-off does not decide whether an
+  // eigenvalue is inside. The last mode may belong to an equal pair whose other mode is not in the
+  // list.
   const auto edge = [&](std::size_t k) {
     return k > 0 && w[k] >= apart * w[k - 1];
   };  // below mode k

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The band is the set of eigenvalues that a run lists, corrects and follows [M.27].
+/// The band: the eigenvalues that a run lists, corrects and tracks [M.27].
 #include <vector>
 
 #include "algebra/linalg/complex.hpp"
@@ -9,13 +9,12 @@
 namespace squeal::pencil {
 
 /// Returns the top of the band in rad/s for the angular frequencies of the free modes, rad/s,
-/// ascending and not empty. It is `asked` if that is positive, and otherwise lies at 55 % of the
-/// list, but in both cases below the last mode, unless all modes are equal. Corrections are made
-/// for eigenvalues that have been found, so an eigenvalue above all modes could be missed without
-/// notice.
+/// ascending and not empty. It is `requested` if that is positive, otherwise the frequency at 55 %
+/// of the list. In both cases it lies below the last mode, unless all modes are equal. Only found
+/// eigenvalues are corrected, so an eigenvalue above all modes could be missed without notice.
 double bandBelow(const std::vector<double>& frequencies, double asked = 0);
 
-/// The band, and the guard zone around it [M.43] whose eigenvalues are followed too.
+/// The band and the guard zone around it [M.43], whose eigenvalues are tracked too.
 struct WatchedBand {
   double top = 1e300;    ///< largest |s| in the band, rad/s
   double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top` and of `damping`
@@ -33,8 +32,8 @@ struct WatchedBand {
   bool lasts(Complex s) const { return -s.real() <= damping * std::abs(s); }
 };
 
-/// Returns the band for the frequencies of the free modes: its top is bandBelow(), its damping that
-/// of the limits.
+/// Returns the band for the frequencies of the free modes: with the top of bandBelow() and the
+/// damping of the limits.
 WatchedBand bandFor(const std::vector<double>& frequencies, const BandLimits& limits);
 
 }  // namespace squeal::pencil

@@ -9,21 +9,21 @@
 namespace squeal::pencil {
 namespace {
 
-/// Without an estimate of its error, a growth rate up to this fraction of |s| is taken as rounding:
-/// it splits double eigenvalues by the square root of the machine precision, and more.
+/// Without an estimate of its error, a growth rate up to this fraction of |s| counts as round-off,
+/// which splits double eigenvalues by the square root of the machine precision or more.
 constexpr double noise = 1e-6;
-/// The largest condition number for which derivatives are given. There, relative errors of 1e-8 in
-/// the vectors are a thousandth of yᴴ P′ x.
+/// The largest condition number for which derivatives are computed. At this value, relative errors
+/// of 1e-8 in the vectors change yᴴ P′ x by a thousandth.
 constexpr double worstCondition = 1e5;
-/// Largest backward error of a left vector for which derivatives are given.
+/// Largest backward error of a left vector for which derivatives are computed.
 constexpr double worstLeftError = 1e-7;
-/// Derivatives are given for eigenvalues farther apart than this: a computed multiple eigenvalue is
-/// split by less.
+/// Derivatives are computed for eigenvalues farther apart than this; round-off splits a multiple
+/// eigenvalue by less.
 constexpr double closest = 1e-7;
 
-/// Returns true if no other eigenvalue, nor the image −conj s of this one, is as near as both
-/// errors together. The band must be left by more than twice the error, since nothing is known of
-/// the eigenvalues beyond.
+/// Returns true if every other eigenvalue, and the image −conj s of this one, is farther away than
+/// the sum of both errors. The distance to the edge of the band must exceed twice the error, since
+/// the eigenvalues beyond are unknown.
 bool isolated(const ComplexModes& point, const Eigenvalue& e) {
   const double error = e.error, top = point.bandTop > 0 ? point.bandTop : INFINITY;
   if (e.s.real() != 0 && std::abs(e.s.real()) <= error) return false;

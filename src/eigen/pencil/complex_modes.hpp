@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The results of the friction-perturbed eigenproblem (paper, section 4) tell which modes flutter,
-/// at which friction, and how fast they grow.
+/// The results of the friction-perturbed eigenproblem (paper, section 4): the unstable modes, the
+/// frictions at which they flutter, and their growth rates.
 #include <array>
 #include <limits>
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace squeal::pencil {
 
-/// A verdict says what is certain of the growth of an eigenvalue, given its error [M.24].
+/// The stability of an eigenvalue, given its error [M.24].
 enum class Verdict {
   unstable,    ///< it grows
   stable,      ///< it decays
@@ -28,7 +28,7 @@ inline constexpr std::array allVerdicts{Verdict::unstable, Verdict::stable, Verd
 /// Returns the word of tables and texts.
 const char* text(Verdict verdict);
 
-/// The symmetry of a problem confines its eigenvalues.
+/// A symmetry of the problem that restricts its eigenvalues.
 enum class Symmetry {
   none,
   even,         ///< real and even in s: −s is an eigenvalue with every s
@@ -39,24 +39,24 @@ enum class Symmetry {
 struct Eigenvalue {
   Complex s;                 ///< growth rate + i angular frequency, 1/s
   double backwardError = 0;  ///< backward error of the full-order problem [M.33]
-  double error = 0;          ///< estimate of |δs|, 1/s; NaN: none, as with the direct method
-  bool certified = false;    ///< the errors that are known are as small as asked for
+  double error = 0;          ///< estimate of |δs|, 1/s; NaN: none (direct method)
+  bool certified = false;    ///< the known errors are within their tolerances
   Verdict verdict = Verdict::uncertified;
-  /// It counts as unstable: by its verdict or, where it is uncertified, since Re s exceeds |s|
-  /// times 1e-6 and times `-flutter_unstable_tolerance`.
+  /// True if it counts as unstable: by its verdict or, if it is uncertified, because Re s exceeds
+  /// |s| times 1e-6 and |s| times `-flutter_unstable_tolerance`.
   bool unstable = false;
 
   /// Returns −Re s/|s|, or 0 for s = 0.
   double dampingRatio() const { return s == 0.0 ? 0 : -s.real() / std::abs(s); }
   /// Returns true if s is zero within its error.
   bool mayBeZero() const { return std::abs(s) <= error; }
-  /// Returns the estimate of the relative error |δs|/|s|: 1 where s is zero within its error, NaN
-  /// where there is none.
+  /// Returns the estimate of the relative error |δs|/|s|: 1 if s is zero within its error, NaN if
+  /// there is none.
   double errorEstimate() const { return mayBeZero() ? 1 : error / std::abs(s); }
 };
 
-/// A complex mode d = real + i imaginary in nodal displacements, N entries, is scaled so that its
-/// largest real or imaginary part of an entry is 1.
+/// A complex mode d = real + i imaginary in nodal displacements, N entries. Its scaling makes the
+/// largest real or imaginary part of an entry 1.
 struct Shape {
   std::size_t index;  ///< index into ComplexModes::eigenvalues
   OwnedVec real, imaginary;
@@ -80,29 +80,30 @@ struct Sensitivity {
   double separation = 0;
   double leftBackwardError = 0;         ///< backward error of the left vector
   std::vector<Derivative> derivatives;  ///< empty if not regular()
-  /// Returns true if the eigenvalue has derivatives and its left vector was found. Where
-  /// eigenvalues meet they have no derivatives.
+  /// Returns true if the eigenvalue has derivatives and its left vector was found. Eigenvalues that
+  /// meet have no derivatives.
   bool regular() const;
 };
 
-/// Everything found at one point of the sweep.
+/// The results of one point of the sweep.
 struct ComplexModes {
   sweep::Parameters at;
   std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
   std::vector<Shape> shapes;               ///< the fastest growing modes: keepShapes()
-  std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless they are asked for
-  /// Top of the band, rad/s: eigenvalues with |s| up to here are listed and corrected. 0: none are
-  /// corrected, as with the direct method; infinite: the basis is the whole space.
+  std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless requested
+  /// Top of the band, rad/s: eigenvalues with |s| up to this value are listed and corrected. 0:
+  /// none are corrected (direct method); infinite: the basis spans the whole space.
   double bandTop = 0;
   int freeModesInBand = 0;  ///< free modes up to bandTop
   bool damped = false;      ///< the reduced problem has terms in s; false with the direct method
-  double accuracy = 0;      ///< backward error asked for
-  double tolerance = 0;     ///< estimate of |δs|/|s| asked for; 0: none (direct method)
-  double askedTo = 0;       ///< upper end of the band asked of the direct method, rad/s; 0: none
-  /// All eigenvalues of that band with |s| below this are listed, rad/s; 0: no band was asked for.
+  double accuracy = 0;      ///< requested backward error
+  double tolerance = 0;     ///< requested estimate of |δs|/|s|; 0: none (direct method)
+  double askedTo = 0;       ///< upper end of the band of the direct method, rad/s; 0: none
+  /// All eigenvalues of that band with |s| below this value are listed, rad/s; 0 without a band.
   double coveredTo = 0;
-  /// Returns by how many the free modes in the band exceed the eigenvalues listed, for a damped
-  /// problem. The missing eigenvalues are damped too strongly to be listed, or lie beyond the top.
+  /// Returns the number of free modes in the band minus the number of listed eigenvalues, for a
+  /// damped problem. The missing eigenvalues are damped too strongly to be listed, or lie beyond
+  /// the top.
   int modesWithoutEigenvalue() const;
   /// Returns the number of eigenvalues that count as unstable.
   int unstableCount() const;
@@ -115,7 +116,7 @@ struct ComplexModes {
   int uncertifiedCount() const;
   /// Returns the largest backward error; 0 if there are no eigenvalues.
   double worstBackwardError() const;
-  /// Returns the largest estimate of the relative error; NaN if one of them is NaN.
+  /// Returns the largest estimate of the relative error; NaN if one is NaN.
   double worstErrorEstimate() const;
   /// Returns the eigenvalue of the largest growth rate, borrowed; null if there are none.
   const Eigenvalue* fastestGrowing() const;
@@ -124,12 +125,11 @@ struct ComplexModes {
 /// Sets `verdict` and `unstable` of each eigenvalue of the point by [M.24].
 void judge(ComplexModes& point, Symmetry symmetry, const Criteria& criteria);
 
-/// Returns the indices of the fastest growing eigenvalues that count as unstable and whose shapes
-/// are kept, the
-/// fastest first: `shapes` of them at most, all below `shapesBelow`.
+/// Returns the indices of the unstable eigenvalues whose shapes are stored, in order of descending
+/// growth rate: at most `shapes`, all below `shapesBelow`.
 std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria);
-/// Collective. Appends the shapes of the eigenvalues with these indices to the point. `modes`,
-/// which are taken, are their vectors in the unknowns x, of any length; `trial` is T.
+/// Collective. Appends the shapes of the eigenvalues with these indices to the point. Takes
+/// `modes`, their vectors in the unknowns x, of any length; `trial` is T.
 void keepShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
                 std::vector<linalg::ComplexVector> modes);
 

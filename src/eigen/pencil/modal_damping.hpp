@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Damping given by a ratio for each free mode.
+/// Damping by one ratio per free mode.
 #include <vector>
 
 #include "eigen/modes/modes.hpp"
@@ -11,8 +11,8 @@ namespace squeal::pencil {
 /// Collective. Returns the term of modal damping [M.22],
 ///   c C_m,   C_m = Σ 2 ζ_i ω_i (M0 d_i)(M0 d_i)ᵀ,
 /// with the ratio of each mode, of which the last applies to all further modes; none if all ratios
-/// are zero. `mass` is M0, and the arguments are not needed afterwards. The matrix can only be
-/// multiplied.
+/// are zero. `mass` is M0. The arguments may be destroyed after the call. The matrix supports only
+/// products.
 std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass,
                                const std::vector<double>& ratios);
 

@@ -20,7 +20,7 @@ double Term::slope(const sweep::Parameters& at, double sweep::Parameters::*param
                                                                   : 0;
   if (exponent == 0) return 0;
   sweep::Parameters unit = at;
-  unit.*parameter = 1;  // leaves the other powers
+  unit.*parameter = 1;  // the other powers remain
   return exponent * coefficient(unit) * std::pow(at.*parameter, exponent - 1);
 }
 
@@ -31,8 +31,8 @@ Term Term::share() const {
 
 namespace {
 
-/// Collective. Returns true for a term in s whose matrix is zero. What kind of problem a pencil is,
-/// with terms in s or without, is decided by its matrices and not by the options that were given.
+/// Collective. Returns true for a term in s whose matrix is zero. The matrices, not the options,
+/// decide whether a pencil has terms in s.
 bool vanishes(const Term& term) {
   if (term.power != 1) return false;
   PetscBool known = PETSC_FALSE;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The friction-perturbed eigenproblem is that of a sum of terms P [M.23],
+/// The friction-perturbed eigenproblem of a sum of terms P [M.23],
 ///   P(s; f, v, c) d = 0,   P = Σ_t α_t f^a_t v^b_t c^d_t s^k_t A_t,
 /// with the friction f, the factor v on the base velocities of the bodies, and the factor c on
-/// their damping. The pencil knows nothing of finite elements: [4.15–4.16] enter as terms.
+/// their damping. The pencil is independent of finite elements: [4.15–4.16] enter as terms.
 #include <array>
 #include <memory>
 #include <vector>
@@ -22,28 +22,27 @@ struct Term {
   double factor = 1;         ///< α
   int speedExponent = 0;     ///< b
   int dampingExponent = 0;   ///< d
-  /// It holds friction: the basis begins with responses to it, and K0 and M0 leave it out. A term
-  /// with an exponent of friction does so in any case.
+  /// The term contains friction: the basis starts with responses to it, and K0 and M0 exclude it. A
+  /// term with an exponent of friction always does.
   bool ofFriction = false;
 
   bool holdsFriction() const { return ofFriction || frictionExponent != 0; }
-  /// Returns true for K0 and M0 [4.17], what is left without friction, base motions and damping.
+  /// Returns true for a term of K0 and M0 [4.17], without friction, base motions and damping.
   bool isAssociated() const {
     return power != 1 && !holdsFriction() && speedExponent == 0 && dampingExponent == 0;
   }
-  /// Returns α f^a v^b c^d.
   double coefficient(const sweep::Parameters& at) const;
   /// Returns the derivative of the coefficient with respect to one parameter.
   double slope(const sweep::Parameters& at, double sweep::Parameters::*parameter) const;
-  /// Returns the same term, its matrix shared.
+  /// Returns the same term, with a shared matrix.
   Term share() const;
 };
 
 /// The sum of terms P.
 class Pencil {
  public:
-  /// Collective. Takes the terms, which hold for all parameters. Terms in s whose matrix is zero
-  /// are left out.
+  /// Collective. Takes the terms, which hold for all parameters, and omits terms in s whose matrix
+  /// is zero.
   explicit Pencil(std::vector<Term> terms);
   /// Returns all terms, those of the point last.
   const std::vector<Term>& terms() const { return terms_; }
@@ -52,9 +51,8 @@ class Pencil {
   /// Collective. Takes further terms that hold for all parameters. The pencil must not have terms
   /// of a point.
   void add(std::vector<Term> terms);
-  /// Returns a pencil of these terms, whose matrices are shared, and of terms that hold at one
-  /// point of the parameters only, such as those made with its steady forces. Collective if there
-  /// are any.
+  /// Returns a pencil of these terms, with shared matrices, and of terms that hold only at one
+  /// point of the parameters, such as those of its steady forces. Collective if there are any.
   Pencil with(std::vector<Term> pointTerms) const;
   /// Returns true if there are terms with this power of s.
   bool hasPower(int power) const;
@@ -68,9 +66,9 @@ class Pencil {
   /// Collective. Sets y = (sum of the terms with this power)ᵀ x.
   void applyTranspose(int power, const sweep::Parameters& at, Vec x, Vec y) const;
   /// Collective. Returns an estimate of the 2-norm of the sum of the terms with this power of s,
-  /// from below, so that a backward error made with it is never too small; 0 if there are none. It
-  /// comes from power iteration on AᵀA, which is continued from the last call for this power, even
-  /// if that was at another point of the sweep.
+  /// from below, so a backward error computed with it is never too small; 0 if there are none.
+  /// Power iteration on AᵀA continues from the last call for this power, even at another point of
+  /// the sweep.
   double norm(int power, const sweep::Parameters& at) const;
 
  private:

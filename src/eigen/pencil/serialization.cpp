@@ -5,11 +5,11 @@
 
 namespace squeal::pencil {
 
-/// The streams find these two by their arguments.
+/// The streams find both by argument-dependent lookup.
 void fields(Stream& stream, Derivative& derivative);
 void fields(Stream& stream, Sensitivity& found);
 
-// All members are named, so that a new one does not compile until it is kept too.
+// These list all members: a new one does not compile until it is added here.
 
 void fields(Stream& stream, Derivative& derivative) {
   auto& [parameter, value] = derivative;

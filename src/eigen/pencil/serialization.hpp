@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Complex modes on their way to and from a checkpoint.
+/// Serialisation of complex modes for checkpoints.
 #include "base/checkpoint/archive.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 
 namespace squeal::pencil {
 
-/// Collective. Writes what was found at a point, or sets it.
+/// Collective. Writes or reads the results of a point.
 void exchange(checkpoint::Archive& archive, ComplexModes& point);
 
 }  // namespace squeal::pencil

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The choices of the eigenvalue problem: its method, its band, its criteria and modal damping.
+/// The settings of the eigenvalue problem: its method, its band, its criteria and modal damping.
 #include <vector>
 
 namespace squeal::pencil {

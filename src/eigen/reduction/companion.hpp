@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The companion form of a dense quadratic problem, and its operator of shift-and-invert. Nothing
-/// here is collective.
+/// The companion form of a dense quadratic problem, and its shift-and-invert operator. Not
+/// collective.
 #include <span>
 #include <vector>
 
@@ -15,19 +15,19 @@ using linalg::ComplexMatrix;
 
 /// Returns the 2-norm.
 double length(std::span<const Complex> x);
-/// Scales each column to length one.
+/// Scales each column to the 2-norm 1.
 void normalise(ComplexMatrix& x);
 /// Returns the rows [first, last).
 ComplexMatrix rowsOf(const ComplexMatrix& x, PetscInt first, PetscInt last);
 /// Computes sum += factor X.
 void addScaled(ComplexMatrix& sum, Complex factor, const ComplexMatrix& x);
-/// Returns the largest |s| of a list; 1 if there is none.
+/// Returns the largest |s| of a list; 1 for an empty list.
 double largestSize(const std::vector<linalg::DensePair>& pairs);
 
-/// A Companion lifts a quadratic problem to the linear one of twice the size
+/// Linearises a quadratic problem to one of twice the size
 ///   A z = s B z,   A = [0 I; −K −Z],   B = [I 0; 0 M],   z = (x, s x / unit),
-/// where `unit` makes both halves alike. A left vector y becomes the functional yᴴ[(sM + Z)u + M v]
-/// of (u, v / unit), which is zero for the right vectors of all other eigenvalues.
+/// where `unit` gives both halves the same magnitude. A left vector y becomes the functional yᴴ[(sM
+/// + Z)u + M v] of (u, v / unit), which is zero for the right vectors of all other eigenvalues.
 class Companion {
  public:
   /// Borrows the problem.
@@ -37,7 +37,7 @@ class Companion {
   double unit() const { return unit_; }
   /// Returns the right vectors of the pairs, 2m × pairs.
   ComplexMatrix right(const std::vector<const linalg::DensePair*>& pairs) const;
-  /// Returns the functionals l of the left vectors, lᴴ(u, v / unit), of length one.
+  /// Returns the functionals l of the left vectors, lᴴ(u, v / unit), of 2-norm 1.
   ComplexMatrix left(const std::vector<const linalg::DensePair*>& pairs) const;
 
  private:
@@ -45,7 +45,7 @@ class Companion {
   double unit_;
 };
 
-/// A ShiftInvert is the operator (A − σB)⁻¹B of a companion form.
+/// The operator (A − σB)⁻¹B of a companion form.
 class ShiftInvert {
  public:
   /// Borrows the companion form and factorises P(σ).
@@ -53,8 +53,8 @@ class ShiftInvert {
   bool regular() const { return factors_.pivotRatio() > 0; }
   /// Returns the operator times the columns z.
   ComplexMatrix apply(const ComplexMatrix& z) const;
-  /// Returns t = −P(σ)⁻ᴴ (l₁ + σ̄ l₂ / unit): of a functional that is an eigenvector, the left
-  /// vector of P.
+  /// Returns t = −P(σ)⁻ᴴ (l₁ + σ̄ l₂ / unit). For a functional that is an eigenvector this is the
+  /// left vector of P.
   ComplexMatrix leftVectors(const ComplexMatrix& l) const;
   /// Returns the adjoint of the operator times the columns l.
   ComplexMatrix applyAdjoint(const ComplexMatrix& l) const;

@@ -59,8 +59,8 @@ std::vector<double> conditionNumbers(const linalg::DenseProblem& problem,
       for (PetscInt b = 0; b < p; ++b)
         for (PetscInt a = 0; a < p; ++a)
           g(a, b) = pairing(pairs[cluster[a]].left, s, massTimes, dampingTimes, cluster[b]);
-      // The change of the cluster is G⁻¹YᴴR: p unit vectors on either side. One pair alone says
-      // nothing of it: of a multiple eigenvalue its vectors are any of many.
+      // The change of the cluster is G⁻¹YᴴR: p unit vectors on either side. A single pair does not
+      // determine it, since the vectors of a multiple eigenvalue are arbitrary.
       number = p / smallestSingularValue(g);
     }
     number /= size;

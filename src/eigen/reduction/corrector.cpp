@@ -12,12 +12,12 @@ using subspace::Sketch;
 
 namespace {
 
-/// The part of the residuals that their directions may leave unresolved. A round gains a decade,
-/// and what it need not resolve it need not solve for.
+/// Fraction of the residuals that the directions may leave unresolved. A round gains about a
+/// decade, so smaller components need no solve.
 constexpr double resolution = 0.03;
 
-/// Returns whether each pair of an undamped problem is −s̄ and the conjugate vectors of the pair
-/// before, [pair]. The errors of the two are the same.
+/// Returns for each pair of an undamped problem, [pair], whether it is −s̄ with the conjugate
+/// vectors of the preceding pair. The errors of the two are the same.
 std::vector<bool> mirrorImages(const std::vector<linalg::DensePair>& pairs, bool damped) {
   std::vector<bool> mirrored(pairs.size(), false);
   for (std::size_t j = 1; j < pairs.size() && !damped; ++j)
@@ -26,7 +26,7 @@ std::vector<bool> mirrorImages(const std::vector<linalg::DensePair>& pairs, bool
   return mirrored;
 }
 
-/// Sketches of residuals, and the factor of each column that gives it the length of its weight.
+/// Sketches of residuals, and the factor that scales each column to its weight.
 struct ScaledSketches {
   linalg::DenseMatrix sketches;
   std::vector<double> factors;  // [column]
@@ -73,17 +73,17 @@ PetscInt Corrector::correct(const std::vector<CorrectionRequest>& requests) {
   return basis_.basis().add(directions(requests));
 }
 
-/// Collective. Returns directions that hold the residuals of all these pairs, each with the length
-/// of its weight, except for parts of length `resolution`.
+/// Collective. Returns directions that span the residuals of all these pairs, each scaled to its
+/// weight, except for components of length `resolution`.
 linalg::Block Corrector::directions(const std::vector<CorrectionRequest>& requests) const {
   const MPI_Comm comm = basis_.basis().comm();
   const auto [sketches, factors] = scaledSketches(basis_, requests);
   std::vector<ProjectedBasis::PairsOfPoint> points;
   for (const auto& request : requests) points.push_back({request.state, &request.pairs});
-  // Fewer columns than residuals: those of several points are much alike.
+  // Fewer columns than residuals: residuals of neighbouring points are similar.
   if (const auto leading = subspace::leadingCombinations(sketches, factors, 0.8 * resolution))
     return linalg::principal(comm, basis_.residuals(points, *leading), resolution);
-  // More than the sketch resolves: random combinations, until they span the residuals.
+  // The sketch does not resolve this many: take random combinations until they span the residuals.
   constexpr PetscInt atOnce = 3 * Sketch::size;
   const PetscInt all = factors.size();
   linalg::Block columns(basis_.basis().localRows());
@@ -92,7 +92,7 @@ linalg::Block Corrector::directions(const std::vector<CorrectionRequest>& reques
     columns.append(
         basis_.residuals(points, subspace::randomCombinations(factors, count, count + more)));
     count += more;
-    // A sum of `all` columns with random signs, over √count: lengths stay as they are.
+    // A sum of `all` columns with random signs, divided by √count: lengths are preserved.
     linalg::Block leading = linalg::principal(comm, columns, resolution * std::sqrt(count));
     if (count == all || 5 * leading.columns() < 4 * count) return leading;
   }

@@ -9,17 +9,17 @@
 
 namespace squeal::reduction {
 
-/// Pairs of a point whose residuals are to be corrected.
+/// Pairs of a point whose residuals need a correction.
 struct CorrectionRequest {
   const PointState* state;
   PointPairs pairs;
-  std::vector<double> weights;  ///< [pair] length of its residual
+  std::vector<double> weights;  ///< [pair] length to which its residual is scaled
 };
 
-/// A Corrector adds to the basis K0⁻¹ f for static forces f, all solved for together.
+/// Adds K0⁻¹ f to the basis for static forces f, in block solves.
 class Corrector {
  public:
-  /// Borrows both during the life of the object.
+  /// Borrows both during the lifetime of the object.
   Corrector(ProjectedBasis& basis, ErrorEstimator& estimator)
       : basis_(basis), estimator_(estimator) {}
   /// Collective. Adds the static responses to friction at this point [M.29] for the free modes of
@@ -29,8 +29,8 @@ class Corrector {
   /// needs: to `resolution`, or to the tolerance, whose squared budget is split evenly between
   /// unresolved residual and correction error.
   CorrectionRequest requestOf(const PointState& state) const;
-  /// Collective. Adds corrections of these residuals. Returns the number of vectors added; none if
-  /// the residuals are round-off.
+  /// Collective. Adds corrections of these residuals. Returns the number of vectors added; 0 if the
+  /// residuals are round-off.
   PetscInt correct(const std::vector<CorrectionRequest>& requests);
 
  private:

@@ -17,7 +17,7 @@ using linalg::DensePair;
 
 namespace {
 
-/// Returns true if two pairs are the same: equal eigenvalues and parallel vectors.
+/// Returns true if two pairs coincide: equal eigenvalues and parallel vectors.
 bool haveMet(const std::vector<DensePair>& pairs) {
   constexpr double equal = 1e-9, parallel = 1 - 1e-8;
   std::vector<std::size_t> order(pairs.size());
@@ -34,14 +34,13 @@ bool haveMet(const std::vector<DensePair>& pairs) {
   return false;
 }
 
-/// A group of one of several problems.
 struct OwnedGroup {
   std::size_t task;
   PairGroup group;
 };
 
-/// Collective. Sends the members of these groups from the ranks that have improved them to all.
-/// Group g is of the rank g modulo the number of ranks.
+/// Collective. Sends the members of these groups from the ranks that have improved them to all
+/// ranks. Group g belongs to rank g modulo the number of ranks.
 void share(MPI_Comm comm, const std::vector<CorrectionTask>& tasks,
            const std::vector<OwnedGroup>& groups, const std::vector<bool>& improved) {
   const int rank = mpi::rank(comm), ranks = mpi::size(comm);
@@ -62,7 +61,7 @@ void share(MPI_Comm comm, const std::vector<CorrectionTask>& tasks,
       forAll(pair, [&](std::span<Complex> part) { entries += part.size(); });
     });
     if (begins[owner] + entries > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-      throw Error("the eigenvectors of a batch are too many for one message: solve fewer points");
+      throw Error("the eigenvectors of a batch exceed the size of one message: solve fewer points");
     counts[owner] = entries;
     begins[owner + 1] = begins[owner] + counts[owner];
   }
@@ -83,8 +82,8 @@ void share(MPI_Comm comm, const std::vector<CorrectionTask>& tasks,
     });
 }
 
-/// Collective. Iterates the groups of the tasks that have not ended, each on one rank, and returns
-/// their outcomes on all ranks, [group].
+/// Collective. Iterates the groups of the unfinished tasks, each on one rank, and returns their
+/// outcomes on all ranks, [group].
 std::vector<int> iterated(MPI_Comm comm, std::vector<OwnedGroup>& groups,
                           const std::vector<bool>& ended, bool forced) {
   const int rank = mpi::rank(comm), ranks = mpi::size(comm);
@@ -128,7 +127,7 @@ std::vector<bool> correctPairs(MPI_Comm comm, const std::vector<CorrectionTask>&
   }
   std::vector<bool> good(tasks.size(), false), ended(tasks.size(), false);
   for (int sweep = 0; sweep < mostSweeps; ++sweep) {
-    // From the second sweep on, all groups go on: those near them may need better neighbours.
+    // From the second sweep on, all groups iterate, since their neighbours may need better vectors.
     const auto outcomes = iterated(comm, groups, ended, sweep > 0);
     std::vector<bool> failed(tasks.size()), improved(groups.size()), next = ended;
     for (std::size_t t = 0; t < tasks.size(); ++t) {

@@ -14,8 +14,8 @@ using subspace::SquaredNorms;
 
 namespace {
 
-/// Errors of an eigenvalue that is smaller than this part of the lowest free mode are relative to
-/// that part: round-off moves a double zero by about as much.
+/// Errors of an eigenvalue smaller than this fraction of the lowest free mode are relative to that
+/// fraction: round-off moves a double zero by about as much.
 constexpr double leastSize = 1e-8;
 
 std::vector<const linalg::DensePair*> pointers(const std::vector<linalg::DensePair>& pairs) {
@@ -24,7 +24,8 @@ std::vector<const linalg::DensePair*> pointers(const std::vector<linalg::DensePa
   return list;
 }
 
-/// Returns true if all entries are zero, as if the factors of all damping terms are.
+/// Returns true if all entries are zero, for example because the factors of all damping terms are
+/// zero.
 bool isZero(const linalg::DenseView& a) {
   return std::ranges::all_of(a.entries(), [](double entry) { return entry == 0; });
 }
@@ -70,7 +71,7 @@ bool ErrorEstimator::isExactEnough(const PointSolution& solution,
          settings_.tolerance;
 }
 
-/// Returns the part of the estimate of |δs|/|s| that the basis causes.
+/// Returns the contribution of the basis to the estimate of |δs|/|s|.
 double ErrorEstimator::basisError(const PointSolution& solution, std::size_t pair) const {
   const PairErrors& errors = solution.errors[pair];
   return rightRatio_ * errors.right * std::min(1.0, leftRatio_ * errors.left);
@@ -94,7 +95,7 @@ void ErrorEstimator::estimate(PointState& state, const linalg::DenseProblem& pro
   const auto& pairs = solution.spectrum.band;
   const PointPairs all = state.pairs(pointers(pairs), state.damped);
   const auto& coordinates = all.pairs;
-  const auto norms = [&](pencil::Side side) {  // raised by what a sketch may miss
+  const auto norms = [&](pencil::Side side) {  // raised by the error of a sketch
     SquaredNorms squares = subspace::squaredNorms(basis_.residualSketch(state, all, side));
     for (auto* list : {&squares.euclidean, &squares.weighted}) {
       *list = coordinates.perPair(*list);
@@ -119,10 +120,11 @@ void ErrorEstimator::estimate(PointState& state, const linalg::DenseProblem& pro
     const auto& [k, z, m] = solution.norms;
     const double size = std::abs(pairs[j].s), scale = k + size * z + size * size * m;
     PairErrors& errors = solution.errors.emplace_back();
-    // Where s and K̄ are zero, P(s) is, and has no residual.
+    // If s and K̄ are zero, P(s) is zero and has no residual.
     errors.backward = scale > 0 ? std::sqrt(right.euclidean[j] / lengths[j]) / scale : 0;
     // Backward errors ε of the dense matrices, in norm: VᵀK̄V is of the order of 1, VᵀM̄V of the
-    // lowest 1/ω²; and of the entries of K, which cancel where a stiff body moves all but rigidly.
+    // lowest 1/ω²; and round-off of the entries of K, which cancel if a stiff body moves nearly
+    // rigidly.
     errors.roundOff = PETSC_MACHINE_EPSILON * (1 + std::pow(size / lowestMode_, 2) +
                                                std::sqrt(rightRigidity[j] * leftRigidity[j]));
     errors.dense = conditions[j] * errors.roundOff;
@@ -133,8 +135,8 @@ void ErrorEstimator::estimate(PointState& state, const linalg::DenseProblem& pro
   }
 }
 
-/// Collective. Returns the ratio of a residual made with the matrices, `columns`, to that made with
-/// the products of the basis, in the norm of diag(K0)⁻¹, and at least 1.
+/// Collective. Returns the ratio of a residual computed from the matrices, `columns`, to the one
+/// from the products of the basis, in the norm of diag(K0)⁻¹, and at least 1.
 double ErrorEstimator::residualRatio(const PointState& state, const linalg::DensePair& pair,
                                      const linalg::Block& columns, pencil::Side side) const {
   const PointPairs single = state.pairs({&pair}, state.damped);
@@ -144,7 +146,7 @@ double ErrorEstimator::residualRatio(const PointState& state, const linalg::Dens
   return known > 0 ? std::max(1.0, std::sqrt(exact / known)) : 1.0;
 }
 
-/// Collective. Measures the ratios of norms for the residuals of a pair.
+/// Collective. Computes the ratios of norms for the residuals of a pair.
 void ErrorEstimator::measureRatios(PointState& state, std::size_t pair) {
   Basis& basis = basis_.basis();
   state.ownTerms.extend();  // the basis may have grown since
@@ -166,8 +168,8 @@ std::vector<PointState*> ErrorEstimator::unconfirmed(std::vector<PointState>& st
   std::vector<PointState*> open;
   PointState* worst = nullptr;
   std::size_t worstPair = 0;
-  double largest =
-      std::max(confirmed_, 1e-3 * settings_.tolerance);  // below: next to nothing, or rounding
+  double largest = std::max(
+      confirmed_, 1e-3 * settings_.tolerance);  // smaller estimates are negligible or round-off
   for (auto& state : states)
     for (std::size_t j = 0; j < state.solution.spectrum.band.size(); ++j) {
       const double error = basisError(state.solution, j);

@@ -19,14 +19,14 @@ pencil::Pencil associatedTerms(const pencil::Pencil& pencil);
 modes::Modes freeModes(const Basis& basis, const PointState& state,
                        const pencil::Pencil& associated);
 
-/// A list of modes whose completeness is to be confirmed; borrowed.
+/// A list of modes whose completeness needs confirmation; borrowed.
 struct CountRange {
   double top;                             ///< upper end of the list, rad/s
   const std::vector<double>& values;      ///< ω² of the reduced problem, ascending
   const std::vector<PetscInt>& boundary;  ///< boundary unknowns of the modes
 };
-/// Collective. Confirms the number of the modes: at σ in one of the gaps above the end of the list,
-/// they are as many as the ω² of the reduced problem, which lie above those that they belong to.
+/// Collective. Confirms the number of modes: at a σ in a gap above the end of the list, the count
+/// equals the number of ω² of the reduced problem. These are upper bounds of the exact ω².
 void confirmCount(MPI_Comm comm, const subspace::ModeCount& count, const CountRange& range,
                   modes::Modes& modes);
 

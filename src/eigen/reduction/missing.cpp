@@ -15,7 +15,7 @@ using linalg::DenseProblem;
 
 namespace {
 
-/// A Deflation takes the part of known eigenvectors and of their conjugates out of vectors of the
+/// Removes the components along known eigenvectors and their conjugates from vectors of the
 /// companion form.
 class Deflation {
  public:
@@ -43,7 +43,7 @@ class Deflation {
 };
 
 /// Returns the eigenvalues s = σ + 1/t for the Ritz values t of (A − σB)⁻¹B that the Arnoldi method
-/// finds where known vectors are deflated.
+/// finds with known vectors deflated.
 std::vector<Complex> arnoldi(const Companion& companion, const Deflation& deflation,
                              Complex shift) {
   constexpr PetscInt mostSteps = 16;

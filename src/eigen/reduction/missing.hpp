@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A search for eigenvalues that improvements of known ones have missed.
+/// Search for eigenvalues that the improvement of known ones has missed.
 #include <optional>
 #include <vector>
 
@@ -8,11 +8,11 @@
 
 namespace squeal::reduction {
 
-/// Not collective. Looks for an eigenvalue that is wanted and not among these pairs, which have
-/// both vectors: the known eigenvalues and their conjugates are deflated, and the Arnoldi method on
-/// the operator of shift-and-invert finds the unknown ones nearest to the shift σ. A starting
-/// vector of random entries has a component along every eigenvector with probability one. Throws
-/// Error if LAPACK fails.
+/// Not collective. Searches for a wanted eigenvalue that is missing from these pairs, which have
+/// both vectors. It deflates the known eigenvalues and their conjugates; the Arnoldi method with
+/// shift-and-invert then finds the unknown ones nearest to the shift σ. A start vector of random
+/// entries has a component along every eigenvector with probability one. Throws Error if LAPACK
+/// fails.
 std::optional<Complex> findMissing(const linalg::DenseProblem& problem,
                                    const std::vector<linalg::DensePair>& pairs, Complex shift,
                                    const linalg::Wanted& wanted);

@@ -39,7 +39,7 @@ PairGroup::PairGroup(const Companion& companion, std::vector<DensePair>& pairs,
   const Complex middle(real, 0.5 * (low + high));
   for (const auto j : members_) reach_ = std::max(reach_, std::abs(pairs_[j].s - middle));
   reach_ = std::max(reach_, 1e-3 * std::abs(middle));
-  shift_ = middle + reach_ * Complex(0.1, 0.05);  // beside an eigenvalue, not on it
+  shift_ = middle + reach_ * Complex(0.1, 0.05);  // near an eigenvalue, not on it
   for (std::size_t j = 0; j < pairs_.size(); ++j)
     if (std::ranges::find(members_, j) == members_.end() &&
         std::abs(pairs_[j].s - middle) <= neighbourhood * reach_)
@@ -54,11 +54,11 @@ PairGroup::Outcome PairGroup::iterate(bool forced) {
     if (!step()) return Outcome::failed;
     outcome = isDone() ? Outcome::done : Outcome::unfinished;
   }
-  inverse_.reset();  // there is one of these large matrices at a time
+  inverse_.reset();  // only one of these large matrices exists at a time
   return outcome;
 }
 
-/// Returns true if the residuals are as small as they are to be.
+/// Returns true if the residuals are within their tolerances.
 bool PairGroup::isDone() {
   const Residuals now = residuals();
   if (first_.right.empty()) {
@@ -72,9 +72,9 @@ bool PairGroup::isDone() {
   return true;
 }
 
-/// Projects the operator on the vectors of the group and its neighbours, and on those of the group
-/// times the operator, right and left. Takes the Ritz vectors of the members, times the operator.
-/// Returns false if that fails.
+/// Projects the operator on the vectors of the group and its neighbours, and on the operator times
+/// those of the group, right and left. Replaces the members by their Ritz vectors times the
+/// operator. Returns false on failure.
 bool PairGroup::step() {
   if (!inverse_) inverse_.emplace(companion_, shift_);
   if (!inverse_->regular()) return false;
@@ -117,7 +117,7 @@ bool PairGroup::step() {
   return true;
 }
 
-/// Sets the pair of a member to s and its columns of x and y, scaled to length one. Returns false
+/// Sets the pair of a member to s and its columns of x and y, scaled to the 2-norm 1. Returns false
 /// if that is impossible.
 bool PairGroup::replace(std::size_t member, Complex s, const ComplexMatrix& x,
                         const ComplexMatrix& y) {
@@ -153,7 +153,7 @@ std::vector<double> PairGroup::residuals(std::vector<Complex> DensePair::*vector
   return lengths;
 }
 
-/// Returns the length of a residual that may be nothing but round-off, in the residual or in a
+/// Returns the length of a residual that may consist only of round-off, in the residual or in a
 /// solve.
 double PairGroup::roundOff() const {
   constexpr double margin = 100;
@@ -168,8 +168,8 @@ double PairGroup::roundOff() const {
           largest * largest * norm(problem.mass));
 }
 
-/// Assigns Ritz pairs to the known pairs, those with the largest trace of the product of their
-/// spectral projectors [M.41] first, each once. Returns those of the members, [member].
+/// Assigns each Ritz pair to at most one known pair, in the order of descending trace of the
+/// product of spectral projectors [M.41]. Returns the Ritz pairs of the members, [member].
 std::vector<std::optional<std::size_t>> PairGroup::assigned(const Subspaces& subspaces) const {
   const auto& [right, left, ritzRight, ritzLeft] = subspaces;
   const ComplexMatrix there = linalg::adjointProduct(left, ritzRight),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Groups of neighbouring eigenpairs of a dense problem that are improved together.
+/// Joint improvement of groups of neighbouring eigenpairs of a dense problem.
 #include <optional>
 #include <vector>
 
@@ -9,15 +9,15 @@
 
 namespace squeal::reduction {
 
-/// A pair of a list that is to be improved.
+/// A pair of a list that needs improvement.
 struct UnconvergedPair {
   std::size_t pair;
-  double right;  ///< the part of the length of its residual P(s) x that may remain
-  double left;   ///< that of P(s)ᴴ y
+  double right;  ///< fraction of its residual P(s) x that may remain
+  double left;   ///< fraction of P(s)ᴴ y that may remain
 };
 
-/// A PairGroup iterates the right and left vectors of its members together, by two-sided block
-/// inverse iteration with a shift amid them.
+/// Iterates the right and left vectors of its members together, by two-sided block inverse
+/// iteration with a shift amid the members.
 class PairGroup {
  public:
   /// Borrows the companion form and the pairs, all of its order.
@@ -30,7 +30,7 @@ class PairGroup {
   Outcome iterate(bool forced);
 
  private:
-  /// The lengths of P(s) x and P(s)ᴴ y for vectors of length one, [member].
+  /// The lengths of P(s) x and P(s)ᴴ y for vectors of 2-norm 1, [member].
   struct Residuals {
     std::vector<double> right, left;
   };
@@ -52,11 +52,11 @@ class PairGroup {
   Complex shift_ = 0;
   double reach_ = 0;  // largest distance of a member from the middle
   std::optional<ShiftInvert> inverse_;
-  Residuals wanted_, first_;  // parts of the first ones, see UnconvergedPair
+  Residuals wanted_, first_;  // wanted: fractions of `first_`, see UnconvergedPair
   double roundOff_ = 0;
 };
 
-/// Returns the open pairs in groups of neighbours, none wider than a part of all pairs.
+/// Returns the open pairs in groups of neighbours of limited size.
 std::vector<std::vector<UnconvergedPair>> groupsOf(const std::vector<linalg::DensePair>& pairs,
                                                    std::vector<UnconvergedPair> open);
 

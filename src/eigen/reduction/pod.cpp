@@ -13,7 +13,7 @@
 namespace squeal::reduction {
 namespace {
 
-/// Returns orthonormal vectors that hold the columns, except for parts of length `small`.
+/// Returns orthonormal vectors that span the columns, except for components of length `small`.
 linalg::DenseMatrix leadingDirections(linalg::DenseMatrix columns, double small) {
   PetscBLASInt m = columns.rows(), n = columns.columns(), few = std::min(m, n), one = 1, info = 0;
   std::vector<double> sizes(few);
@@ -37,8 +37,8 @@ std::vector<Complex> turned(const linalg::DenseMatrix& directions, const std::ve
   return result;
 }
 
-/// Returns orthonormal combinations of `size` basis vectors, size × count, that hold the real and
-/// imaginary parts of the right vectors of all these pairs. Entries that a vector lacks are zero.
+/// Returns orthonormal combinations of `size` basis vectors, size × count, that span the real and
+/// imaginary parts of the right vectors of all these pairs. Missing entries of a vector are zero.
 linalg::DenseMatrix principalDirections(const std::vector<std::vector<linalg::DensePair>>& solved,
                                         PetscInt size) {
   constexpr double left = 1e-9;  // of a unit vector
@@ -74,7 +74,7 @@ bool Pod::compress(ProjectedBasis& basis) {
       principalDirections(solved_, basis.basis().size() - basis.basis().boundarySize());
   if (directions.empty()) return false;
   basis.combine(directions);
-  // The part of a vector outside of the new basis, which a left vector may have, is lost.
+  // A left vector may have components outside the new basis; they are lost.
   for (auto& pairs : solved_)
     for (auto& pair : pairs)
       for (auto* vector : {&pair.q, &pair.left}) *vector = turned(directions, *vector);

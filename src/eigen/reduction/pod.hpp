@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Proper orthogonal decomposition: the basis is reduced to the principal directions of the
-/// eigenvectors of the sweep. Nothing here is collective, except combinations of the basis.
+/// eigenvectors of the sweep.
 #include <vector>
 
 #include "algebra/linalg/quadratic.hpp"
@@ -13,11 +13,12 @@ namespace squeal::reduction {
 /// The eigenvectors of the points solved so far.
 class Pod {
  public:
-  /// Takes the pairs of these points, without their coordinates of constraint modes.
+  /// Not collective. Takes the pairs of these points, without their coordinates of constraint
+  /// modes.
   void take(std::vector<PointState>& states);
   /// Collective. Replaces the basis, except its constraint modes, by orthonormal combinations that
-  /// hold the real and imaginary parts of all right vectors, except for parts of length 1e-9, which
-  /// corrections bring back. Returns false if there are no pairs. Throws Error if LAPACK fails.
+  /// span the real and imaginary parts of all right vectors, except for components of length 1e-9,
+  /// which corrections restore. Returns false if there are no pairs. Throws Error if LAPACK fails.
   bool compress(ProjectedBasis& basis);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The norms of the matrices of the points of a sweep.
+/// Norms of the matrices at the points of a sweep.
 #include <utility>
 #include <vector>
 
@@ -9,15 +9,15 @@
 
 namespace squeal::reduction {
 
-/// PointNorms computes norms, which takes many products with large matrices, and keeps them.
+/// Computes and stores norms, each of which takes many products with large matrices.
 class PointNorms {
  public:
   /// Collective. Computes the norms of a point.
   const Norms& compute(const PointProblem& point);
-  /// Collective. Returns the norms of the point nearest in friction that has been computed with the
-  /// same other parameters. If there is none, the norms of this point are computed.
+  /// Collective. Returns the norms of the computed point nearest in friction with the same other
+  /// parameters. If there is none, computes the norms of this point.
   const Norms& nearby(const PointProblem& point);
-  /// Not collective. Writes all norms, or sets them.
+  /// Not collective. Writes or reads all norms.
   void exchange(checkpoint::Archive& archive) { archive.common(known_); }
 
  private:

@@ -16,16 +16,16 @@ namespace squeal::reduction {
 /// One point of a sweep.
 struct PointProblem {
   sweep::Parameters at;
-  /// The terms that all points share, those of the points with the same boundary unknowns, and
-  /// those of this one.
+  /// The terms of all points, the terms of the points with the same boundary unknowns, and the
+  /// terms of this point.
   pencil::Pencil pencil;
-  int set = 0;  ///< its boundary unknowns: the result of ReducedProblem::addSet(); 0: none
+  int set = 0;  ///< number of its boundary unknowns, by ReducedProblem::addSet(); 0: none
 };
 
 /// Points with the same boundary unknowns.
 struct PointSet {
   PointSpace space;
-  ProjectedTerms terms;  ///< those of these points
+  ProjectedTerms terms;  ///< terms of these points
   double top;            ///< upper end of the listed band, rad/s
   int modesInBand;       ///< free modes up to there
 };
@@ -33,11 +33,11 @@ struct PointSet {
 using Norms = std::array<double, 3>;  ///< 2-norms of K̄, Z̄, M̄ of a point
 
 /// Estimated errors of an eigenpair. The estimate of |δs|/|s| is the product of `right` and `left`,
-/// each with the norm of diag(K0)⁻¹ in place of that of K0⁻¹; `left` counts at most as 1.
+/// each in the norm of diag(K0)⁻¹ instead of K0⁻¹; `left` counts at most as 1.
 struct PairErrors {
   double backward = 0;  ///< backward error in the full problem
   double right = 0;     ///< error of the right vector, times the condition number of s
-  double left = 0;      ///< error of the left vector; infinite above the modes
+  double left = 0;      ///< error of the left vector; infinite above the highest mode
   double roundOff = 0;  ///< upper bound of the round-off in yᴴP(s)x of unit vectors
   double dense = 0;     ///< error of the dense solve
 };
@@ -59,8 +59,8 @@ struct PointState {
   bool associated = false;  ///< it is the problem of the free modes
   PointSolution solution = {};
 
-  /// Returns some of its pairs, which are borrowed. `damped` is false if pairs with real vectors
-  /// may take one column.
+  /// Returns some of its pairs, borrowed. With `isDamped` = false, pairs with real vectors may take
+  /// one column.
   PointPairs pairs(std::vector<const linalg::DensePair*> some, bool isDamped) const {
     return {{point->at, associated}, Coordinates(std::move(some), isDamped, set->space)};
   }
@@ -68,8 +68,8 @@ struct PointState {
 
 /// A batch between two rounds of corrections.
 struct PendingBatch {
-  int round = 0;                         ///< the next one
-  PetscInt largest = 0;                  ///< size of the basis from which on no round starts
+  int round = 0;                         ///< the next round
+  PetscInt largest = 0;                  ///< basis size at which no further round starts
   std::vector<PointSolution> solutions;  ///< [point]
   std::vector<unsigned char> open;       ///< [point] 1 if it is not accurate yet
 };

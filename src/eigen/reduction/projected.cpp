@@ -101,8 +101,7 @@ void ProjectedTerms::extend() {
   for (auto& part : parts_) extend(part);
 }
 
-/// Extends everything by the columns that V has gained, some at a time: enough for matrix products
-/// to be fast.
+/// Extends all parts by the new columns of V, in blocks large enough for fast matrix products.
 void ProjectedTerms::extend(Part& part) const {
   constexpr PetscInt atOnce = 64;
   const PetscInt old = part.sketch.columns(), size = basis_.size();
@@ -123,7 +122,7 @@ void ProjectedTerms::extend(Part& part) const {
         known ? basis_.forces().columnRange(begin - old, end - old) : made;
     part.sketch.append(basis_.sketch().of(part.rows, timesV));
     if (thin) part.timesV.append(timesV);
-    // Below the diagonal a symmetric projection is known from the columns that follow.
+    // Below the diagonal, a symmetric projection follows from the later columns.
     const PetscInt last = part.adjoint ? size : end;
     copy(known ? linalg::rowRange(basis_.energies().columnRange(begin - old, end - old), 0, size)
                : linalg::transposedProduct(basis_.comm(), v.columnRange(0, last), timesV),
@@ -142,7 +141,7 @@ void ProjectedTerms::extend(Part& part) const {
   part.projection = linalg::bordered(part.projection, right, below);
 }
 
-/// Returns true if the basis knows K0 times the columns from `old` on, and A is K0.
+/// Returns true if A is K0 and the basis has K0 times the columns from `old` on.
 bool ProjectedTerms::knownFrom(const Part& part, PetscInt old) const {
   return part.term.matrix == basis_.stiffness() && basis_.forces().columns() == basis_.size() - old;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The terms of a pencil are projected on a growing basis V. Kept are the projections VᵀAV, and
-/// sketches of A V and AᵀV for the norms of residuals [M.39]. The products A V themselves are kept
-/// where A has few nonzero rows only; of the others, each would take as much memory as V.
+/// The terms of a pencil, projected on a growing basis V. It stores the projections VᵀAV, and
+/// sketches of A V and AᵀV for the norms of residuals [M.39]. It stores the products A V only if A
+/// has few nonzero rows; each of the others would take as much memory as V.
 #include <vector>
 
 #include "algebra/linalg/block.hpp"
@@ -17,8 +17,8 @@ namespace squeal::reduction {
 using subspace::Basis;
 using subspace::PointSpace;
 
-/// The vectors of some eigenpairs in coordinates of a basis are the columns of a real matrix. A
-/// pair with real vectors and an s on the imaginary axis, in a problem without damping, takes one
+/// The vectors of some eigenpairs, in coordinates of a basis, as columns of a real matrix. A pair
+/// with real vectors and an s on the imaginary axis, in a problem without damping, takes one
 /// column; all others take two.
 class Coordinates {
  public:
@@ -33,25 +33,25 @@ class Coordinates {
   /// Returns the real and imaginary parts of c s^power q, or of c conj(s)^power y for the left
   /// side, basis × columns. A pair of one column has only the real part.
   linalg::DenseMatrix times(pencil::Side side, int power, double c) const;
-  /// Returns the sums of values of columns, [column], over the columns of each pair, [pair].
+  /// Sums values of columns, [column], over the columns of each pair, [pair].
   std::vector<double> perPair(const std::vector<double>& ofColumns) const;
 
  private:
   const std::vector<Complex>& vectorOf(std::size_t pair, pencil::Side side) const;
-  // [pair] in the basis, where the point does not take the whole of it
+  // [pair] in the basis, if the point uses only a part of it
   std::vector<std::vector<Complex>> right_, left_;
 };
 
-/// A point gives each term of a pencil its weight.
+/// The weights of the terms of a pencil at a point.
 struct Weights {
   sweep::Parameters at;
-  bool associated = false;  ///< K0 and M0 alone count
+  bool associated = false;  ///< only K0 and M0 count
 
   /// Returns the coefficient of a term.
   double of(const pencil::Term& term) const;
 };
 
-/// Pairs found at one point; their vectors are borrowed.
+/// Pairs of one point; their vectors are borrowed.
 struct PointPairs {
   Weights weights;
   Coordinates pairs;
@@ -60,23 +60,22 @@ struct PointPairs {
 /// Some terms of a pencil with their projections.
 class ProjectedTerms {
  public:
-  /// Collective. Projects the terms [first, last) of the pencil, whose matrices are shared with it.
-  /// Borrows the basis during the life of the object.
+  /// Collective. Projects the terms [first, last) of the pencil and shares their matrices. Borrows
+  /// the basis during the lifetime of the object.
   ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first,
                  std::size_t last);
-  /// Returns the number of terms.
   std::size_t count() const { return parts_.size(); }
-  /// Collective. Extends the projections to the vectors that the basis has gained.
+  /// Collective. Extends the projections to the new vectors of the basis.
   void extend();
-  /// Not collective. Turns the projections with a basis that has become V · combinations, former
+  /// Not collective. Updates the projections for a basis that has become V · combinations, former
   /// size × new size.
   void combine(const linalg::DenseMatrix& combinations);
   /// Not collective. Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the
   /// size of the basis.
   void addTo(const Weights& weights, linalg::DenseProblem& sum) const;
-  /// Collective. Adds combinations of the columns P(s) V q of all points in turn to `result`,
-  /// which has this rank's rows, in one product per term. `combinations` has a row for each of
-  /// these columns, and the columns of the result.
+  /// Collective. Adds combinations of the columns P(s) V q of all points in turn to `result`, this
+  /// rank's rows, with one product per term. `combinations` has one row per column P(s) V q and one
+  /// column per column of the result.
   void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations,
              linalg::Block& result) const;
   /// Not collective. Adds the sketch of P(s) V q, or of P(s)ᴴ V y for the left side, to `sketch`, 2
@@ -87,11 +86,11 @@ class ProjectedTerms {
   struct Part {
     pencil::Term term;
     linalg::RowSet rows, leftRows;   // nonzero rows of A and Aᵀ
-    OwnedMat matrix, adjoint;        // these rows; no adjoint where A is symmetric
-    linalg::Block timesV;            // A V, by `rows`; none if they are all
-    linalg::Block rowsOfV;           // these rows of V; none if they are all
+    OwnedMat matrix, adjoint;        // these rows; no adjoint if A is symmetric
+    linalg::Block timesV;            // A V, by `rows`; empty if these are all rows
+    linalg::Block rowsOfV;           // these rows of V; empty if these are all rows
     linalg::DenseMatrix sketch;      // sketch of A V
-    linalg::DenseMatrix leftSketch;  // sketch of AᵀV; empty where A is symmetric
+    linalg::DenseMatrix leftSketch;  // sketch of AᵀV; empty if A is symmetric
     linalg::DenseMatrix projection;  // VᵀAV
   };
   Part partOf(pencil::Term term) const;

@@ -17,12 +17,12 @@ namespace squeal::reduction {
 
 using subspace::Substructure;
 
-/// A ProjectedBasis owns the basis, the terms that all points share, and those of the sets of
-/// points with the same boundary unknowns.
+/// Owns the basis, the terms of all points, and the terms of each set of points with the same
+/// boundary unknowns.
 class ProjectedBasis {
  public:
-  /// Collective. Borrows the system during the life of the object and shares the terms of `pencil`,
-  /// which hold at all points.
+  /// Collective. Borrows the system during the lifetime of the object and shares the terms of
+  /// `pencil`, which hold at all points.
   ProjectedBasis(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                  const modes::Modes& modes, Substructure substructure);
   Basis& basis() { return basis_; }
@@ -33,30 +33,31 @@ class ProjectedBasis {
   PetscInt unknowns() const { return unknowns_; }
 
   /// Collective. Adds the set of points with the boundary unknowns has[boundary unknown of all
-  /// ranks], whose terms are those of `pencil` that follow the terms of all points and hold for all
-  /// parameters. Returns its number. Throws Error if their stiffness is not positive definite.
+  /// ranks] and returns its number. The terms of the set are those of `pencil` that follow the
+  /// terms of all points and hold for all parameters. Throws Error if their stiffness is not
+  /// positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
   PointSet& set(int number) { return *sets_[number]; }
   const PointSet& set(int number) const { return *sets_[number]; }
 
-  /// Collective. Returns a point with the projections of its own terms, not solved yet; the point
-  /// is borrowed.
+  /// Collective. Returns an unsolved point with the projections of its own terms; the point is
+  /// borrowed.
   PointState state(const PointProblem& point, const Norms& norms) const;
-  /// Collective. Extends the projections of all terms to the vectors that the basis has gained.
+  /// Collective. Extends the projections of all terms to the new vectors of the basis.
   void extend(const std::vector<PointState*>& states);
   /// Not collective. Returns the projected problem of a point.
   linalg::DenseProblem project(const PointState& state) const;
-  /// Not collective. Returns the same with all boundary unknowns, in coordinates that all points
-  /// share.
+  /// Not collective. Returns the same with all boundary unknowns, in coordinates common to all
+  /// points.
   linalg::DenseProblem projectOnAll(const PointState& state) const;
-  /// Not collective. Returns the projection of the terms that belong to the point only.
+  /// Not collective. Returns the projection of the terms that belong only to the point.
   linalg::DenseProblem projectOwn(const PointState& state) const;
 
   /// Not collective. Returns sketches of the residuals of one side, 2 Sketch::size × columns.
   linalg::DenseMatrix residualSketch(const PointState& state, const PointPairs& pairs,
                                      pencil::Side side) const;
-  /// Collective. Returns the real and imaginary parts of P(s) x, or of P(s)ᴴ y, from the matrices
-  /// themselves, by this rank's rows; only the real part for a pair of one column.
+  /// Collective. Returns the real and imaginary parts of P(s) x, or of P(s)ᴴ y, computed from the
+  /// matrices, by this rank's rows; for a pair of one column only the real part.
   linalg::Block residualColumns(const PointState& state, const linalg::DensePair& pair,
                                 const linalg::ComplexVector& vector, pencil::Side side) const;
   /// Collective. Returns combinations of the residuals of pairs of several points, by this rank's
@@ -68,11 +69,11 @@ class ProjectedBasis {
   linalg::Block residuals(const std::vector<PairsOfPoint>& points,
                           const linalg::DenseMatrix& combinations) const;
 
-  /// Collective. Replaces the basis, except its constraint modes, by the combinations of its
-  /// vectors that are the columns of `directions`.
+  /// Collective. Replaces the basis, except its constraint modes, by combinations of its vectors,
+  /// whose coefficients are the columns of `directions`.
   void combine(const linalg::DenseMatrix& directions);
-  /// Collective. Writes the vectors that the basis has gained since the last call, or adds them.
-  /// All sets must be known. While it is written from, the archive borrows the basis.
+  /// Collective. Writes the vectors that are new since the last call, or reads and appends them.
+  /// All sets must have been added. An archive being written borrows the basis.
   void exchange(checkpoint::Archive& archive);
 
  private:
@@ -80,7 +81,7 @@ class ProjectedBasis {
   ProjectedTerms terms_;
   PetscInt unknowns_ = 0;
   std::vector<std::unique_ptr<PointSet>> sets_;
-  PetscInt exchanged_ = 0;  // vectors that a checkpoint has, or starts with
+  PetscInt exchanged_ = 0;  // vectors that the checkpoint contains
 };
 
 }  // namespace squeal::reduction

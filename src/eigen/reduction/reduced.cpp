@@ -68,7 +68,8 @@ int ReducedProblem::addSet(const pencil::Pencil& pencil, const std::vector<unsig
   return number;
 }
 
-/// Collective. Solves the dense problems of the points that are not accurate, and estimates errors.
+/// Collective. Solves the dense problems of the points that are not yet accurate, and estimates
+/// errors.
 void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
   std::vector<linalg::DenseProblem> problems;
   for (const auto* state : open) problems.push_back(basis_.project(*state));
@@ -83,8 +84,8 @@ void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
   for (std::size_t i = 0; i < open.size(); ++i) estimator_.estimate(*open[i], problems[i]);
 }
 
-/// Collective. Looks for eigenvalues that are missing at the points, and empties the spectra where
-/// it finds one. Returns these points.
+/// Collective. Searches for missing eigenvalues at the points. Clears the spectra of the incomplete
+/// points and returns these points.
 std::vector<PointState*> ReducedProblem::incompleteStates(std::vector<PointState>& states) {
   std::vector<PointState*> asked, open;
   std::vector<linalg::DenseProblem> problems;
@@ -108,8 +109,8 @@ std::vector<PointState*> ReducedProblem::incompleteStates(std::vector<PointState
   return open;
 }
 
-/// Collective. Checks the accurate points: returns those whose errors turn out to be underestimated
-/// or, if there are none, those with a missing eigenvalue.
+/// Collective. Checks the accurate points. Returns those with underestimated errors or, if there
+/// are none, those with a missing eigenvalue.
 std::vector<PointState*> ReducedProblem::recheck(std::vector<PointState>& states) {
   const auto open = estimator_.unconfirmed(states);
   return open.empty() ? incompleteStates(states) : open;
@@ -125,7 +126,8 @@ bool ReducedProblem::addCorrections(const std::vector<PointState*>& open) {
   return true;
 }
 
-/// Collective. Lets the caller store the batch before the next round.
+/// Collective. Calls the action of afterEachRound() before the next round, with the state of the
+/// batch.
 void ReducedProblem::store(const std::vector<PointState>& states,
                            const std::vector<PointState*>& open, int round, PetscInt largest) {
   if (!afterRound_ || states.front().associated) return;
@@ -166,7 +168,7 @@ void ReducedProblem::correct(std::vector<PointState>& states) {
     if (!addCorrections(open)) break;
     store(states, open, round + 1, largest);
   }
-  if (open = incompleteStates(states); !open.empty()) {  // corrections have ended early
+  if (open = incompleteStates(states); !open.empty()) {  // corrections stopped early
     basis_.extend(open);
     solveDense(open);
   }
@@ -186,7 +188,7 @@ void ReducedProblem::exchange(checkpoint::Archive& archive) {
   archive.common(pending_->round, pending_->largest, pending_->solutions, pending_->open);
 }
 
-/// Collective. Returns the points of a batch, not solved yet.
+/// Collective. Returns the unsolved points of a batch.
 std::vector<PointState> ReducedProblem::statesOf(const std::vector<PointProblem>& batch) {
   std::vector<PointState> states;
   for (const auto& point : batch)
@@ -225,7 +227,7 @@ PointState ReducedProblem::associatedState(const PointProblem& point) {
   return std::move(states.front());
 }
 
-/// Collective. Places the top of the band of a set by the eigenvalues ω² of its free modes.
+/// Collective. Sets the top of the band of a set from the eigenvalues ω² of its free modes.
 void ReducedProblem::settleBand(std::vector<double> values, PointSet& set) const {
   if (band_.top == 0 || !std::isfinite(band_.top)) return;
   values.resize(std::min(values.size(), frequencies_.size()));
@@ -249,7 +251,7 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
   return modes;
 }
 
-/// Collective. Returns what is known of the eigenvalues of a point.
+/// Collective. Returns the eigenvalues of a point with their errors.
 pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   const PointSolution& solution = state.solution;
   pencil::ComplexModes point;
@@ -267,13 +269,13 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
     e.certified = e.backwardError <= point.accuracy && estimator_.isExactEnough(solution, e);
   }
   pencil::judge(point, solution.symmetry, settings_.criteria);
-  // The shapes are made by all ranks, which must agree on the verdicts.
+  // All ranks compute the shapes together, so they must agree on the verdicts.
   mpi::broadcast(basis().comm(), point.eigenvalues);
   return point;
 }
 
-/// Collective. Stores the shapes of all points. They are made together, since each product with the
-/// basis reads the whole of it.
+/// Collective. Stores the shapes of all points. It computes them together, since each product with
+/// the basis reads the whole basis.
 void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
                                 const std::vector<PointState>& states, Mat trial) const {
   std::vector<std::vector<std::size_t>> wanted;
@@ -316,7 +318,7 @@ Improvement ReducedProblem::improve(
     auto& band = state.solution.spectrum.band;
     band = pairs;
     std::vector<const linalg::DensePair*> all;
-    for (auto& pair : band) {  // they may be of a smaller basis
+    for (auto& pair : band) {  // they may belong to a smaller basis
       for (auto* vector : {&pair.q, &pair.left})
         vector->resize(state.set->space.size(basis().size()));
       all.push_back(&pair);
@@ -326,7 +328,7 @@ Improvement ReducedProblem::improve(
     result.backwardError.push_back(std::ranges::max(errors, {}, &PairErrors::backward).backward);
     result.roundOff.push_back(std::ranges::max(errors, {}, &PairErrors::roundOff).roundOff);
     if (result.backwardError.back() < ErrorEstimator::rounding) continue;
-    // Both parts of a residual in units of the whole: one of them may be rounding.
+    // Both parts of a residual relative to the whole residual: one part may be round-off.
     requests.push_back({&state, state.pairs(all, true), std::vector<double>(pairs.size(), 1.0)});
   }
   result.changed = corrector_.correct(requests) > 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The reduced problem [4.19] is corrected until its eigenvalues are those of the full one.
+/// The reduced problem [4.19], corrected until its eigenvalues agree with those of the full one.
 #include <functional>
 #include <optional>
 #include <utility>
@@ -25,70 +25,70 @@
 
 namespace squeal::reduction {
 
-/// The answer of the full problem to eigenpairs of the reduced one.
+/// The result of an improvement of the basis for some eigenpairs.
 struct Improvement {
-  /// True if the basis has grown, or if near() is better: the pairs are then to be solved for
-  /// again.
+  /// True if the basis has grown or near() has become more accurate: the pairs then need a new
+  /// solve.
   bool changed = false;
-  /// The largest backward error of the pairs in the full problem, [located]; NaN where there is no
-  /// problem at this friction. There are no entries if there is no larger problem.
+  /// The largest backward error of the pairs in the full problem, [located]; NaN if there is no
+  /// problem at this friction. Empty if there is no larger problem.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x with unit vectors x and y of the reduced problem,
-  /// likewise.
+  /// [located].
   std::vector<double> roundOff;
 };
 
-/// The reduced problem makes Rayleigh–Ritz on the free modes and, unless `-flutter_basis modal`,
-/// on static responses to friction forces and to its own residuals. The modes alone miss unstable
-/// eigenvalues and invent others. A round adds K0⁻¹ r for the residuals r of all bad pairs, solved
-/// for together with the real symmetric factorisation that the modes used, and gains about a
-/// decade. A pair is certified if its full-order backward error is at most `-flutter_accuracy` and
-/// the estimate of |δs|/|s| at most `-flutter_tolerance`. The basis is kept over a sweep.
+/// Rayleigh–Ritz on the free modes and, unless `-flutter_basis modal`, on static responses to
+/// friction forces and to its own residuals. With only the modes it would miss unstable eigenvalues
+/// and report spurious ones. A round adds K0⁻¹ r for the residuals r of all inaccurate pairs, by a
+/// block solve with the real symmetric factorisation of the modes, and gains about a decade. A pair
+/// is certified if its full-order backward error is at most `-flutter_accuracy` and the estimate of
+/// |δs|/|s| at most `-flutter_tolerance`. The whole sweep shares one basis.
 class ReducedProblem {
  public:
-  /// Collective. Borrows the system, that of the interior unknowns, during the life of the object
-  /// and shares the terms of `pencil`, which hold at all points and for all unknowns. `modes` are
+  /// Collective. Borrows the system of the interior unknowns during the lifetime of the object and
+  /// shares the terms of `pencil`, which hold at all points and for all unknowns. `modes` are
   /// M0-orthonormal with ascending frequencies; they are copied.
   ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                  const modes::Modes& modes, const Settings& settings,
                  Substructure substructure = {});
-  /// Collective. Makes known the points that have the boundary unknowns with has[boundary unknown
-  /// of all ranks] set, and returns the number of this set. Of `pencil`, the terms that follow
-  /// those of the constructor and hold for all parameters hold for these points; they are shared.
-  /// Throws Error if their stiffness is not positive definite.
+  /// Collective. Adds the set of points with the boundary unknowns has[boundary unknown of all
+  /// ranks] and returns its number. The terms of the set, which are shared, are those of `pencil`
+  /// that follow the terms of the constructor and hold for all parameters. Throws Error if their
+  /// stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
-  /// Collective. Returns the free modes in the band of a set, corrected as eigenvalues are. Their
-  /// vectors have the entries of all unknowns. Of `pencil`, K and M alone count. Their number is
-  /// confirmed where that of the interior is and the bounds of ModeCount agree. From then on, what
-  /// solve() lists at the points of the set ends where these modes place the top of the band, so
-  /// that it does not depend on the sets that share the basis.
+  /// Collective. Returns the free modes in the band of a set, corrected like eigenvalues. Their
+  /// vectors have the entries of all unknowns. Only K and M of `pencil` count. The number of modes
+  /// is confirmed if that of the interior is and the bounds of ModeCount agree. From then on, these
+  /// modes set the top of the band at the points of the set, so the list of solve() does not depend
+  /// on the other sets of the basis.
   modes::Modes freeModes(int set, const pencil::Pencil& pencil);
-  /// Collective. Solves all points at once and returns their complex modes, [point]: their dense
-  /// problems are spread over the ranks, and their corrections are solved for together. The static
-  /// responses are those of the first point of the first batch. Shapes are mapped to nodal
-  /// displacements by `trial` (T, N×n).
+  /// Collective. Solves all points together and returns their complex modes, [point]: the dense
+  /// problems are distributed over the ranks, and block solves give the corrections. The static
+  /// responses belong to the first point of the first batch. `trial` (T, N×n) maps shapes to nodal
+  /// displacements.
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
-  /// Returns true if vectors are only added to the basis, so that exchange() can be called.
+  /// Returns true if the basis only grows, as exchange() requires.
   bool grows() const { return !settings_.compressed; }
-  /// Lets solve() call `action`, which is collective, whenever the basis has grown.
+  /// Makes solve() call `action`, which is collective, whenever the basis has grown.
   void afterEachRound(std::function<void()> action) { afterRound_ = std::move(action); }
-  /// Collective. Writes what has been found since the last call, and the state of the batch that
-  /// solve() has in hand, or takes both up again; the next solve() must then be of that batch. All
-  /// sets must be known. While it is written from, the archive borrows the basis.
+  /// Collective. Writes or reads the results since the last call and the state of the current batch
+  /// of solve(). After reading, the next solve() must be of that batch. All sets must have been
+  /// added. An archive being written borrows the basis.
   void exchange(checkpoint::Archive& archive);
-  /// Collective. Returns the eigenpairs of a point of these parameters and boundary unknowns that
-  /// the band watches, with both vectors, in coordinates of the basis of the time when it was
-  /// solved: those in the band as solve() left them, those around it as exact as they were needed.
-  /// Returns none where the point has not been solved, or where there was no memory to keep them.
+  /// Collective. Returns the watched eigenpairs of a point with these parameters and boundary
+  /// unknowns, with both vectors, in coordinates of the basis at the time of its solve. Pairs in
+  /// the band are those of solve(); pairs in the guard zone may be less accurate. Returns none if
+  /// the point has not been solved, or if memory was too short to store the pairs.
   std::optional<std::vector<linalg::DensePair>> watchedPairs(const sweep::Parameters& at,
                                                              int set) const {
     return solved_.at(at, set);
   }
   /// Collective. Returns the projection of the problem at this point on the basis as it is.
   linalg::DenseProblem project(const PointProblem& point) const;
-  /// Collective. Returns the same with all boundary unknowns, in coordinates that all points share.
+  /// Collective. Returns the same with all boundary unknowns, in coordinates common to all points.
   linalg::DenseProblem projectOnAll(const PointProblem& point) const;
-  /// Returns the coordinates in the basis of a vector in those of the points of a set.
+  /// Converts a vector from the coordinates of the points of a set to those of the basis.
   std::vector<Complex> lifted(int set, const std::vector<Complex>& q) const {
     return basis_.set(set).space.lifted(q);
   }
@@ -99,8 +99,8 @@ class ReducedProblem {
   /// Returns the band of all sets; its top is 0 if nothing is corrected, and infinite if V is the
   /// whole space.
   const pencil::WatchedBand& band() const { return band_; }
-  /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for
-  /// together. The vectors may be of an earlier, smaller basis.
+  /// Collective. Adds corrections of the residuals of these pairs, of any points, by a block solve.
+  /// The vectors may belong to an earlier, smaller basis.
   Improvement improve(
       const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 
@@ -129,7 +129,7 @@ class ReducedProblem {
   SolvedPairs solved_;
   Pod pod_;
   std::optional<subspace::ModeCount> count_;  // with boundary unknowns
-  bool started_ = false;                      // static responses are in the basis
+  bool started_ = false;                      // the basis contains the static responses
   std::function<void()> afterRound_;
   std::optional<PendingBatch> pending_;  // between two rounds, or resumed from a checkpoint
 };

@@ -4,7 +4,7 @@
 namespace squeal::reduction {
 namespace {
 
-/// One term of k, or of kᵀ, by the rows of its matrix that hold anything.
+/// One term of k, or of kᵀ, by the nonzero rows of its matrix.
 struct Forces {
   bool transposed;
   linalg::RowSet rows;
@@ -32,8 +32,8 @@ linalg::Block forcesOnModes(const Basis& basis, const pencil::Pencil& pencil,
     for (std::size_t t = 0; t < terms.size(); ++t)
       if (terms[t].holdsFriction() || t >= pencil.affineCount())
         list.push_back(forcesOf(terms[t], at, transposed));
-  // Forces of friction are zero but at the contact: the columns are kept by the rows that any of
-  // them has.
+  // Friction forces are nonzero only at the contact: the columns are stored by their common nonzero
+  // rows.
   std::vector<PetscInt> rows, place(basis.localRows(), -1);
   for (const auto& forces : list)
     for (PetscInt i = 0; i < forces.rows.size(); ++i)

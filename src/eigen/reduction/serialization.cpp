@@ -5,7 +5,7 @@
 
 namespace squeal::reduction {
 
-// All members are named, so that a new one does not compile until it is stored too.
+// These list all members: a new one does not compile until it is added here.
 
 void fields(Stream& stream, PairErrors& errors) {
   auto& [backward, right, left, roundOff, dense] = errors;

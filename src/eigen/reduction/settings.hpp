@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The choices of the reduced problem.
+/// The settings of the reduced problem.
 #include "eigen/pencil/settings.hpp"
 
 namespace squeal::reduction {

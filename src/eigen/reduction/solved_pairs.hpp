@@ -13,8 +13,7 @@
 
 namespace squeal::reduction {
 
-/// SolvedPairs stores the watched eigenpairs of solved points, each on one rank, as long as there
-/// is memory for them.
+/// Stores the watched eigenpairs of solved points, each on one rank, within a limit of memory.
 class SolvedPairs {
  public:
   explicit SolvedPairs(MPI_Comm comm) : comm_(comm) {}
@@ -22,7 +21,7 @@ class SolvedPairs {
   void store(const std::vector<PointState>& states, PetscInt basisSize);
   /// Collective. Returns the pairs of a point with both vectors; none if they are not stored.
   std::optional<std::vector<linalg::DensePair>> at(const sweep::Parameters& at, int set) const;
-  /// Not collective. Writes the pairs that are new since the last call, or adds them.
+  /// Not collective. Writes the pairs that are new since the last call, or reads and adds them.
   void exchange(checkpoint::Archive& archive);
 
  private:
@@ -35,7 +34,7 @@ class SolvedPairs {
   MPI_Comm comm_;
   std::vector<Entry> entries_;
   double bytes_ = 0;           // on all ranks
-  std::size_t exchanged_ = 0;  // entries that a checkpoint has
+  std::size_t exchanged_ = 0;  // entries that the checkpoint contains
 };
 
 }  // namespace squeal::reduction

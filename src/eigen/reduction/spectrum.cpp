@@ -13,11 +13,12 @@
 namespace squeal::reduction {
 namespace {
 
-/// Smaller problems are solved in full, in no more time than improving would take.
+/// Smaller problems are solved in full, which is at least as fast as an improvement.
 constexpr PetscInt smallestImproved = 400;
 
-/// The part of a residual that improving a pair may leave: a round of corrections gains a decade,
-/// and what is left must be small beside that; little is asked of a pair that needs little.
+/// Bounds of the fraction of a residual that may remain after improving a pair. A round of
+/// corrections gains a decade, and the remainder must be small compared with that. A pair near its
+/// tolerance needs less.
 constexpr double least = 0.03, enough = 0.3;
 /// A left vector counts only in the product of two errors.
 constexpr double leastOfLeft = 0.1;
@@ -45,7 +46,7 @@ std::vector<UnconvergedPair> openOf(const SpectrumRequest& request) {
   return open;
 }
 
-/// Takes the pairs apart into those of the band and those of the guard zone.
+/// Divides the pairs into those of the band and those of the guard zone.
 void keep(std::vector<linalg::DensePair> pairs, const pencil::WatchedBand& band,
           Spectrum& spectrum) {
   std::ranges::sort(pairs, [](const auto& a, const auto& b) {
@@ -97,7 +98,7 @@ std::vector<bool> incomplete(MPI_Comm comm, const pencil::WatchedBand& band,
       comm, requests.size() * places.size(), linalg::Vectors::right, [&](std::size_t i) {
         const auto& [problem, spectrum, errorRatio] = requests[i / places.size()];
         std::vector<linalg::DensePair> pairs = allPairs(*spectrum), result;
-        for (auto& pair : pairs)  // they may be of a smaller basis
+        for (auto& pair : pairs)  // they may belong to a smaller basis
           for (auto* vector : {&pair.q, &pair.left}) vector->resize(problem->order());
         const Complex shift(0, places[i % places.size()] * band.top);
         const auto unknown =

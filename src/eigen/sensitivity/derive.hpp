@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions compute the sensitivities of the complex modes that are kept at a point.
+/// Sensitivities of the stored complex modes of a point.
 #include <functional>
 #include <vector>
 
@@ -12,19 +12,19 @@
 
 namespace squeal::sensitivity {
 
-/// Returns the forms yᴴ (∂P/∂θ)(s) x of one eigenvalue, in the field `value` of each derivative.
+/// Returns the forms yᴴ (∂P/∂θ)(s) x of one eigenvalue, in the member `value` of each derivative.
 using Forms = std::function<std::vector<pencil::Derivative>(const EigenTriple&)>;
 
-/// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point, whose
-/// terms the pencil holds. Left vectors are computed first, beginning in `start`, with the solver
-/// of `system`. Where the eigenvalue has derivatives, they are the forms divided by −yᴴ P′ x
-/// [M.46]. The arguments are borrowed during this call.
+/// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point.
+/// `pencil` contains the terms of the point. It first computes left vectors, starting in `start`,
+/// with the solver of `system`. The derivatives, if they exist, are the forms divided by −yᴴ P′ x
+/// [M.46]. Borrows the arguments only during this call.
 void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                   const StartSpace& start, const factor::AssociatedSystem& system,
                   const Forms& forms);
 
-/// Collective. Does the same for friction, speed and damping, as far as the coefficients of the
-/// terms depend on them.
+/// Collective. Does the same for friction, speed and damping, if the coefficients of the terms
+/// depend on them.
 void deriveParameters(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                       const StartSpace& start, const factor::AssociatedSystem& system);
 

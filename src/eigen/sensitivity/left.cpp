@@ -31,8 +31,8 @@ Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a,
 
 /// Returns c with
 ///   cᴴ H(s) = 0,   H = Σ s^p h_p,
-/// by inverse iteration. s is known to some digits only and is corrected by the two-sided Rayleigh
-/// quotient
+/// by inverse iteration. s has only a few exact digits, and the two-sided Rayleigh quotient
+/// corrects it:
 ///   δs = −cᴴ H q / cᴴ H′ q.
 std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, Complex s) {
   const PetscInt m = h[0].rows();
@@ -158,7 +158,7 @@ class LeftIteration {
     return parts;
   }
 
-  /// Adds vectors to the basis, those apart that depend on it, and projects the pencil on the new
+  /// Adds vectors to the basis, except those that depend on it, and projects the pencil on the new
   /// columns. Returns true if the basis has grown.
   bool add(const std::vector<Vec>& vectors) {
     constexpr double dependent = 1e-6;
@@ -179,7 +179,7 @@ class LeftIteration {
     return size_ > before;
   }
 
-  /// Extends Vᵀ A V of each power of s by the columns that V has gained.
+  /// Extends Vᵀ A V of each power of s by the new columns of V.
   void extend() {
     const PetscInt old = known_, added = size_ - old;
     if (added == 0) return;
@@ -216,8 +216,8 @@ class LeftIteration {
     return values;
   }
 
-  /// Returns the left null vectors in coordinates of the basis, [value]. The work is spread over
-  /// the ranks, and all ranks get the same results, so that rounding cannot make them disagree.
+  /// Returns the left null vectors in coordinates of the basis, [value]. The work is distributed
+  /// over the ranks, and all ranks get the same results, so round-off cannot make them disagree.
   std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values) const {
     int rank = 0, ranks = 1;
     check(MPI_Comm_rank(pencil_.comm(), &rank));
@@ -251,7 +251,7 @@ class LeftIteration {
   OwnedBV basis_;
   PetscInt size_ = 0;
   std::array<linalg::DenseMatrix, 3> projected_;  // [power of s] Vᵀ A V
-  PetscInt known_ = 0;                            // columns of V in it
+  PetscInt known_ = 0;                            // columns of V that it covers
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Left eigenvectors y of the full-order problem, yᴴ P(s) = 0, are found for known eigenvalues.
+/// Left eigenvectors y of the full-order problem, yᴴ P(s) = 0, for known eigenvalues.
 #include <vector>
 
 #include "algebra/linalg/complexvector.hpp"
@@ -24,20 +24,20 @@ struct LeftVector {
   double backwardError = 0;
 };
 
-/// The space in which the search for left vectors begins.
+/// The start space of the search for left vectors.
 struct StartSpace {
   OwnedBV columns;      ///< V: the free modes, or the basis of the reduced problem
   Mat inner = nullptr;  ///< the matrix in which V is nearly orthonormal, M0 or K0; borrowed
-  linalg::DenseProblem projected;  ///< Vᵀ P V at the point, which saves products with V, if it is
-                                   ///< known; otherwise empty
+  linalg::DenseProblem projected;  ///< Vᵀ P V at the point, if known, which saves products
+                                   ///< with V; otherwise empty
 };
 
 /// Collective. Returns the left vectors of all pairs, [pair], by Rayleigh–Ritz on a basis that
-/// begins with V and the right vectors. Each round extends it by
+/// starts with V and the right vectors. Each round extends it by
 ///   K0⁻¹ Re l, K0⁻¹ Im l,   l = P(s)ᴴ y,
-/// for the left residuals l of all pairs together, with `solver`, a factorisation of K0, borrowed.
-/// A round gains about a decade. The rounds end when all backward errors are at most 1e-10, when
-/// the basis no longer grows, or after 20 rounds; the caller judges the error that is left.
+/// for the left residuals l of all pairs together, with `solver`, a borrowed factorisation of K0. A
+/// round gains about a decade. The rounds end when all backward errors are at most 1e-10, when the
+/// basis no longer grows, or after 20 rounds. The caller must check the remaining error.
 std::vector<LeftVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                     const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs);

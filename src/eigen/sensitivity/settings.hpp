@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The choices of the sensitivities.
+/// The settings of the sensitivities.
 
 namespace squeal::sensitivity {
 

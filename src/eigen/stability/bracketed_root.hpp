@@ -5,9 +5,9 @@
 namespace squeal::stability {
 
 /// Finds the root of a continuous function in a bracket by the method of T. R. Chandrupatla
-/// (Advances in Engineering Software 28 (1997) 145–149): inverse quadratic interpolation where it
-/// is safe, otherwise bisection. The caller evaluates the function at next() and passes the value
-/// to take().
+/// (Advances in Engineering Software 28 (1997) 145–149): inverse quadratic interpolation if it is
+/// safe, otherwise bisection. The caller evaluates the function at next() and passes the value to
+/// take().
 class BracketedRoot {
  public:
   /// A point and the value of the function there.

@@ -20,8 +20,8 @@ using tracking::PairsAtFriction;
 
 namespace {
 
-/// Takes out of a list, ordered by friction, what two coalescences of the same eigenvalues undo: a
-/// growth that lies within the errors of both ends is rounding where the two cross.
+/// Removes pairs of coalescences of the same eigenvalues that cancel within their errors from a
+/// list, ordered by friction: the eigenvalues cross, and the growth in between is round-off.
 void removeTouching(std::vector<Critical>& list) {
   for (auto one = list.begin(); one != list.end();) {
     const auto undoes = [&](const Critical& other) {
@@ -42,7 +42,7 @@ void removeTouching(std::vector<Critical>& list) {
   }
 }
 
-/// The searches for all events, spread over the ranks.
+/// The searches for all events, distributed over the ranks.
 class Roots {
  public:
   Roots(Family& family, const std::vector<Event>& events, double tolerance)
@@ -57,7 +57,7 @@ class Roots {
     locate(indices(events.size()), true);
   }
 
-  /// Returns the indices of the events that are not settled.
+  /// Returns the indices of the unsettled events.
   std::vector<std::size_t> open() const {
     std::vector<int> is(roots_.size(), 0);
     for (std::size_t i = 0; i < roots_.size(); ++i) is[i] = mine(i) && !roots_[i].settled() ? 1 : 0;
@@ -123,7 +123,7 @@ class Roots {
 std::vector<Critical> criticalFrictions(const std::vector<Piece>& path, const Branches& branches,
                                         double tolerance) {
   constexpr int rounds = 10;
-  // All are located before the basis grows, beyond that of the vectors of the events.
+  // Locate all events before the basis grows beyond the basis of their vectors.
   std::vector<std::vector<Event>> events(path.size());
   std::vector<std::unique_ptr<Roots>> pieces;
   for (const auto& event : branches.events) events[event.piece].push_back(event);

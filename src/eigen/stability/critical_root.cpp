@@ -16,7 +16,7 @@ using tracking::real;
 
 void CriticalRoot::locate(Family& family, bool changed) {
   const double before = friction_;
-  // At an end of a step equal eigenvalues part, and between two pieces of a path they jump.
+  // Equal eigenvalues split at an end of a step, and eigenvalues jump between two pieces of a path.
   if (event_.low == event_.high || event_.kind == Event::Kind::contact) {
     friction_ = 0.5 * (event_.low + event_.high);
     settled_ = true;
@@ -79,7 +79,7 @@ double CriticalRoot::measure(const linalg::Spectrum& spectrum) const {
       return throughZero_ && spectrum.damped() ? mean(pairs).real()
                                                : (mean(pairs) * mean(pairs)).real();
     case Event::Kind::crossing:
-      return mean(pairs).real();  // of two equal ones, where they cross together
+      return mean(pairs).real();  // of two equal eigenvalues that cross together
     case Event::Kind::contact:
       break;  // it jumps
   }
@@ -92,8 +92,7 @@ const CriticalRoot::Sample& CriticalRoot::nearest(double friction) const {
   });
 }
 
-/// Returns the mean of the eigenvalues, interpolated between the nearest known frictions on both
-/// sides.
+/// Returns the mean of the eigenvalues, interpolated between the nearest samples on both sides.
 Complex CriticalRoot::expected(double friction) const {
   const Sample *below = &known_[0], *above = &known_[1];
   for (const auto& sample : known_) {
@@ -105,9 +104,9 @@ Complex CriticalRoot::expected(double friction) const {
   return (1 - t) * mean(below->pairs()) + t * mean(above->pairs());
 }
 
-/// Returns the function at a friction and keeps a sample. The value is NaN if there is no problem
-/// at this friction, or if the eigenvalues are not found in it. It is zero, without a sample,
-/// where two eigenvalues are too close to distinguish.
+/// Returns the function at a friction and stores a sample. The value is NaN if there is no problem
+/// at this friction or its eigenvalues are not found. It is zero, without a sample, if two
+/// eigenvalues are too close to distinguish.
 double CriticalRoot::valueAt(Family& family, double friction) {
   if (reach(family, friction)) return known_.back().value;
   const bool met = event_.kind == Event::Kind::coalescence &&
@@ -115,9 +114,9 @@ double CriticalRoot::valueAt(Family& family, double friction) {
   return met && family.near(friction) ? 0 : NAN;
 }
 
-/// Returns the samples to continue from, the best first. Two eigenvalues that meet are known best
-/// on the side where they have parted into a growing and a decaying one: on the other side a
-/// third one may pass by and exchange its vector with one of them.
+/// Returns the samples to continue from, the best first. For two eigenvalues that meet, the best
+/// side is the one where they have split into a growing and a decaying one: on the other side a
+/// third eigenvalue may pass and exchange its vector with one of them.
 std::vector<const CriticalRoot::Sample*> CriticalRoot::starts(double friction) const {
   const Sample *split = nullptr, *closest = &nearest(friction);
   for (const auto& sample : known_)
@@ -128,9 +127,9 @@ std::vector<const CriticalRoot::Sample*> CriticalRoot::starts(double friction) c
   return {split, closest};
 }
 
-/// Appends a sample at a friction, which continues a known one. Where the subspace turns too much
-/// on the way, it goes there in smaller steps. Returns false if that fails, and if there is no
-/// problem on the way.
+/// Appends a sample at a friction by continuation from an existing one. If the subspace rotates too
+/// much on the way, it takes smaller steps. Returns false if that fails, or if there is no problem
+/// on the way.
 bool CriticalRoot::reach(Family& family, double friction) {
   constexpr int most = 24;  // attempts
   double next = friction;
@@ -157,9 +156,9 @@ double CriticalRoot::rootTolerance() const {
   return 1e-13 * std::max(std::abs(event_.high), std::abs(event_.low));
 }
 
-/// Returns how far round-off moves the root: what it does to the function, over its slope.
-/// Towards a coalescence the half distance d of two eigenvalues becomes zero, and the condition
-/// of each grows by 1/d, so that d² changes by a finite 2 d δs.
+/// Returns the shift of the root by round-off: the round-off of the function over its slope.
+/// Towards a coalescence the half distance d of two eigenvalues becomes zero and the condition
+/// number of each grows like 1/d, so the change 2 d δs of d² stays finite.
 double CriticalRoot::roundOffError() const {
   if (!(std::abs(slope_) > 0)) return 0;
   const Sample& sample = nearest(friction_);
@@ -186,8 +185,8 @@ double CriticalRoot::searchFromEnds(Family& family) {
 }
 
 /// Searches the whole bracket in the present basis. Returns NaN if the root has left the bracket.
-/// Where the function is not known at an end of the bracket, as where equal eigenvalues part, the
-/// value in the first basis is kept.
+/// If the function is unknown at an end of the bracket, for example because equal eigenvalues split
+/// there, the value in the first basis applies.
 double CriticalRoot::searchAgain(Family& family) {
   double low = valueAt(family, event_.low), high = valueAt(family, event_.high);
   if (std::isnan(low)) low = known_[0].value;
@@ -218,7 +217,7 @@ double CriticalRoot::refined(Family& family) {
   known_.push_back(start);
   const double left = std::max(event_.low, friction_ - 1e-5 * width());
   double at = std::min(event_.high, friction_ + 1e-5 * width()), last = INFINITY;
-  if (!(left < at)) return searchAgain(family);  // the difference would be below rounding
+  if (!(left < at)) return searchAgain(family);  // the difference would be below round-off
   const double before = valueAt(family, left);
   double value = valueAt(family, at);
   slope_ = (value - before) / (at - left);

@@ -11,8 +11,8 @@
 
 namespace squeal::stability {
 
-/// A CriticalRoot locates the critical friction of an event in a basis that is improved between the
-/// calls. Nothing here is collective.
+/// Locates the critical friction of an event in a basis that is improved between the calls. Not
+/// collective.
 class CriticalRoot {
  public:
   /// Borrows the event.
@@ -21,19 +21,19 @@ class CriticalRoot {
         tolerance_(tolerance),
         throughZero_(tracking::real(event.below[0].s) && tracking::real(event.above[0].s)) {}
 
-  /// Locates the critical friction in the present basis. `changed` is true if that differs from the
-  /// basis of the last call.
+  /// Locates the critical friction in the present basis. `changed` is true if the basis differs
+  /// from that of the last call.
   void locate(Family& family, bool changed);
   /// Returns true if the friction no longer moves.
   bool settled() const { return settled_; }
-  /// Returns the friction with one pair, which has the mean of the eigenvalues: where two
-  /// eigenvalues meet, so do their vectors.
+  /// Returns the friction with one pair at the mean of the eigenvalues: if two eigenvalues meet, so
+  /// do their vectors.
   tracking::PairsAtFriction located() const;
   /// Stores the backward error, NaN if there is no problem at the located friction, and the bound
   /// on the round-off in yᴴP(s)x of unit vectors.
   void setErrors(double backwardError, double roundOff);
 
-  /// Returns the critical friction as far as it is known.
+  /// Returns the critical friction found so far.
   Critical result() const;
 
  private:
@@ -53,8 +53,8 @@ class CriticalRoot {
   double rootTolerance() const;
   double roundOffError() const;
   double width() const { return event_.high - event_.low; }
-  /// Returns the tolerance of a root in a basis that is still to be improved. It is small enough
-  /// not to hide how far the root moves with the basis.
+  /// Returns the tolerance of a root in a basis that is not final. It is small compared with the
+  /// change of the root by the next basis.
   double roughly() const { return 1e-7 * width(); }
 
   double searchFromEnds(Family& family);

@@ -19,9 +19,9 @@ void dropVectors(Branches& branches) {
   branches.events.clear();
 }
 
-/// Returns true if the eigenvalues in the band are i ω for the `count` lowest modes, within their
-/// errors. Even at friction 0 they are not where the problem differs from that of the modes: with
-/// an unsymmetric stiffness from a file, or with the prestress of another friction.
+/// Returns true if the eigenvalues in the band are i ω of the lowest modes, within their errors.
+/// Even at friction 0 they are not if the problem differs from that of the modes, for example by an
+/// unsymmetric stiffness from a file or by the prestress of another friction.
 bool areFreeModes(const Station& station, const std::vector<double>& angularFrequency,
                   std::size_t count) {
   constexpr double near = 1e-6;
@@ -63,12 +63,12 @@ std::string Followed::statement() const {
                    : "of the reduced problem, not confirmed by a Sturm count");
   if (complete()) {
     text += formatted(
-        "all followed to friction %g, where there are %d: %d entered and %d left across the edge",
+        "all tracked to friction %g, where there are %d: %d entered and %d left across the edge",
         last.friction, branches.inBandAt(last), branches.entered, branches.left);
     if (activeSet.size() > 1)
       text += formatted(", through %zu changes of the active set", activeSet.size() - 1);
   } else {
-    text += "not all followed:";
+    text += "not all tracked:";
     for (const auto& gap : branches.gaps)
       if (!gap.identityOnly)
         text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.what.c_str());

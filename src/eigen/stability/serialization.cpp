@@ -3,12 +3,12 @@
 
 namespace squeal::tracking {
 
-/// The streams find these by their arguments.
+/// The streams find these by argument-dependent lookup.
 void fields(Stream& stream, Station& station);
 void fields(Stream& stream, Event& event);
 void fields(Stream& stream, Gap& gap);
 
-// All members are named, so that a new one does not compile until it is kept too.
+// These list all members: a new one does not compile until it is added here.
 
 void fields(Stream& stream, Station& station) {
   auto& [friction, swept, pairs, branch, overlap, inBand, piece] = station;

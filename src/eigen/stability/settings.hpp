@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The choices of tracking and of the search for critical frictions.
+/// The settings of tracking and of the search for critical frictions.
 #include "eigen/pencil/settings.hpp"
 
 namespace squeal::stability {
@@ -8,7 +8,7 @@ namespace squeal::stability {
 /// Options of tracking.
 struct Settings {
   bool track = true;            ///< `-flutter_track`
-  bool requested = false;       ///< the user asks for it: `-flutter_track` is given, or
+  bool requested = false;       ///< requested explicitly: `-flutter_track` is given, or
                                 ///< `-flutter_critical` is given and on
   bool critical = true;         ///< `-flutter_critical`
   double tolerance = 1e-8;      ///< `-flutter_critical_tolerance`: relative change of a friction

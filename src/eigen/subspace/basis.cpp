@@ -14,13 +14,13 @@
 namespace squeal::subspace {
 namespace {
 
-/// A direction counts as independent of the others, to within 1e-6, if its eigenvalue of the Gram
-/// matrix exceeds this part of the largest one.
+/// A direction counts as linearly independent, to within 1e-6, if its eigenvalue of the Gram matrix
+/// exceeds this fraction of the largest one.
 constexpr double independent = 1e-12;
 
-/// Returns combinations that are orthonormal in the positive semi-definite matrix `gram`. Each
-/// column of the matrix is first taken as of unit size, and combinations whose eigenvalue is
-/// `small` times the largest or less are left out.
+/// Returns combinations that are orthonormal in the positive semi-definite matrix `gram`. The
+/// columns are first scaled to unit size, and combinations with an eigenvalue of at most `small`
+/// times the largest are omitted.
 linalg::DenseMatrix orthonormalising(linalg::DenseMatrix gram, double small) {
   const PetscInt n = gram.rows();
   std::vector<double> scale(n);
@@ -37,15 +37,15 @@ linalg::DenseMatrix orthonormalising(linalg::DenseMatrix gram, double small) {
   return kept;
 }
 
-/// Sets those diagonal entries to zero that are `small` times the whole energy of their column,
-/// with its `parts` along V, or less.
+/// Sets diagonal entries to zero if they are at most `small` times the total energy of their
+/// column, including its `parts` along V.
 void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts, double small) {
   for (PetscInt j = 0; j < energy.columns(); ++j)
     if (energy(j, j) <= small * linalg::squaredLength(parts.column(j))) energy(j, j) = 0;
 }
 
-/// Returns true if the parts of energy-orthonormal vectors along V leave these all but orthogonal
-/// to it.
+/// Returns true if energy-orthonormal vectors with the components `along` V are nearly orthogonal
+/// to V.
 bool isLittle(const linalg::DenseMatrix& along) {
   constexpr double little = 1e-8;  // 1e-4 of their length
   for (PetscInt j = 0; j < along.columns(); ++j)
@@ -53,7 +53,8 @@ bool isLittle(const linalg::DenseMatrix& along) {
   return true;
 }
 
-/// Clears the parts along the constraint modes, to which all other vectors are orthogonal.
+/// Sets the components along the constraint modes to zero: all other vectors are orthogonal to
+/// these.
 void clearConstraintModes(linalg::DenseMatrix& parts, PetscInt count) {
   for (PetscInt j = 0; j < parts.columns(); ++j)
     for (PetscInt i = 0; i < count; ++i) parts(i, j) = 0;
@@ -78,7 +79,7 @@ Basis::Basis(const modes::Modes& modes, const factor::AssociatedSystem& system,
   linalg::Block shapes = prolonged(columns.view());
   for (PetscInt j = 0; j < shapes.columns(); ++j)
     for (double& entry : shapes.column(j)) entry /= modes.angularFrequency[j];
-  // Untouched memory costs nothing, moving V does.
+  // Reserved memory is free until it is used, but moving V takes time.
   columns_.reserve(3 * (size() + shapes.columns()));
   columns_.append(shapes);
   OwnedVec diagonal;
@@ -94,7 +95,7 @@ Basis::Basis(const modes::Modes& modes, const factor::AssociatedSystem& system,
 
 /// Collective. Appends the sketches of the columns from `first` on.
 void Basis::sketchColumns(PetscInt first) {
-  // An order of magnitude needs few random combinations; blocks bound the memory of the copy.
+  // A few random combinations give the order of magnitude; blocks limit the memory of the copy.
   constexpr PetscInt few = 16, atOnce = 64;
   sketched_.append(sketch_->unweighted(columns_.columnRange(first, size())));
   for (; first < size(); first += atOnce) {
@@ -135,7 +136,7 @@ void Basis::addConstraintModes() {
   boundaryStiffness_ = linalg::transposedProduct(comm_, columns_, energies);
 }
 
-/// Sets the rows of the boundary to K z of z = K0⁻¹ r, which is −Yᵀr [M.60]; `answers` is Yᵀr.
+/// Sets the rows of the boundary to K z with z = K0⁻¹ r, which is −Yᵀr [M.60]; `answers` is Yᵀr.
 void Basis::answerAtBoundary(const linalg::DenseMatrix& answers, linalg::Block& residuals) const {
   const auto& boundary = substructure_.boundary;
   for (PetscInt j = 0; j < residuals.columns(); ++j)
@@ -186,9 +187,9 @@ void Basis::restore(const linalg::DenseView& columns, double lastEnergyRatio, lo
   solves_ = solves;
 }
 
-/// Collective. Adds z = K0⁻¹ R where that is all but orthogonal to V: K0 z, VᵀK0z and zᵀK0z are
-/// then R, VᵀR and zᵀR. Returns false, and adds nothing, if z is not, or if K0⁻¹ is not good enough
-/// for that.
+/// Collective. Adds z = K0⁻¹ R if it is nearly orthogonal to V: K0 z, VᵀK0z and zᵀK0z are then R,
+/// VᵀR and zᵀR. Returns false, without adding anything, if z is not nearly orthogonal or K0⁻¹ is
+/// not accurate enough.
 bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
                       const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
   const linalg::DenseMatrix combinations = orthonormalising(energy, independent),
@@ -199,7 +200,7 @@ bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
   return true;
 }
 
-/// Collective. Appends columns z, of which `forces` is K0 z and `along` VᵀK0z.
+/// Collective. Appends columns z; `forces` is K0 z, and `along` is VᵀK0z.
 void Basis::append(const linalg::Block& z, linalg::Block forces, const linalg::DenseMatrix& along) {
   forces_ = std::move(forces);
   const linalg::DenseMatrix own = linalg::transposedProduct(comm_, z, forces_);
@@ -212,12 +213,12 @@ void Basis::append(const linalg::Block& z, linalg::Block forces, const linalg::D
   columns_.append(z);
 }
 
-/// Collective. Adds the part of z orthogonal to V, where `parts` is VᵀK0z. Where V is orthonormal
-/// within δ, what is taken out leaves the part δ of itself, and is taken out again until that is
-/// little beside what remains. Of columns that depend on others or on V nothing remains in the end;
+/// Collective. Adds the component of z orthogonal to V; `parts` is VᵀK0z. If V is orthonormal
+/// within δ, each pass leaves a fraction δ of the components along V, so passes repeat until these
+/// are small compared with the remainder. Columns that depend on others or on V are dropped, since
 /// they would only add noise.
 void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts) {
-  // From 1e-6 of a column to 1e-4 of what remains takes four passes if δ is a thousandth.
+  // A remainder of 1e-6 of a column with an error of 1e-4 takes four passes if δ is a thousandth.
   constexpr int mostPasses = 6;
   linalg::DenseMatrix rest = parts;
   for (int pass = 0; pass < mostPasses; ++pass) {

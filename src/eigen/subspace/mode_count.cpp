@@ -12,7 +12,7 @@ using linalg::DenseMatrix;
 
 namespace {
 
-/// Returns the number of negative eigenvalues of a matrix that is symmetric to rounding.
+/// Returns the number of negative eigenvalues of a matrix that is symmetric within round-off.
 int countNegative(const DenseMatrix& a) {
   DenseMatrix symmetric = linalg::symmetricPart(a);
   const auto values = linalg::symmetricEigen(symmetric);

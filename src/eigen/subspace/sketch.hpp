@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions estimate norms of tall vectors from a few random combinations of their entries.
+/// Estimates of the norms of tall vectors from a few random combinations of their entries.
 ///
 /// For a matrix Ω with k columns of independent random signs [M.39],
 ///   ‖Ωᵀ r‖² / k
 /// has the mean ‖r‖² and a relative standard deviation of √(2/k) (Johnson and Lindenstrauss 1984;
-/// Achlioptas 2003). For k = 64 the norm is found to within 9 % (one deviation). Ωᵀ A V, kept for a
-/// basis V, gives the norms of residuals A V q without their n entries.
+/// Achlioptas 2003). For k = 64 the norm has a relative standard deviation of 9 %. From a stored Ωᵀ
+/// A V of a basis V follow the norms of residuals A V q without computing their n entries.
 #include <optional>
 #include <vector>
 
@@ -22,8 +22,8 @@ class Sketch {
   static constexpr double safety = 1.27;
 
   /// Collective. Makes Ω for vectors distributed like `diagonal`, [local row], the diagonal D ≥ 0
-  /// of the weighted norm √(rᵀ D r). The signs are a function of the global row, so that they do
-  /// not depend on the number of ranks. The local rows `leftOut` count in neither norm.
+  /// of the weighted norm √(rᵀ D r). The signs depend only on the global row, not on the number of
+  /// ranks. Neither norm counts the local rows `leftOut`.
   Sketch(MPI_Comm comm, const std::vector<double>& diagonal,
          const std::vector<PetscInt>& leftOut = {});
   /// Collective. Returns Ωᵀ X / √k above Ωᵀ D^½ X / √k, 2k × columns, the same on all ranks. X is
@@ -31,8 +31,8 @@ class Sketch {
   linalg::DenseMatrix of(const linalg::DenseView& x) const;
   /// Collective. Returns only Ωᵀ X / √k, with the first `count` ≤ k columns of Ω, count × columns.
   linalg::DenseMatrix unweighted(const linalg::DenseView& x, PetscInt count = size) const;
-  /// Collective. Returns the same as the first `of` for an X that is given by `rows`; its other
-  /// rows are zero.
+  /// Collective. Returns the same as the first `of` for an X given by `rows`, whose other rows are
+  /// zero.
   linalg::DenseMatrix of(const linalg::RowSet& rows, const linalg::DenseView& x) const;
 
  private:
@@ -52,18 +52,18 @@ std::vector<double> squaredLengths(const linalg::DenseView& unweighted);
 
 /// Not collective. Returns the coefficients of orthogonal combinations of columns, all × count,
 /// estimated from the sketches of the columns, 2k × all. Each column is first multiplied by its
-/// factor, [column]; the coefficients include the factors. They are the right singular vectors of
-/// the unweighted half of the sketch whose singular values exceed `small`; `count` is their number,
-/// a fraction of `all` where the columns are nearly linearly dependent. If as many as there are
-/// columns exceed `small`, they are the diagonal matrix of the factors. If nearly k do, the sketch
-/// cannot tell, and nothing is returned.
+/// factor, [column]; the coefficients include the factors. The combinations are the right singular
+/// vectors of the unweighted half of the sketch with singular values above `small`; `count` is
+/// their number, a fraction of `all` for nearly dependent columns. If all singular values exceed
+/// `small`, returns the diagonal matrix of the factors. Returns nothing if nearly k singular values
+/// exceed `small`, since the sketch then cannot determine the number.
 std::optional<linalg::DenseMatrix> leadingCombinations(const linalg::DenseView& sketches,
                                                        const std::vector<double>& factors,
                                                        double small);
 
 /// Not collective. Returns the combinations [first, last) of columns with random signs, times the
-/// factor of each column, all × (last − first). A few more of them than the columns have leading
-/// directions span these all but surely (Halko, Martinsson and Tropp 2011).
+/// factor of each column, all × (last − first). A few more combinations than leading directions
+/// span the latter almost surely (Halko, Martinsson and Tropp 2011).
 linalg::DenseMatrix randomCombinations(const std::vector<double>& factors, PetscInt first,
                                        PetscInt last);
 

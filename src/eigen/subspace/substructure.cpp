@@ -27,8 +27,8 @@ PointSpace::PointSpace(const DenseMatrix& boundaryStiffness, const std::vector<u
   LAPACKpotrf_("L", &n, stiffness.data(), &n, &info);
   if (info != 0)
     throw Error(
-        "a body is loose: with the contact nodes that are open the stiffness matrix is not "
-        "positive definite");
+        "a body is under-constrained: with the present open contact nodes the stiffness matrix is "
+        "not positive definite");
   BLAStrsm_("L", "L", "T", "N", &n, &n, &one, stiffness.data(), &n, turn_.data(), &n);
 }
 

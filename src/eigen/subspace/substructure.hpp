@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The points of a sweep need not have the same unknowns. All have the interior unknowns y; each
-/// has some of the boundary unknowns w, such as the gaps of contact nodes that open in a part of
-/// the sweep, and holds the others at zero.
+/// Unknowns of the points of a sweep. All points have the interior unknowns y. Each point has some
+/// of the boundary unknowns w, such as the gaps of contact nodes that open in a part of the sweep;
+/// its other boundary unknowns are zero.
 ///
-/// As in the component modes of Craig and Bampton (AIAA J. 6, 1968), the basis begins with a
+/// As in the component modes of Craig and Bampton (AIAA J. 6, 1968), the basis starts with a
 /// constraint mode for each boundary unknown,
 ///   Y = (−K0⁻¹ K_yw, I),   S = YᵀK Y = K_ww − K_wy K0⁻¹ K_yw   [M.60],
-/// and all other vectors have w = 0. They are orthogonal to Y in the energy of K, whatever they
-/// are: a point takes the constraint modes of its own boundary unknowns and leaves the others out,
-/// and K0, the stiffness of the interior, is the only one that is factorised.
+/// and all other vectors have w = 0. Any such vector is orthogonal to Y in the energy of K. A point
+/// uses only the constraint modes of its own boundary unknowns, and only K0, the stiffness of the
+/// interior, is factorised.
 #include <petscmat.h>
 
 #include <vector>
@@ -18,31 +18,30 @@
 
 namespace squeal::subspace {
 
-/// The unknowns x of a sweep on this rank, and the stiffness that belongs to all of them. Without
-/// boundary unknowns it is empty.
+/// The unknowns x of a sweep on this rank, and the stiffness of all unknowns. Empty without
+/// boundary unknowns.
 struct Substructure {
   Mat stiffness = nullptr;         ///< K, symmetric, borrowed
   std::vector<PetscInt> interior;  ///< [unknown of K0 on this rank] its row of K on this rank
   std::vector<PetscInt> boundary;  ///< [boundary unknown of this rank] its row of K on this rank
 };
 
-/// The part of a basis that a point takes: the constraint modes of its own boundary unknowns,
-/// turned to be orthonormal in energy, and all vectors that follow the constraint modes. Nothing
-/// here is collective.
+/// The part of a basis that a point uses: the constraint modes of its own boundary unknowns, made
+/// orthonormal in energy, and all vectors after the constraint modes. Not collective.
 class PointSpace {
  public:
-  /// Takes S, boundary × boundary, and has[boundary unknown of all ranks]: 1 where it is an unknown
-  /// of the point. Throws Error if S of these is not positive definite.
+  /// Takes S, boundary × boundary, and has[boundary unknown of all ranks]: 1 if it is an unknown of
+  /// the point. Throws Error if S of these is not positive definite.
   PointSpace(const linalg::DenseMatrix& boundaryStiffness, const std::vector<unsigned char>& has);
-  /// Returns true if the point takes the whole basis as it is.
+  /// Returns true if the point uses the whole basis unchanged.
   bool isWhole() const { return all_ == 0; }
   /// Returns the number of coordinates of the point in a basis of this size.
   PetscInt size(PetscInt basisSize) const { return basisSize - all_ + own(); }
   /// Returns the number of boundary unknowns of the point.
   PetscInt own() const { return std::ssize(kept_); }
-  /// Returns them, ascending.
+  /// Returns the boundary unknowns of the point, ascending.
   const std::vector<PetscInt>& boundary() const { return kept_; }
-  /// Returns the coordinates in the basis of a vector with the coordinates q of the point.
+  /// Converts the coordinates q of the point to coordinates of the basis.
   std::vector<Complex> lifted(const std::vector<Complex>& q) const;
   /// Returns the problem of the point from its projections on the basis.
   linalg::DenseProblem restricted(linalg::DenseProblem problem) const;
@@ -50,7 +49,7 @@ class PointSpace {
  private:
   linalg::DenseMatrix restricted(const linalg::DenseMatrix& a) const;
   PetscInt all_ = 0;            // boundary unknowns of all points
-  std::vector<PetscInt> kept_;  // those of this point, ascending
+  std::vector<PetscInt> kept_;  // boundary unknowns of this point, ascending
   linalg::DenseMatrix turn_;    // L⁻ᵀ with S = L Lᵀ of these
 };
 

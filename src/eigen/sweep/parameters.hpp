@@ -12,8 +12,8 @@ struct Parameters {
   double speed = 1;     ///< v, a factor on the base motions of all bodies and obstacles
   double pressure = 1;  ///< p, a factor on surface pressures, held displacements and displacements
                         ///< of obstacles
-  double damping = 1;   ///< c, a factor on the damping of materials, dashpots and modes, not on
-                        ///< that of friction
+  double damping = 1;   ///< c, a factor on the damping of materials, dashpots and modes, but not
+                        ///< on friction damping
 
   bool operator==(const Parameters&) const = default;
 };
@@ -29,14 +29,13 @@ inline constexpr std::array<Parameter, 4> allParameters{{{"friction", &Parameter
                                                          {"pressure", &Parameters::pressure},
                                                          {"damping", &Parameters::damping}}};
 
-/// Returns true if `at` follows `before` on a line of ascending friction: the friction is larger,
-/// and no other parameter differs.
+/// Returns true if `at` has a larger friction than `before` and equal other parameters.
 bool growsInFriction(const Parameters& before, const Parameters& at);
 /// Returns the head of a comma-separated table, "friction,speed,…".
 std::string parameterColumns();
 /// Returns the values of one row of that table.
 std::string parameterValues(const Parameters& at);
-/// Returns a text for messages such as "friction 0.4, speed 2"; factors of 1 are left out.
+/// Returns a text for messages such as "friction 0.4, speed 2"; factors of 1 are omitted.
 std::string parameterText(const Parameters& at, int digits = 6);
 
 }  // namespace squeal::sweep

@@ -33,14 +33,13 @@ double Sweep::pointCount() const {
 void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes) {
   constexpr double many = 1000, perSecond = 1e10;
   if (sweep.pointCount() < many) return;
-  // QZ on the linearised problem takes some 25 (2 m)³ operations for a basis of m vectors; m is
-  // taken as twice the number of modes.
+  // QZ on the linearised problem takes some 25 (2 m)³ operations for a basis of m vectors; assume
+  // that m is twice the number of modes.
   const double hours = sweep.pointCount() * 25 * std::pow(4.0 * modes, 3) / perSecond / 3600;
-  printWarning(
-      comm,
-      formatted("a sweep of %.0f points, %.0f steady states: about %.2g hours for their "
-                "dense eigenvalue problems alone (%d free modes)",
-                sweep.pointCount(), sweep.pointCount() / sweep.dampings.size(), hours, modes));
+  printWarning(comm, formatted("a sweep of %.0f points, %.0f steady states: their dense eigenvalue "
+                               "problems will take about %.2g hours (%d free modes)",
+                               sweep.pointCount(), sweep.pointCount() / sweep.dampings.size(),
+                               hours, modes));
 }
 
 std::vector<Parameters> Sweep::steadyPoints() const {
@@ -70,8 +69,8 @@ std::optional<std::size_t> Sweep::earlierNeighbour(std::size_t steadyPoint) cons
 }
 
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points) {
-  // The ends of a range, its middle and its quarters give most of the basis; later points need one
-  // or two rounds of corrections.
+  // The ends, the middle and the quarters of a range give most of the basis; later points need only
+  // one or two rounds of corrections.
   constexpr std::size_t first = 5, later = 16;
   std::array<double, allParameters.size()> ranges{};
   for (std::size_t k = 0; k < ranges.size() && !points.empty(); ++k) {

@@ -12,8 +12,8 @@
 namespace squeal::sweep {
 
 /// The sweep is the grid of `-flutter_friction` × `-flutter_speed` × `-flutter_pressure` ×
-/// `-flutter_damping`. Steady sliding does not depend on damping, so that one steady state belongs
-/// to all damping factors.
+/// `-flutter_damping`. Steady sliding does not depend on damping, so all damping factors share one
+/// steady state.
 struct Sweep {
   std::vector<double> frictions, speeds, pressures, dampings;  ///< ascending
   /// Returns the points of the steady states, with damping 1. The friction varies fastest, the
@@ -33,14 +33,14 @@ inline constexpr double mostPoints = 100'000;
 /// Not collective. Returns the grid of the settings. Throws Error if it has more than `mostPoints`
 /// points.
 Sweep grid(const Settings& settings);
-/// Collective. Warns of a sweep of 1000 points or more, with an estimate of the time that its
-/// eigenvalue problems take. `modes` is the number of free modes.
+/// Collective. Warns of a sweep of at least 1000 points, with a time estimate for its eigenvalue
+/// problems. `modes` is the number of free modes.
 void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
-/// Returns the indices of the points in the order in which they are solved with one growing basis,
-/// in batches of 5, 16, 16, … points. A point of the largest friction is first; each next point is
-/// the one farthest from all before, with every parameter scaled to its range. In a sweep over
-/// friction alone these are the ends, the middle and the quarters. The order does not depend on the
-/// number of ranks.
+/// Returns the indices of the points in the order of their solution with one growing basis, in
+/// batches of 5, 16, 16, … points. The first point has the largest friction. Each next point is the
+/// one farthest from all preceding points, with every parameter scaled to its range. In a sweep of
+/// only the friction, the first batch is the ends, the middle and the quarters. The order does not
+/// depend on the number of ranks.
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
 
 }  // namespace squeal::sweep

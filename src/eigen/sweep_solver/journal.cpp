@@ -37,7 +37,7 @@ void Journal::record(modes::Modes& freeModes, reduction::ReducedProblem* basis) 
     checkpoint_.write(name_ + "_modes", archive);
     modesRecorded_ = true;
   }
-  // A compressed basis does not grow: its points are found again.
+  // A compressed basis does not only grow: a resumed run solves its points again.
   if (basis && !basis->grows()) return;
   checkpoint::Archive archive(comm());
   exchangePoints(archive, basis);
@@ -51,8 +51,8 @@ void Journal::recordFinished() {
   checkpoint_.write(name_ + "_finished", archive);
 }
 
-/// Collective. Writes the basis and the points that have been found since the last call, or adds
-/// them.
+/// Collective. Writes the part of the basis and the points that are new since the last call, or
+/// reads and adds them.
 void Journal::exchangePoints(checkpoint::Archive& archive, reduction::ReducedProblem* basis) {
   const std::size_t before = state_.solved;
   archive.common(state_.affine, state_.solved, state_.failures);
@@ -72,7 +72,7 @@ void Journal::exchangePoints(checkpoint::Archive& archive, reduction::ReducedPro
   if (archive.reads()) pointsDone(state_.solved - before);
 }
 
-/// Collective. Writes all that is reported, or sets it.
+/// Collective. Writes or reads all reported results.
 void Journal::exchangeFinished(checkpoint::Archive& archive) {
   const Mat all = problem_.substructure.stiffness;  // of all unknowns; null: all are interior
   std::size_t count = state_.segments.size();

@@ -13,11 +13,10 @@
 
 namespace squeal::sweep_solver {
 
-/// A Journal records the state of a sweep in the logs of a checkpoint whose names begin with a
-/// name, and restores it.
+/// Records the state of a sweep in checkpoint logs whose names begin with `name`, and restores it.
 class Journal {
  public:
-  /// Borrows all but the name during the life of the object.
+  /// Borrows all arguments except the name during the lifetime of the object.
   Journal(checkpoint::Checkpoint& checkpoint, std::string name, const SweepProblem& problem,
           const SweepPlan& plan, SweepState& state)
       : checkpoint_(checkpoint),
@@ -27,19 +26,18 @@ class Journal {
         state_(state),
         begin_(MPI_Wtime()) {}
 
-  /// Collective. Restores the segments of a sweep that is finished. Returns false if there are
-  /// none.
+  /// Collective. Restores the segments of a finished sweep. Returns false if there are none.
   bool restoreFinished();
-  /// Collective. Returns the free modes of the interior unknowns, if they are recorded.
+  /// Collective. Returns the recorded free modes of the interior unknowns; none if there are none.
   std::optional<modes::Modes> restoredModes();
-  /// Collective. Restores the points and the basis, which is null with the direct method.
+  /// Collective. Restores the points and the basis; `basis` is null with the direct method.
   void restorePoints(reduction::ReducedProblem* basis);
 
-  /// Collective. Records what has been found since the last entry, if it is time: first the free
-  /// modes of the interior unknowns, then points and basis.
+  /// Collective. Records the results since the last entry, if an entry is due: first the free modes
+  /// of the interior unknowns, then points and basis.
   void record(modes::Modes& freeModes, reduction::ReducedProblem* basis);
-  /// Collective. Saves the finished segments, so that an interrupted run need not repeat them, if
-  /// that is worth it.
+  /// Collective. Saves the finished segments, so an interrupted run need not repeat them, if their
+  /// cost justifies an entry.
   void recordFinished();
 
  private:
@@ -54,7 +52,7 @@ class Journal {
   SweepState& state_;
   double begin_;  // s
   bool modesRecorded_ = false, setModesRecorded_ = false;
-  std::size_t exchanged_ = 0;  // solved points that the checkpoint has
+  std::size_t exchanged_ = 0;  // solved points that the checkpoint contains
 };
 
 }  // namespace squeal::sweep_solver

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Free modes in the unknowns and displacements that are reported.
+/// Free modes in the reported unknowns and displacements.
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -13,7 +13,7 @@ namespace squeal::sweep_solver {
 /// entry of magnitude 1. `trial` is T.
 std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial, int most);
 
-/// Collective. Returns modes of the interior unknowns with vectors of all unknowns.
+/// Collective. Extends the vectors of modes of the interior unknowns to all unknowns.
 modes::Modes onAllUnknowns(const modes::Modes& interior, const subspace::Basis& basis);
 
 }  // namespace squeal::sweep_solver

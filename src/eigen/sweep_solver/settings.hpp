@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The choices of all rooms that solve a sweep.
+/// The settings of all rooms that solve a sweep.
 #include <optional>
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace squeal::sweep_solver {
 
 /// Options of a sweep. Either `reduction` or `direct` has a value.
 struct Settings {
-  std::optional<modes::Settings> modes;  ///< none where no free modes are needed
+  std::optional<modes::Settings> modes;  ///< none if no free modes are needed
   std::optional<reduction::Settings> reduction;
   std::optional<direct::Settings> direct;
   std::vector<double> modalDamping{0};  ///< ratios of the free modes

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The problem of a sweep: what the terms of its points are, and how their active sets follow on
-/// each other.
+/// The problem of a sweep: the terms of its points, and the order of their active sets.
 #include <optional>
 #include <vector>
 
@@ -14,58 +13,59 @@
 
 namespace squeal::sweep_solver {
 
-/// An active set, and the steady points in a row that have it.
+/// An active set, and the consecutive steady points that have it.
 struct PointRange {
   std::size_t first = 0, last = 0;  ///< steady points [first, last); none if the active set is only
                                     ///< passed through between points
   PetscInt openNodes = 0;           ///< contact nodes that are not active, over all ranks
-  /// [boundary unknown of all ranks] 1 where it is an unknown of these points
+  /// [boundary unknown of all ranks] 1 if it is an unknown of these points
   std::vector<unsigned char> has = {};
   std::vector<pencil::Term> terms = {};  ///< of these points, in addition to those of all points
 };
 
-/// A part of the way along the friction with one active set, while the other parameters are fixed.
+/// A part of a path along the friction with one active set; the other parameters are fixed.
 struct PathPiece {
   std::optional<std::size_t> range;  ///< of SweepProblem::ranges; none: unknown
   double from = 0, to = 0;           ///< friction
 };
 
-/// The problem of steady points in a row whose basis has one factorisation, of a mesh or of
-/// matrices from files. Handles are borrowed.
+/// The problem of consecutive steady points that share a basis and a factorisation, from a mesh or
+/// from matrix files. Handles are borrowed.
 class SweepProblem {
  public:
   virtual ~SweepProblem() = default;
 
   const factor::AssociatedSystem* system = nullptr;  ///< K0 and M0 of the interior unknowns
   /// The boundary unknowns: the gaps, and tangential displacements, of the contact nodes that are
-  /// active only at some of the points.
+  /// active at only some of the points.
   subspace::Substructure substructure;
   Mat trial = nullptr;                          ///< T, from all unknowns to what is reported
   std::vector<sweep::Parameters> steadyPoints;  ///< with damping 1
   std::vector<PointRange> ranges;               ///< by active sets
   std::optional<pencil::Pencil> pencil;         ///< the terms that hold at all points; always set
-  /// [steady point] the way to it from the point before on its line, last the piece with its own
-  /// set. Empty if all points have one active set.
+  /// [steady point] the path to it from the preceding point of its line; the last piece has the
+  /// active set of the point. Empty if all points have one active set.
   std::vector<std::vector<PathPiece>> steps;
-  /// The friction of the point before the first one, if the two differ only in friction and that
-  /// point is in another problem.
+  /// The friction of the point before the first one, if the two differ only in friction and the
+  /// preceding point belongs to another problem.
   std::optional<double> frictionBefore;
 
-  /// Returns the way along the friction of the `count` points that differ from steadyPoints[first]
-  /// only in friction. All ranges are known.
+  /// Returns the path along the friction of the `count` points that differ from steadyPoints[first]
+  /// only in friction. All ranges must be known.
   std::vector<PathPiece> path(std::size_t first, std::size_t count) const;
 
   /// Collective. Returns the terms that belong only to steadyPoints[i].
   virtual std::vector<pencil::Term> termsOf(std::size_t /*i*/) const { return {}; }
-  /// Collective. Returns the same for a point between those of the sweep, where termsOf() gives
-  /// any; none if the point has another active set than steadyPoints[like], or no steady state.
+  /// Collective. Returns the same for a point between those of the sweep, for problems whose
+  /// termsOf() is not empty; none if the point has no steady state, or another active set than
+  /// steadyPoints[like].
   virtual std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& /*at*/,
                                                            std::size_t /*like*/) {
     return std::vector<pencil::Term>();
   }
   /// Collective. Adds to `point`, which belongs to steadyPoints[i], its friction work and the
-  /// sensitivities that are wanted. The pencil is that of the point; the search for left vectors
-  /// starts from `start`.
+  /// requested sensitivities. `pencil` belongs to the point; the search for left vectors starts
+  /// from `start`.
   virtual void examine(std::size_t i, const pencil::Pencil& pencil,
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
 };

@@ -37,16 +37,16 @@ std::string pointText(const pencil::ComplexModes& point) {
   return text;
 }
 
-/// Throws Error if an eigenvalue is not finite: overflow within the eigenvalue problems must not
-/// become a row of the results.
+/// Throws Error if an eigenvalue is not finite: overflow in the eigenvalue problems must not reach
+/// the results.
 void requireFiniteEigenvalues(const pencil::ComplexModes& point) {
   for (const auto& e : point.eigenvalues)
     if (!std::isfinite(e.s.real()) || !std::isfinite(e.s.imag()) || !std::isfinite(e.backwardError))
       throw Error("an eigenvalue at " + sweep::parameterText(point.at) +
-                  " is not a finite number; check the magnitudes of materials and factors");
+                  " is not finite: check the magnitudes of materials and factors");
 }
 
-/// Points that have not been solved are of no accuracy.
+/// The accuracy of unsolved points is zero.
 bool isSolved(const pencil::ComplexModes& point) { return point.accuracy > 0; }
 
 bool hasResults(const ModalSegment& segment) {
@@ -82,7 +82,7 @@ class SweepSolver {
     try {
       solveAll();
     } catch (const Interrupted&) {
-      record();  // as it is asked to stop, all that is not yet in the checkpoint
+      record();  // before it stops: all results that the checkpoint lacks
       complete = false;
     } catch (const Error& error) {
       if (std::ranges::none_of(state_.segments, hasResults)) throw;
@@ -167,8 +167,8 @@ class SweepSolver {
     stage.finish(text);
   }
 
-  /// Collective. Finds the free modes of each active set, and with them where its band ends, unless
-  /// the checkpoint has them.
+  /// Collective. Computes the free modes of each active set, which set the top of its band, unless
+  /// the checkpoint contains them.
   void findModes() {
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       auto& segment = state_.segments[k];
@@ -183,7 +183,7 @@ class SweepSolver {
     std::size_t end = 0;
     for (const auto& batch : plan_.batches) {
       end += batch.size();
-      if (end <= state_.solved) continue;  // the checkpoint has them
+      if (end <= state_.solved) continue;  // the checkpoint contains them
       std::vector<reduction::PointProblem> problems;
       for (std::size_t i : batch) {
         const Set& set = sets_[plan_.places[i].range];
@@ -207,7 +207,7 @@ class SweepSolver {
       for (auto& segment : state_.segments) segment.solves = reduced_->basis().solves();
   }
 
-  /// Collective. Finds the free modes of one active set in the basis that all have in common.
+  /// Collective. Computes the free modes of one active set in the basis that all sets share.
   void restrictModes(std::size_t k) {
     Stage stage(pencil_.comm(), "modes");
     auto& segment = state_.segments[k];
@@ -222,7 +222,7 @@ class SweepSolver {
                            residuals.empty() ? 0 : std::ranges::max(residuals)));
   }
 
-  /// Returns the lines of the sweep, with the number of the segment that each begins in.
+  /// Returns the lines of the sweep, each with the number of the segment in which it begins.
   std::vector<std::pair<stability::Line, std::size_t>> lines() const {
     std::vector<std::pair<stability::Line, std::size_t>> found;
     for (std::size_t first = 0, last = 0; first < plan_.points.size(); first = last) {
@@ -268,8 +268,8 @@ class SweepSolver {
     return {set.pencil, problemAt, state_.affine, set.number};
   }
 
-  /// Collective. Follows the eigenvalues over the friction and finds critical frictions, if that is
-  /// wanted and there is something to follow.
+  /// Collective. Tracks the eigenvalues over the friction and finds critical frictions, if that is
+  /// requested and possible.
   void followPoints() {
     const stability::Settings& settings = request_.settings.stability;
     if (!settings.track) return;
@@ -284,14 +284,14 @@ class SweepSolver {
         reduced_ ? stability::nothingToFollow(*reduced_, all) : "-flutter_method direct";
     if (!nothing.empty()) {
       if (settings.requested)
-        printLine(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
+        printLine(pencil_.comm(), "track: nothing to track (" + nothing + ")");
       return;
     }
     if (!state_.affine && !settings.requested)  // each friction put in between costs a steady state
                                                 // and terms of its own
-      return printLine(
-          pencil_.comm(),
-          "track: not done where terms follow the steady state, unless -flutter_track is given");
+      return printLine(pencil_.comm(),
+                       "track: omitted because the terms depend on the steady state; "
+                       "-flutter_track on enables it");
     Stage stage(pencil_.comm(), "track");
     auto followed = stability::followSweep(*reduced_, all, settings, pencil_.comm(),
                                            [&](const std::string& text) {
@@ -306,7 +306,7 @@ class SweepSolver {
       state_.segments[begins[i]].followed.push_back(std::move(followed[i]));
     }
     stage.finish(
-        formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of "
+        formatted("%zu branches tracked over %zu frictions, %zu critical frictions, basis of "
                   "%" PetscInt_FMT,
                   branches, stations, criticals, reduced_->basisSize()));
   }
@@ -329,7 +329,7 @@ class SweepSolver {
     state_.failures.push_back(what.find(at) == std::string::npos ? at + ": " + what : what);
   }
 
-  /// Collective. Solves a point, or notes why it has no result.
+  /// Collective. Solves a point, or records the reason why it has no result.
   void solveAlone(std::size_t i, const reduction::PointProblem& problem) try {
     std::vector<reduction::PointProblem> single;
     single.push_back({problem.at, problem.pencil.with({}), problem.set});
@@ -338,8 +338,8 @@ class SweepSolver {
     noteFailure(problem.at, error.what());
   }
 
-  /// Collective. Solves points together, or, if that fails, one by one, so that one of them does
-  /// not take the others with it.
+  /// Collective. Solves points together or, if that fails, one by one, so a failure affects only
+  /// its own point.
   void solveBatch(const std::vector<std::size_t>& batch,
                   const std::vector<reduction::PointProblem>& problems) {
     Stage stage(pencil_.comm(), "flutter");
@@ -367,7 +367,7 @@ class SweepSolver {
     return state_.segments[plan_.places[i].range].points[plan_.places[i].inRange];
   }
 
-  /// Returns where the search for the left vectors of the stored shapes starts.
+  /// Returns the start space of the search for the left vectors of the stored shapes.
   sensitivity::StartSpace startSpace(const reduction::PointProblem& problem,
                                      const pencil::ComplexModes& point) const {
     if (!request_.settings.sensitivity.wanted || point.shapes.empty()) return {};
@@ -382,7 +382,7 @@ class SweepSolver {
   SweepState state_;
   Journal journal_;
   std::vector<Set> sets_;        // [range]
-  modes::Modes forLeftVectors_;  // with the direct method, which has no modes of its own
+  modes::Modes forLeftVectors_;  // for the direct method, which computes no modes itself
   modes::Modes interiorModes_;   // if several active sets share the basis
   std::unique_ptr<reduction::ReducedProblem> reduced_;
 };

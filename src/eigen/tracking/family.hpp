@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Dense problems that depend on the friction: a small model, or a large pencil in a reduced basis
-/// that may grow.
+/// Dense problems that depend on the friction: a small model, or a large pencil in a growing
+/// reduced basis.
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,16 +26,15 @@ class Family {
   /// Collective. Returns the problem at one friction in the present basis, the same on all ranks;
   /// none where it does not exist, for example because the contact opens.
   virtual std::optional<linalg::DenseProblem> at(double friction) = 0;
-  /// Collective. Returns the eigenpairs of at(friction) that the band watches, with both vectors,
-  /// if they are known; in a basis that has grown since, entries of the vectors are missing.
+  /// Collective. Returns the watched eigenpairs of at(friction), with both vectors, if they are
+  /// known. If the basis has grown since, the last entries of the vectors are missing.
   virtual std::optional<std::vector<linalg::DensePair>> watchedPairs(double) { return {}; }
-  /// Not collective. Returns the same problem. Where at() would need other ranks, its matrices are
-  /// interpolated between the known frictions. At these they are exact for the basis in which they
-  /// became known; in one that has grown since, their new rows and columns are zero. A root found
-  /// so is made exact by improve().
+  /// Not collective. Returns the same problem. If at() is collective, the matrices are interpolated
+  /// between the known frictions. At these they are exact in the basis at that time; rows and
+  /// columns of later vectors are zero. improve() removes the interpolation error at a root.
   virtual std::optional<linalg::DenseProblem> near(double friction) { return at(friction); }
-  /// Collective. Returns the pairs of at(friction) for comparison with those of another family of
-  /// the same path: in coordinates that all of these share.
+  /// Collective. Returns the pairs of at(friction) in coordinates common to all families of a path,
+  /// for comparison.
   virtual linalg::Spectrum shared(double friction, const std::vector<linalg::DensePair>& pairs) {
     return linalg::Spectrum(*at(friction), pairs);
   }

@@ -14,7 +14,7 @@
 namespace squeal::tracking {
 namespace {
 
-/// Up to this |tr(Π_i Π_j)| two eigenvalues count as having nothing in common.
+/// Up to this |tr(Π_i Π_j)|, the subspaces of two eigenvalues count as disjoint.
 constexpr double reach = 0.1;
 
 std::size_t rootOf(std::vector<std::size_t>& parent, std::size_t i) {
@@ -27,7 +27,7 @@ std::vector<std::size_t> byFrequency(const std::vector<linalg::DensePair>& pairs
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](auto a, auto b) {
     const Complex s = pairs[a].s, t = pairs[b].s;
-    // Members of a split pair have the same frequency up to rounding.
+    // Members of a split pair have the same frequency within round-off.
     return std::abs(s.imag() - t.imag()) > 1e-8 * std::abs(s) ? s.imag() < t.imag()
                                                               : s.real() > t.real();
   });
@@ -40,7 +40,7 @@ bool counted(const linalg::DenseProblem& problem, Complex s) {
 }
 
 /// Returns true if |Σ tr(Π_i Π_j) − number| over all pairs of both, with the number of pairs of
-/// `a`, is at most 0.5. Returns false also where the sum is not known.
+/// `a`, is at most 0.5. Returns false also if the sum is unknown.
 bool shared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
   Complex sum = 0;
   for (std::size_t i = 0; i < a.pairs().size(); ++i)
@@ -63,7 +63,8 @@ std::optional<linalg::Spectrum> locally(const linalg::DenseProblem& problem,
   return found;
 }
 
-/// Returns the indices of as many pairs of `all` as `from` has: those that share most with it.
+/// Returns the indices of the pairs of `all` with the largest overlap with `from`, as many as
+/// `from` has.
 std::vector<std::size_t> closest(const linalg::Spectrum& from, const linalg::Spectrum& all) {
   std::vector<std::pair<double, std::size_t>> shares;
   for (std::size_t j = 0; j < all.pairs().size(); ++j) {
@@ -95,8 +96,8 @@ std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
   for (std::size_t j = 0; j < all.pairs().size(); ++j)
     if (std::find(indices.begin(), indices.end(), j) == indices.end())
       free = std::min(free, std::abs(all.pairs()[j].s - middle));
-  // Where the eigenvalues are closer to each other than to the rest, their subspace is more
-  // accurate than they are.
+  // If the eigenvalues are closer to each other than to the rest, their subspace is more accurate
+  // than the eigenvalues themselves.
   if (auto found = locally(problem, whole, whole.pairs(), middle, free)) return found;
   return whole;
 }

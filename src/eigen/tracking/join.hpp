@@ -9,7 +9,7 @@
 namespace squeal::tracking {
 
 /// Returns true if |Re s| is at most 1e-6 |s|, or 1e-10 |s| in a damped problem. The first bound is
-/// larger because rounding splits multiple eigenvalues in problems in s².
+/// larger because round-off splits multiple eigenvalues in problems in s².
 bool neutral(Complex s, bool damped);
 /// Returns true if |Im s| is at most 1e-6 |s|.
 bool real(Complex s);
@@ -17,25 +17,25 @@ bool real(Complex s);
 bool neutralPair(const std::vector<linalg::DensePair>& two, bool damped);
 /// Returns true if the eigenvalues are s and −conj s, neither neutral nor real.
 bool splitPair(const std::vector<linalg::DensePair>& two, bool damped);
-/// Returns true if all eigenvalues are the same up to rounding.
+/// Returns true if all eigenvalues are equal within round-off.
 bool coincide(const std::vector<linalg::DensePair>& pairs);
 
 /// A group of eigenvalues at one friction ("here") and a group at another ("there") whose subspaces
 /// overlap.
 struct Group {
   std::vector<std::size_t> here, there;  ///< indices of pairs
-  double share = 0;  ///< |Σ tr(Π_i Π_j) − number here|, small where the subspaces are the same
+  double share = 0;  ///< |Σ tr(Π_i Π_j) − number here|, small if the subspaces are the same
   /// Returns true if both groups have the same number of members and nearly the same subspace.
   bool joined() const { return here.size() == there.size() && share < 0.25 * here.size(); }
 };
 
-/// Not collective. Returns the smallest groups between which all |tr(Π_i Π_j)| are at most 0.1.
-/// Groups that have members on one side only are included.
+/// Not collective. Returns the smallest groups between which all |tr(Π_i Π_j)| are at most 0.1. The
+/// list includes groups with members on only one side.
 std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& there);
 
 /// Not collective. Returns the place in `group.there` of the partner of each member of
-/// `group.here`, assigned in the order of descending overlaps. A place equal to the size of
-/// `group.there` means that no partner is left.
+/// `group.here`, assigned in the order of descending overlaps. The place is the size of
+/// `group.there` if no partner is left.
 std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Spectrum& there,
                                   const Group& group);
 /// Returns the same for two lists of equal length by their order: ascending frequency, then
@@ -44,24 +44,24 @@ std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Sp
 std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here,
                                  const std::vector<linalg::DensePair>& there);
 
-/// Collective. Returns the eigenvalues that the band watches, with Im s ≥ 0, by ascending Im s, and
-/// with both vectors, of the problems at some frictions of a family, [friction]. What the family
-/// knows is taken from it, the others are spread over the ranks. In a problem in s², where −s is an
-/// eigenvalue with every s, negative real ones are left out.
+/// Collective. Returns the watched eigenvalues with Im s ≥ 0, by ascending Im s, with both vectors,
+/// of the problems at some frictions of a family, [friction]. It takes known pairs from the family
+/// and distributes the other problems over the ranks. In a problem in s², where −s is an eigenvalue
+/// with every s, it omits negative real ones.
 std::vector<std::vector<linalg::DensePair>> watchedPairs(
     Family& family, const std::vector<double>& frictions,
     const std::vector<linalg::DenseProblem>& problems, const pencil::WatchedBand& band);
 
 /// Not collective. Returns the eigenvalues of this problem that continue those of `from`, one or
-/// two at a neighbouring friction. They are sought in their own subspace, from `expected` and
-/// `isolation` (see clusterNear()). Where that fails or ends at other eigenvalues, they are chosen
+/// two at a neighbouring friction. It searches in their own subspace, from `expected` and
+/// `isolation` (see clusterNear()). If that fails or converges to other eigenvalues, it chooses
 /// from all eigenvalues. Returns nothing if none continue those of `from`. Throws Error if LAPACK
 /// fails.
 std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
                                             const linalg::Spectrum& from, Complex expected,
                                             double isolation);
 
-/// Collective. Returns the same at a friction of the family, computed on rank 0, so that rounding
+/// Collective. Returns the same at a friction of the family, computed on rank 0, so round-off
 /// cannot make the ranks disagree. Returns nothing also if there is no problem at this friction.
 std::optional<linalg::Spectrum> continuedTo(Family& family, double friction,
                                             const linalg::Spectrum& from, Complex expected,

@@ -23,7 +23,8 @@ bool changesStability(const TraceRequest& request) {
   return unstable(request.low.pairs(), damped) != unstable(request.high.pairs(), damped);
 }
 
-/// Returns true if each eigenvalue has nearly the subspace of its mate, and little of the other.
+/// Returns true if each eigenvalue shares nearly its whole subspace with its mate, and little with
+/// the other.
 bool isClear(const TraceRequest& request, const std::vector<std::size_t>& mate) {
   const linalg::Spectrum &low = request.low.spectrum, &high = request.high.spectrum;
   bool clear = true;
@@ -36,10 +37,10 @@ bool isClear(const TraceRequest& request, const std::vector<std::size_t>& mate) 
 
 }  // namespace
 
-/// The way from an end where two eigenvalues are equal.
+/// A search from an end where two eigenvalues are equal.
 struct PairTracer::Approach {
-  bool isLost = false;            // they are not found on the way
-  std::optional<PairAt> between;  // where they have not split yet; none: they split at the end
+  bool isLost = false;            // they are not found in between
+  std::optional<PairAt> between;  // a friction before they split; none: they split at the end
 };
 
 std::optional<Trace> PairTracer::trace(const TraceRequest& request) const {
@@ -52,7 +53,7 @@ std::optional<Trace> PairTracer::trace(const TraceRequest& request) const {
   if (merging || parting) return coalesced(request, merging);
   auto mate = assigned(low.spectrum, high.spectrum, {{0, 1}, {0, 1}, 0});
   const bool clear = isClear(request, mate);
-  // A change of stability is sought on still smaller steps.
+  // A change of stability is searched on still smaller steps.
   if (clear || width(request) < (changesStability(request) ? least * smallest : smallest))
     return separate(request, std::move(mate), clear);
   const double middle = 0.5 * (low.friction + high.friction);
@@ -88,7 +89,7 @@ Trace PairTracer::coalesced(const TraceRequest& request, bool merging) const {
 }
 
 /// Returns the continuation of eigenvalues that do not meet in the step; if they are not clearly
-/// apart, their identity is a gap.
+/// distinct, a gap records their uncertain identity.
 Trace PairTracer::separate(const TraceRequest& request, std::vector<std::size_t> mate,
                            bool clear) const {
   const auto& [low, high, ids, isolation, smallest] = request;
@@ -96,7 +97,7 @@ Trace PairTracer::separate(const TraceRequest& request, std::vector<std::size_t>
   const bool damped = low.spectrum.damped();
   Trace trace{.mate = std::move(mate)};
   for (std::size_t i = 0; i < 2 && (clear || changesStability(request)); ++i) {
-    const auto& end = b[trace.mate[i]];  // whichever is which, as many change
+    const auto& end = b[trace.mate[i]];  // the number of changes does not depend on the identity
     if (auto event = crossing({.branch = ids[i],
                                .low = low.friction,
                                .high = high.friction,
@@ -107,16 +108,15 @@ Trace PairTracer::separate(const TraceRequest& request, std::vector<std::size_t>
       trace.events.push_back(std::move(*event));
   }
   if (!clear)
-    trace.gaps.push_back(
-        {low.friction, high.friction,
-         formatted("two eigenvalues near %.6g Hz are too close to distinguish: both are there, but "
-                   "which is which is uncertain",
-                   mean(a).imag() / (2 * M_PI)),
-         true});
+    trace.gaps.push_back({low.friction, high.friction,
+                          formatted("two eigenvalues near %.6g Hz are too close to distinguish: "
+                                    "both exist, but their identity is uncertain",
+                                    mean(a).imag() / (2 * M_PI)),
+                          true});
   return trace;
 }
 
-/// Follows two eigenvalues over a friction in between.
+/// Traces two eigenvalues via a friction in between.
 std::optional<Trace> PairTracer::traceBy(const PairAt& between, const TraceRequest& request) const {
   const auto& [low, high, ids, isolation, smallest] = request;
   auto first = trace({low, between, ids, isolation, smallest});
@@ -131,7 +131,7 @@ std::optional<Trace> PairTracer::traceBy(const PairAt& between, const TraceReque
   return first;
 }
 
-/// Returns the two eigenvalues at a part of the way from where they are equal to `apart`.
+/// Returns the two eigenvalues at the fraction `part` of the path from `equal` to `apart`.
 std::optional<PairAt> PairTracer::within(const PairAt& equal, const PairAt& apart, double part,
                                          double isolation) const {
   const double friction = equal.friction + part * (apart.friction - equal.friction);
@@ -141,7 +141,7 @@ std::optional<PairAt> PairTracer::within(const PairAt& equal, const PairAt& apar
   return PairAt{friction, std::move(*found)};
 }
 
-/// Finds whether two eigenvalues split right where they are equal, into those at `apart`.
+/// Finds whether two equal eigenvalues split immediately into those at `apart`.
 PairTracer::Approach PairTracer::approach(const PairAt& equal, const PairAt& apart,
                                           const TraceRequest& request) const {
   const bool damped = apart.spectrum.damped();
@@ -151,7 +151,7 @@ PairTracer::Approach PairTracer::approach(const PairAt& equal, const PairAt& apa
     auto found = within(equal, last, closer, request.isolation);
     if (!found) return {.isLost = true, .between = {}};
     if (coincide(found->pairs())) break;
-    // In a problem in s² the growth may be too small here to count as such.
+    // In a problem in s² the growth may be too small to be recognised here.
     if (damped ? unstable(found->pairs(), true) != unstable(apart.pairs(), true)
                : discriminant(found->pairs(), false) > 0)
       way.between = found;
@@ -160,9 +160,8 @@ PairTracer::Approach PairTracer::approach(const PairAt& equal, const PairAt& apa
   return way;
 }
 
-/// Does the same as trace() for two eigenvalues that are equal at an end. If one of them changes
-/// its stability, the step is cut ever closer to that end, since the change may lie anywhere near
-/// it.
+/// Does the same as trace() for two eigenvalues that are equal at an end. If one changes its
+/// stability, the step is cut ever closer to that end, since the change may be anywhere near it.
 std::optional<Trace> PairTracer::traceFromEqual(const TraceRequest& request) const {
   const auto& [low, high, ids, isolation, smallest] = request;
   const auto &a = low.pairs(), &b = high.pairs();

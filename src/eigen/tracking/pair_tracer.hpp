@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Two eigenvalues that mix, followed in their common subspace.
+/// Tracking of two eigenvalues that mix, in their common subspace.
 #include <optional>
 #include <vector>
 
@@ -28,12 +28,12 @@ struct TraceRequest {
 
 /// The continuation of eigenvalues over a step.
 struct Trace {
-  std::vector<std::size_t> mate;  ///< [pair at the lower end] the same at the upper end
+  std::vector<std::size_t> mate;  ///< [pair at the lower end] its continuation at the upper end
   std::vector<Event> events = {};
   std::vector<Gap> gaps = {};
 };
 
-/// A PairTracer halves a step until two eigenvalues are identified.
+/// Halves a step until two eigenvalues are identified.
 class PairTracer {
  public:
   /// Borrows the family.

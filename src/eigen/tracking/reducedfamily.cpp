@@ -29,7 +29,7 @@ sweep::Parameters ReducedFamily::point(double friction) const {
   return at;
 }
 
-/// Returns the projection of the terms that all points of the line share.
+/// Returns the projection of the terms common to all points of the line.
 linalg::DenseProblem ReducedFamily::ofAll(double friction) const {
   return reduced_.project({point(friction), source_.shared.with({}), source_.set});
 }
@@ -74,21 +74,21 @@ void ReducedFamily::know(const std::vector<double>& frictions) {
         keep({friction, reduced_.basisSize(), reduced_.projectOwn(*problem)});
 }
 
-/// Keeps the node; it replaces one at the same friction, which is of a smaller basis.
+/// Stores the node. It replaces one at the same friction, which belongs to a smaller basis.
 void ReducedFamily::keep(Node node) {
   std::erase_if(nodes_, [&](const Node& other) { return other.friction == node.friction; });
   nodes_.push_back(std::move(node));
 }
 
-/// Returns the smallest distance of nodes: with closer ones the interpolant's slope would be
-/// rounding.
+/// Returns the smallest distance of nodes: with closer ones the slope of the interpolant would be
+/// round-off.
 double ReducedFamily::closest() const {
   double largest = 0;
   for (const auto& node : nodes_) largest = std::max(largest, std::abs(node.friction));
   return 1e-4 * largest;
 }
 
-/// Returns the nearest nodes, six at most, that are not too close to each other.
+/// Returns at most six nearest nodes that are not too close to each other.
 std::vector<const ReducedFamily::Node*> ReducedFamily::nodesFor(double friction) const {
   constexpr std::size_t most = 6;
   std::vector<const Node*> all, chosen;
@@ -138,7 +138,7 @@ reduction::Improvement ReducedFamily::improve(const std::vector<PairsAtFriction>
   }
   if (source_.local) return result;
   const double apart =
-      closest();  // older nodes must not stand beside these; these may stand beside each other
+      closest();  // older nodes must not be near these, which may be near each other
   for (std::size_t place : places)
     std::erase_if(nodes_, [&](const Node& node) {
       return std::abs(node.friction - located[place].friction) <= apart;

@@ -15,7 +15,7 @@
 
 namespace squeal::tracking {
 
-/// The terms that all points share, and those of a single point.
+/// The common terms of all points, and the terms of single points.
 struct ProblemSource {
   const pencil::Pencil& shared;  ///< the terms of all points of the line, borrowed
   /// Returns the problem of a point; none if there is no steady state with this active set.
@@ -25,13 +25,13 @@ struct ProblemSource {
   int set = 0;         ///< boundary unknowns of the points
 };
 
-/// All frictions of one speed, pressure and damping. Where points have terms of their own, each new
-/// friction costs a steady state and a projection on all ranks; near() then interpolates the
+/// All frictions of one speed, pressure and damping. If points have terms of their own, each new
+/// friction takes a steady state and a projection on all ranks; near() then interpolates the
 /// projections of these terms.
 class ReducedFamily : public Family {
  public:
   using Progress = std::function<void(const std::string&)>;
-  /// Borrows everything but `line`, which is copied.
+  /// Borrows all arguments except `line`, which is copied.
   ReducedFamily(reduction::ReducedProblem& reduced, MPI_Comm comm, const sweep::Parameters& line,
                 const ProblemSource& source, const Progress& progress)
       : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
@@ -47,7 +47,7 @@ class ReducedFamily : public Family {
   reduction::Improvement improve(const std::vector<PairsAtFriction>& located) override;
 
  private:
-  /// The terms that belong to one friction, projected on the basis at that time.
+  /// The terms of one friction, projected on the basis at the time.
   struct Node {
     double friction;
     PetscInt basisSize;

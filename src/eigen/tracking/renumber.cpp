@@ -36,9 +36,8 @@ class Order {
     }
   }
 
-  /// Orders a list of branches by their eigenvalues at the station; those that are equal there are
-  /// ordered by the next stations. Branches that have ended before the station keep their order,
-  /// behind the others.
+  /// Orders a list of branches by their eigenvalues at the station; equal ones are ordered by the
+  /// next stations. Branches that have ended before the station keep their order, after the others.
   void apply(std::vector<int>& list, std::size_t station) const {
     if (list.size() < 2 || station == at_.size()) return;
     const Eigenvalues& here = at_[station];

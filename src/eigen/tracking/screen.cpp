@@ -12,7 +12,6 @@ namespace squeal::tracking {
 namespace {
 
 /// Returns the slopes of the eigenvalues at one end of the step,
-///   ds/df = −yᴴ P_f x / (yᴴ P_s x),
 /// with P_f from the difference over the step. This is exact where P is linear in f, and elsewhere
 /// good enough to look for candidates.
 std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low,
@@ -57,8 +56,8 @@ struct Cubic {
   }
 };
 
-/// Decides whether a function over a step, t from 0 to 1, that is positive at both ends, is
-/// negative somewhere.
+/// Decides whether a function over a step, t from 0 to 1, that is positive at both ends, becomes
+/// negative in between.
 class Dip {
  public:
   enum class Result { negative, positive, unknown };
@@ -66,9 +65,9 @@ class Dip {
   Dip(double atLow, double atHigh)
       : atLow_(atLow), atHigh_(atHigh), nothing_(1e-10 * std::max(atLow, atHigh)) {}
 
-  /// Searches from t by parabolas through three points, which come closer as the minimum
-  /// approaches zero. `value(t)` is NaN where it is not known. If the last parabola has not
-  /// decided, the result is unknown.
+  /// Searches from t by parabolas through three points, which move closer as the minimum approaches
+  /// zero. `value(t)` is NaN if it is unknown. If the last parabola gives no decision, the result
+  /// is unknown.
   template <class Function>
   Result search(double t, const Function& value) {
     constexpr int most = 6;
@@ -96,7 +95,7 @@ class Dip {
       if (inside) {
         if (least > 0.1 * middle) return Result::positive;
       } else if (below < above ? low == 0 : high == 1) {
-        return Result::positive;  // it falls to an end of the step and is positive there
+        return Result::positive;  // it falls towards an end of the step and is positive there
       }
       at_ = inside ? vertex : below < above ? low : high;
       middle = value(at_);
@@ -109,7 +108,6 @@ class Dip {
   double atLow_, atHigh_, nothing_, at_ = 0;
 };
 
-/// The examination of one step.
 class Screening {
  public:
   Screening(Family& family, const StepEnd& low, const StepEnd& high,
@@ -159,7 +157,7 @@ class Screening {
     if (result == Dip::Result::positive) return;
     if (result == Dip::Result::unknown) {
       gaps_.push_back({low_.friction, high_.friction,
-                       formatted("what eigenvalues near %.6g Hz do in between was not found",
+                       formatted("eigenvalues near %.6g Hz could not be examined in between",
                                  mean(event.below).imag() / (2 * M_PI))});
       return;
     }
@@ -188,15 +186,15 @@ class Screening {
     const std::vector<linalg::DensePair> below{a.below, b.below}, above{a.above, b.above};
     const double isolation = isolationOf(i, j);
     Dip dip(d0 * d0, d1 * d1);
-    // Where they are equal at both ends, differences are round-off: only a growth that counts as
-    // such indicates a merger.
+    // If they are equal at both ends, differences are round-off: only a significant growth
+    // indicates a merger.
     const bool equalTwice = coincide(below) && coincide(above);
     const auto result = dip.search(equalTwice ? 0.5 : t, [&](double at) {
       const double value = examine(at, below, above, isolation);
       const bool nothing = equalTwice && !std::isnan(value) && neutralPair(found_, damped());
       return nothing ? 0 : value;
     });
-    const bool lower = d0 < 0;  // a is: it becomes the growing one
+    const bool lower = d0 < 0;  // a has the lower frequency and becomes the growing one
     record(result, dip,
            {Event::Kind::coalescence, lower ? a.branch : b.branch, lower ? b.branch : a.branch,
             true, 0, 0, below, above, isolation});
@@ -213,7 +211,7 @@ class Screening {
     return distance;
   }
 
-  /// Examines whether the growth rate of an eigenvalue changes its sign twice.
+  /// Examines whether the growth rate of an eigenvalue changes sign twice.
   void arch(std::size_t i) {
     const ContinuedPair& a = singles_[i];
     const double g0 = a.below.s.real(), g1 = a.above.s.real();

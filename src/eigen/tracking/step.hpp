@@ -17,13 +17,13 @@ struct Link {
   double overlap;
 };
 
-/// The result of one step, discarded if the step is halved. Its branches are indices of pairs at
-/// the lower end until all earlier steps are finished.
+/// The result of one step, discarded if the step is halved. Until all earlier steps are finished,
+/// its branches are indices of pairs at the lower end.
 struct StepResult {
   std::vector<Link> links;
   std::vector<Event> events;
   std::vector<Gap> gaps;
-  std::vector<ContinuedPair> singles;  ///< to be screened
+  std::vector<ContinuedPair> singles;  ///< candidates for screen()
   bool sure = true;
 };
 
@@ -32,17 +32,17 @@ struct SolvedStation {
   Station station;
   linalg::DenseProblem problem;
   linalg::Spectrum spectrum;
-  std::optional<StepResult> step = {};  ///< from the station before
-  bool whole = false;                   ///< the step from the station before is not to be halved
+  std::optional<StepResult> step = {};  ///< from the preceding station
+  bool whole = false;                   ///< the step from the preceding station must not be halved
   double smallest = 0;                  ///< smallest step here
 };
 
-/// Returns the event of an eigenvalue that changes its stability by itself, or of two equal ones
-/// that do so together. `event` has the pairs and frictions at both ends; `before` and `after` are
-/// the signs of the growth there. Returns none if the stability does not change.
+/// Returns the event of an eigenvalue that changes its stability by itself, or of two equal
+/// eigenvalues that change together. `event` has the pairs and frictions at both ends; `before` and
+/// `after` are the signs of the growth there. Returns none if the stability does not change.
 std::optional<Event> crossing(Event event, int before, int after);
-/// Returns the event of equal eigenvalues that split at a friction, for one of them. `event` has
-/// its branch and its pairs; it loses its stability if `loss`, otherwise it regains it.
+/// Returns the event of equal eigenvalues that split at a friction, for one eigenvalue. `event` has
+/// its branch and its pairs. With `loss` it loses stability, otherwise it regains it.
 Event splitting(Event event, bool loss, double friction);
 
 }  // namespace squeal::tracking

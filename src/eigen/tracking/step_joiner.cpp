@@ -79,7 +79,6 @@ double StepJoiner::isolation(const Ends& ends, const Group& group) const {
   return distance;
 }
 
-/// Joins one eigenvalue at each end.
 void StepJoiner::joinSingle(const Ends& ends, const Group& group, StepResult& step) const {
   const auto& [a, b, here, there] = ends;
   const std::size_t i = group.here[0], j = group.there[0];
@@ -117,7 +116,7 @@ void StepJoiner::joinUncertain(const Ends& ends, const Group& group, bool counts
                  group.here.size(), mean(pairs).imag() / (2 * M_PI), group.there.size())});
 }
 
-/// Joins a group whose eigenvalues jump.
+/// Joins a group across a jump of the eigenvalues.
 void StepJoiner::joinAcrossJump(const Ends& ends, const Group& group, StepResult& step) const {
   const auto& [a, b, here, there] = ends;
   const bool damped = there.damped();
@@ -139,8 +138,8 @@ void StepJoiner::joinAcrossJump(const Ends& ends, const Group& group, StepResult
   }
 }
 
-/// Follows several eigenvalues as a group. Returns none if more frictions in between are needed to
-/// identify them.
+/// Traces several eigenvalues as a group. Returns none if their identification needs more frictions
+/// in between.
 std::optional<Trace> StepJoiner::traced(const Ends& ends, const Group& group) const {
   const auto& [a, b, spectrumHere, spectrumThere] = ends;
   const auto here = chosen(spectrumHere.pairs(), group.here),
@@ -161,8 +160,8 @@ std::optional<Trace> StepJoiner::traced(const Ends& ends, const Group& group) co
   return Trace{.mate = std::move(mate), .events = std::move(*events)};
 }
 
-/// Returns events where three or more eigenvalues are equal at one end and change their stability
-/// right there. Returns none if they change it elsewhere.
+/// Returns the events of three or more eigenvalues that are equal at one end and change their
+/// stability there. Returns none if they change it elsewhere.
 std::optional<std::vector<Event>> StepJoiner::splittings(
     const Ends& ends, const Group& group, const std::vector<std::size_t>& mate) const {
   const auto& [a, b, spectrumHere, spectrumThere] = ends;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The eigenvalues at both ends of a step are joined group by group.
+/// Joins the eigenvalues at both ends of a step group by group.
 #include <optional>
 #include <vector>
 
@@ -12,7 +12,7 @@
 
 namespace squeal::tracking {
 
-/// A StepJoiner joins the eigenvalues of two stations whose subspaces overlap.
+/// Joins the eigenvalues of two stations whose subspaces overlap.
 class StepJoiner {
  public:
   /// Borrows the family and the band.

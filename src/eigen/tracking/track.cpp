@@ -15,7 +15,7 @@
 namespace squeal::tracking {
 namespace {
 
-/// Follows eigenvalues along a path, batch by batch of its frictions.
+/// Tracks eigenvalues along a path, in batches of its frictions.
 class Follower {
  public:
   Follower(const std::vector<Piece>& path, const pencil::WatchedBand& band,
@@ -31,7 +31,7 @@ class Follower {
   }
 
  private:
-  static constexpr std::size_t mostTogether = 4;  // stations whose matrices are held at a time
+  static constexpr std::size_t mostTogether = 4;  // stations whose matrices are in memory at a time
 
   Family& family() const { return *path_[piece_].family; }
   StepJoiner joiner() const { return {family(), result_.band}; }
@@ -100,8 +100,8 @@ class Follower {
     return list;
   }
 
-  /// Adds frictions in between until all continuations are certain or the steps are too small. The
-  /// problems of a round are solved together.
+  /// Inserts frictions until all continuations are certain or the steps are too small. Solves the
+  /// problems of a round together.
   void refine(std::list<SolvedStation>& row) {
     for (bool open = true; open;) {
       std::vector<std::list<SolvedStation>::iterator> places;
@@ -141,7 +141,8 @@ class Follower {
         result_.entered += !a->station.inBand[link.here] && b.station.inBand[link.there];
         result_.left += a->station.inBand[link.here] && !b.station.inBand[link.there];
       }
-      // At a jump the problems at both ends have other unknowns, and nothing lies in between.
+      // At a jump the problems at both ends have different unknowns, and there is no problem in
+      // between.
       if (a->station.piece == b.station.piece)
         screen(family(), {a->station.friction, a->problem}, {b.station.friction, b.problem},
                step.singles, step.events, step.gaps);

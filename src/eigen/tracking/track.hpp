@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Eigenvalues followed over the friction, through crossings and mergers, by their left and right
+/// Eigenvalues tracked over the friction, through crossings and mergers, by their left and right
 /// vectors.
 #include <string>
 #include <vector>
@@ -12,14 +12,14 @@
 
 namespace squeal::tracking {
 
-/// One friction of a followed sweep.
+/// One friction of a tracked sweep.
 struct Station {
   double friction = 0;
-  bool swept = true;                     ///< false: added in between to make a continuation certain
+  bool swept = true;                     ///< false: inserted to make a continuation certain
   std::vector<linalg::DensePair> pairs;  ///< in the band or in its guard zone, with left vectors
   std::vector<int> branch = {};          ///< [pair] number of its branch
-  std::vector<double> overlap = {};  ///< [pair] |tr(Π Π')| with the station before; 1 where a group
-                                     ///< was joined as a whole; 0 where the branch begins
+  std::vector<double> overlap = {};  ///< [pair] |tr(Π Π')| with the preceding station; 1 if a group
+                                     ///< was joined as a whole; 0 at the start of the branch
   std::vector<unsigned char> inBand = {};  ///< [pair] 1 if it is in the band
   std::size_t piece = 0;                   ///< of the path
 };
@@ -32,21 +32,21 @@ struct Event {
   bool loss = true;          ///< stability is lost with rising friction; false: it is regained
   double low = 0, high = 0;  ///< bracket of the friction; if equal, the event is at this friction,
                              ///< as where a double eigenvalue splits at once
-  /// The pairs concerned at `low` and at `high`. A crossing or divergence has two where equal
-  /// eigenvalues change their stability together: then each has an event with the mean of both.
+  /// The pairs concerned at `low` and at `high`. A crossing or divergence has two pairs if equal
+  /// eigenvalues change their stability together; each then has an event with the mean of both.
   std::vector<linalg::DensePair> below = {}, above = {};
   double isolation = 0;   ///< distance from other eigenvalues, rad/s
-  std::size_t piece = 0;  ///< of the path; at a jump the one that begins there
+  std::size_t piece = 0;  ///< of the path; at a jump the one that begins at the jump
 };
 
-/// A range of frictions in which a continuation is not certain.
+/// A range of frictions with an uncertain continuation.
 struct Gap {
   double from = 0, to = 0;
   std::string what;           ///< the reason
   bool identityOnly = false;  ///< no eigenvalue is missing, but they cannot be distinguished
 };
 
-/// The result of following.
+/// The result of tracking.
 struct Branches {
   pencil::WatchedBand band;
   std::vector<Station> stations;  ///< ascending friction
@@ -57,9 +57,8 @@ struct Branches {
   int inBandAt(const Station& station) const;
 };
 
-/// Limits of the refinement of steps.
 struct TrackLimits {
-  /// Smallest step in which all eigenvalues are solved for, as a part of a step of the sweep.
+  /// Smallest step with a full solve, as a fraction of a step of the sweep.
   double smallest = 1. / 1024;
 };
 
@@ -69,19 +68,19 @@ struct Piece {
   std::vector<double> frictions;  ///< ascending; the next piece begins where this one ends
 };
 
-/// Collective. Follows all eigenvalues of the band over ascending frictions. A continuation is
-/// certain where the trace of the product of the spectral projectors at both ends, tr(Π Π') [M.41],
-/// is close to the number of eigenvalues joined. Other steps are halved: for two eigenvalues that
-/// mix, in their common subspace only; otherwise with all eigenvalues.
+/// Collective. Tracks all eigenvalues of the band over ascending frictions. A continuation is
+/// certain if the trace of the product of the spectral projectors at both ends, tr(Π Π') [M.41], is
+/// close to the number of eigenvalues joined. Other steps are halved: for two eigenvalues that mix,
+/// only in their common subspace; otherwise with all eigenvalues.
 ///
 /// By convention, where two neutral branches merge, the one of lower frequency becomes the growing
-/// one; where a growing and a decaying branch become neutral, the growing one becomes the one of
-/// lower frequency. Equal eigenvalues are ordered by frequency, then by growth rate.
+/// one; where a growing and a decaying branch become neutral, the growing one gets the lower
+/// frequency. Equal eigenvalues are ordered by frequency, then by growth rate.
 Branches follow(Family& family, const std::vector<double>& frictions,
                 const pencil::WatchedBand& band, const TrackLimits& limits = {});
-/// Collective. Does the same along a path. From one piece to the next eigenvalues jump; they are
-/// joined by the same projectors, in coordinates that the families share, without frictions in
-/// between. A jump over the axis is an event, and one that is not certain a gap.
+/// Collective. Does the same along a path. Eigenvalues jump from one piece to the next. The same
+/// projectors join them, in common coordinates of the families, without frictions in between. A
+/// jump across the imaginary axis is an event, and an uncertain jump is a gap.
 Branches follow(const std::vector<Piece>& path, const pencil::WatchedBand& band,
                 const TrackLimits& limits = {});
 

@@ -58,7 +58,7 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const interfaces::Interfaces& 
 void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                         const interfaces::Interfaces& all) {
   std::vector<int> moving(mesh.localNodes(),
-                          -1);  // [local node] a moving body that it belongs to
+                          -1);  // [local node] its moving body
   for (const auto& block : mesh.cells)
     for (std::size_t e = 0; e < block.body.size(); ++e)
       if (const int body = block.body[e]; bodies.motions[body].moves())
@@ -111,8 +111,7 @@ void requireMotion(const Contact& contact) {
         fastest[i] > 0)
       continue;
     const std::string& name = interface.surfaces.name;
-    throw Error(interface.label() +
-                " slides, but nothing moves along it, |w| = 0 at all its nodes; give " +
+    throw Error(interface.label() + " slides, but |w| = 0 at all its nodes; give " +
                 (interface.onObstacle() ? interfaces::obstacleVelocityName(name)
                                         : "-motion_<body>_velocity or _speed of its disc") +
                 ", or " + interfaces::roleName(name) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The contact of a mesh is built and checked.
+/// Builds and checks the contact of a mesh.
 #include <vector>
 
 #include "model/contact/contact.hpp"
@@ -9,20 +9,20 @@
 
 namespace squeal::contact {
 
-/// Collective. Builds normals, slip directions, constraints and all matrices. `ties` are those of
-/// ties::findTies(). `mesh` is borrowed by the result. Throws Error for surfaces that do not
-/// meet, a bad constraint, a pad that moves, a held component that is not tangential at a contact
-/// node, an obstacle face that is not flat, and a body that can move rigidly with the contact
-/// closed; the message names body and motion.
+/// Collective. Builds normals, slip directions, constraints and all matrices. `ties` is the result
+/// of ties::findTies(). The result borrows `mesh`. Throws Error for surfaces that do not meet, a
+/// wrong constraint, a moving pad, a held component that is not tangential at a contact node, and
+/// an obstacle face that is not flat. Also throws Error for a rigid-body mode with closed contact;
+/// the message names body and motion.
 Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, interfaces::Interfaces ties,
               const Settings& settings);
 
-/// Collective. Throws Error if nothing moves along a sliding interface, at any friction: its bodies
-/// rest on each other, and what holds or frees them along the surface is another role's matter.
+/// Collective. Throws Error if nothing moves along a sliding interface, at any friction: bodies at
+/// rest on each other need another role.
 void requireMotion(const Contact& contact);
 
-/// Collective. Throws Error, naming position and options, if a contact node with active[i] set
-/// carries friction at the swept one and does not slip: friction has no direction there.
+/// Collective. Throws Error, naming position and options, if a contact node with active[i] set has
+/// friction at `swept` but no slip velocity: friction then has no direction.
 void requireSlip(const Contact& contact, const std::vector<Slip>& slip, const Mask& active,
                  double swept);
 

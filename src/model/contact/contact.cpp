@@ -69,7 +69,7 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
     Slip state;
     state.speed = mesh::length(w);
     if (state.speed <= 1e-9 * speed * node.slipSpeed)
-      state.speed = 0;  // the direction would be that of rounding
+      state.speed = 0;  // the direction would be round-off
     if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);
     state.law = law.value(state.speed);
     state.slope = law.slope(state.speed);

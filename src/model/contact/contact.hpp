@@ -3,22 +3,23 @@
 /// Contact as a change of variables, with trial functions T and test functions L(f):
 ///   u = T x + p u0 + u_g,   L(f) = T + f Nᵀ S   [3.6].
 ///
-/// The variables z hold, at each contact node of the pad, tangential displacements and the gap g in
-/// place of the Cartesian displacement; at all other nodes they are the Cartesian displacement:
+/// At each contact node of the pad, the variables z are the tangential displacements and the gap g
+/// instead of the Cartesian displacement; at all other nodes they are the Cartesian displacement:
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
-/// A selection B drops held components and periodic images from z, so that T = A B.
+/// A selection B removes held components and periodic images from z: T = A B.
 ///
-/// On tri6 and quad8 faces the gaps g of the nodes are combined from gaps h that have a row of
-/// their own in z, g = E h, so that the shape functions of h have positive integrals [M.12].
+/// On tri6 and quad8 faces, z contains gaps h instead of the gaps g = E h of the nodes, since the
+/// shape functions of h have positive integrals [M.12].
 ///
 /// Friction is a product of two matrices with a row per contact node. N gives the normal force from
 /// the nodal forces r, and S gives the slip of u = T x, with the jump [u] = u_P − u_D:
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u].
 /// The test functions put the friction force of R_N on the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r,
-/// that is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc. Where interfaces have
-/// coefficients of their own, f S stands for S_0 + f S_1: S_0 has the rows of those whose
-/// coefficient is fixed, times it, and S_1 those of the swept ones, times their factors [M.56].
+/// that is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc. If interfaces have
+/// their own coefficients, S_0 + f S_1 replaces f S: S_0 has the rows of interfaces with a fixed
+/// coefficient, times this coefficient, and S_1 those of the swept ones, times their factors
+/// [M.56].
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -41,9 +42,9 @@ struct Slip {
   double speed = 0;                     ///< |w|, m/s
   double law = 1;                       ///< φ(|w|)
   double slope = 0;                     ///< dφ/d|w|, s/m
-  interfaces::Coefficient coefficient;  ///< factor of φ; zero where nothing slides
+  interfaces::Coefficient coefficient;  ///< factor of φ; zero without sliding
 
-  /// Returns the coefficient of friction at the swept one, and its derivative with respect to |w|,
+  /// Return the coefficient of friction at the swept one, and its derivative with respect to |w|,
   /// s/m.
   double friction(double swept) const { return coefficient.at(swept) * law; }
   double frictionSlope(double swept) const { return coefficient.at(swept) * slope; }
@@ -60,10 +61,10 @@ struct Contact {
 
   /// Returns the row of z and of N that belongs to the gap of a contact node.
   PetscInt gapRow(const ContactNode& node) const;
-  /// Collective. Returns T of an active set: see transformationOf().
+  /// Collective. Returns T of an active set (transformationOf()).
   Transformation transformation(const ActiveSet& set) const;
-  /// Returns true if the slip is the same at all points of a sweep: there are no convective terms
-  /// and the friction law is constant.
+  /// Returns true if the slip is the same at all points of a sweep, that is, without convective
+  /// terms and with a constant friction law.
   bool slipIsGiven() const { return !sliding.convected && law.constant(); }
   /// Collective. Returns the slip, [contact node], at the speed factor v, from the part of
   ///   w = −v (V + D u_D)   [2.15]
@@ -72,24 +73,24 @@ struct Contact {
   /// Collective. Returns the normal components of the nodal forces of contact, E⁻ᵀ R_N, N, from
   /// R_N, N, both [contact node]. On faces whose E is the identity they are the same.
   std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
-  /// Collective. Returns the same with R_N left out where closed[contact node] is not set.
+  /// Collective. Returns the same without R_N of the nodes where closed[contact node] is not set.
   std::vector<double> nodalForce(std::vector<double> normalForce, const Mask& closed) const;
-  /// Collective. Returns the gaps at the nodes, E h, m, from the unknown ones, both [contact node].
+  /// Collective. Returns the gaps at the nodes, E h, m, from the gap unknowns, both [contact node].
   std::vector<double> nodalGap(const std::vector<double>& gap) const;
   /// Collective. Returns Eᵀ v of forces v at the nodes, both [contact node].
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
   /// Collective. Returns E⁻¹ v of values v at the nodes, both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
-  /// Returns the powers of the swept friction with which interfaces carry friction: 0 where a
-  /// coefficient is fixed, 1 where one is swept. The same on all ranks.
+  /// Returns the powers of the swept friction in the friction of the interfaces: 0 for a fixed
+  /// coefficient, 1 for a swept one. The same on all ranks.
   std::vector<int> frictionExponents() const;
   /// Returns true if any interface sticks. The same on all ranks.
   bool hasSticking() const;
-  /// Returns true if any interface carries friction at the swept one. The same on all ranks.
+  /// Returns true if any interface has friction at `swept`. The same on all ranks.
   bool hasFriction(double swept) const;
   /// Collective. Returns S_a, N×n, for the power a of the swept friction: E⁻¹ c φ τ·[u] of u = T x,
-  /// with c the part of the coefficient that goes with this power, in the rows of the gaps of the
-  /// contact nodes with slides[i] set; other rows are empty.
+  /// with c the part of the coefficient with this power, in the gap rows of the contact nodes with
+  /// slides[i] set; other rows are empty.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, int exponent) const;
   /// Collective. Returns S_0 + f S_1 at the swept friction f.

@@ -22,7 +22,7 @@ Projection project(const Contact& contact, const Transformation& transformation,
                             projection.matrix.out()));
   check(MatMatMult(contact.sliding.reaction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    projection.reaction.out()));
-  // PETSc keeps the workspace of a product for the next one of the same pattern.
+  // PETSc stores the workspace of a product for the next product with the same pattern.
   for (const Mat result : {projection.matrix.get(), projection.reaction.get()})
     check(MatProductClear(result));
   PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
@@ -35,8 +35,8 @@ OwnedMat Projection::tested(Mat slipRows) const {
   OwnedMat sum;
   check(MatDuplicate(matrix, MAT_COPY_VALUES, sum.out()));
   if (!slipRows) return sum;
-  // The normal force of a contact node comes from its cells, and so do its tangential rows: the
-  // pattern of Sᵀ N X T lies within that of Tᵀ X T.
+  // The normal force of a contact node and its tangential rows come from the same cells, so the
+  // pattern of Sᵀ N X T is part of that of Tᵀ X T.
   check(MatAXPY(sum, 1, friction(slipRows), SUBSET_NONZERO_PATTERN));
   check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
   return sum;
@@ -51,7 +51,7 @@ PetscInt countOpen(MPI_Comm comm, const Mask& closed) {
 
 Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
                        const ActiveSet& set, Mat prestress) {
-  ActiveSet free{set.closed, {}};  // open nodes are free along the surface as well
+  ActiveSet free{set.closed, {}};  // open nodes are also free along the surface
   for (const auto isClosed : set.closed) free.released.push_back(!isClosed);
   for (std::size_t i = 0; i < set.released.size(); ++i)
     free.released[i] = free.released[i] || set.released[i];

@@ -10,16 +10,16 @@
 
 namespace squeal::contact {
 
-/// The projections of one matrix X of the bodies on the unknowns; both are null where X is.
+/// The projections of one matrix X of the bodies on the unknowns; both are null if X is.
 struct Projection {
   OwnedMat matrix;    ///< Tᵀ X T, n×n
   OwnedMat reaction;  ///< N X T, N×n: the normal forces that X exerts, in the rows of the gaps
 
   explicit operator bool() const { return matrix.get() != nullptr; }
-  /// Collective. Returns Sᵀ N X T, n×n, the friction of these normal forces, for the slip rows S.
+  /// Collective. Returns Sᵀ N X T, n×n, the friction by these normal forces, for the slip rows S.
   OwnedMat friction(Mat slipRows) const;
-  /// Collective. Returns Tᵀ X T + Sᵀ N X T as a new matrix, unsymmetric unless the slip rows are
-  /// null: a copy of Tᵀ X T then.
+  /// Collective. Returns Tᵀ X T + Sᵀ N X T as a new, unsymmetric matrix; with null slip rows, a
+  /// copy of Tᵀ X T.
   OwnedMat tested(Mat slipRows) const;
 };
 
@@ -36,16 +36,16 @@ struct Projections {
   Projection rotationStiffness;  ///< projections of K^R for the base motions
 };
 
-/// A CoupledSystem is the coupled problem with the contact closed at the active nodes. Without
-/// friction and rotation it is the associated system [4.17],
+/// The coupled problem with the contact closed at the active nodes. Without friction and rotation
+/// it is the associated system [4.17],
 ///   K0 = Tᵀ K T,   M0 = Tᵀ M T.
-/// The one factorisation of K0 serves the steady problem, the modes and the corrections of this
-/// active set.
+/// One factorisation of K0 serves the steady problem, the modes and the corrections of this active
+/// set.
 class CoupledSystem : public factor::AssociatedSystem {
  public:
-  /// Collective. Projects the matrices of the bodies. Sticking nodes move along the surface where
-  /// they are open or released; an empty mask releases none. `prestress` is added to K, has the
-  /// pattern of K and is borrowed during this call; it may be null.
+  /// Collective. Projects the matrices of the bodies. Sticking nodes can move along the surface if
+  /// they are open or released; an empty mask releases none. `prestress`, which may be null, is
+  /// added to K and has its pattern; it is borrowed during this call.
   CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact, ActiveSet set,
                 Mat prestress = nullptr);
   const Transformation& transformation() const { return projections_.transformation; }

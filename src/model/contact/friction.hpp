@@ -13,8 +13,8 @@ class FrictionLaw {
   FrictionLaw() = default;
   /// Returns 1 + (r − 1) exp(−|w|/v) for the static ratio r and the decay speed v, m/s.
   static FrictionLaw exponential(double staticRatio, double decaySpeed);
-  /// Returns the law that is linear between these factors at these speeds, m/s, which ascend, and
-  /// constant beyond.
+  /// Returns the law that interpolates these factors at ascending speeds, m/s, linearly; it is
+  /// constant beyond the table.
   static FrictionLaw table(std::vector<double> speeds, std::vector<double> factors);
   bool constant() const { return kind_ == Kind::constant; }
   /// Returns φ at the sliding speed |w|, m/s.

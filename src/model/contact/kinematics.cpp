@@ -27,8 +27,8 @@ using mesh::dot;
 
 namespace {
 
-/// The tangents t1, t2 at a contact node, with held Cartesian directions first. In a
-/// plane problem only the first is used.
+/// The tangents t1, t2 at a contact node, held Cartesian directions first. A plane problem uses
+/// only the first.
 struct Frame {
   std::vector<Point> tangents;
   std::vector<int> heldComponent;  ///< [tangent] Cartesian component held along it, or −1
@@ -52,7 +52,7 @@ Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int di
                     constraints.groups[constraints.heldBy[dimension * node.node + d]] +
                     "_clamped holds component " + "xyz"[d] + " of the contact node at " +
                     text(node.position) +
-                    ", which is not tangential there; contact decides the normal component");
+                    ", which is not tangential there; contact determines the normal component");
       frame.tangents.push_back(e);
       frame.heldComponent.push_back(d);
     }
@@ -63,7 +63,7 @@ Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int di
     return frame;
   }
   if (frame.tangents.empty()) {
-    // Any direction that is not along n will do.
+    // Start from any direction that is not along n.
     std::size_t least = 0;
     for (std::size_t d = 1; d < 3; ++d)
       if (std::abs(node.normal[d]) < std::abs(node.normal[least])) least = d;
@@ -78,16 +78,15 @@ Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int di
   return frame;
 }
 
-/// A = A_n … A_1 A_0, where A_i fills the rows of the slaves of level i and A_0 those of components
-/// that follow from others.
+/// A = A_n … A_1 A_0, where A_i fills the rows of the slaves of level i, and A_0 those of
+/// components that depend on others.
 class Factors {
  public:
   Factors(const mesh::Mesh& mesh, const interfaces::Interfaces& all);
   /// Collective. Returns A before periodicity and with gaps at the nodes.
   OwnedMat product();
-  /// Collective. Returns the values of the components of z that are no unknowns, N entries.
+  /// Collective. Returns the values of the components of z that are not unknowns, N entries.
   OwnedVec held() const;
-  /// Returns Kinematics::free.
   const std::vector<unsigned char>& free() const { return free_; }
 
  private:
@@ -100,7 +99,7 @@ class Factors {
   const mesh::Mesh& mesh_;
   const interfaces::Interfaces& all_;
   int dimension_;
-  std::vector<int> levels_;  // [owned node] level of a slave; 0: it rests on no other node
+  std::vector<int> levels_;  // [owned node] level of a slave; 0: it depends on no other node
   std::vector<unsigned char> free_;
   std::vector<double> values_;  // of components of z
 };
@@ -177,7 +176,7 @@ void Factors::setTiedRows(int level, Mat a) {
   }
 }
 
-/// Collective. Returns A_0, which fills the rows of components that follow from others.
+/// Collective. Returns A_0, which fills the rows of components that depend on others.
 OwnedMat Factors::combinedRows() {
   std::vector<PetscInt> blocks(mesh_.ownedNodes, 1);
   for (const auto& combined : all_.constraints.combined)
@@ -219,7 +218,7 @@ OwnedVec Factors::held() const {
   return vector;
 }
 
-/// Returns u_g = −A g0 of the gaps g0 without load, which the unknown gaps count.
+/// Returns u_g = −A g0 of the gaps g0 without load, which the gap unknowns include.
 OwnedVec gapOffset(const mesh::Mesh& mesh, const interfaces::Interfaces& all, Mat a) {
   const OwnedVec gaps = elasticity::nodalVector(mesh);
   {

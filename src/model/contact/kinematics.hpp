@@ -15,23 +15,23 @@ using mesh::Point;
 struct Kinematics {
   OwnedMat matrix;     ///< A, N×N
   OwnedVec offset;     ///< u0, N entries, m: held displacements and displacements of obstacles
-  OwnedVec gapOffset;  ///< u_g, N entries, m: closes the gaps that there are without load
-  /// [owned node · dimension + component of z] 1 if it is an unknown; gaps are counted as unknowns
+  OwnedVec gapOffset;  ///< u_g, N entries, m: closes the gaps without load
+  /// [owned node · dimension + component of z] 1 if it is an unknown; all gaps count as unknowns
   std::vector<unsigned char> free;
 };
 
 /// Returns the row of z and of N that belongs to the gap of a contact node.
 PetscInt gapRow(const mesh::Mesh& mesh, const interfaces::ContactNode& node);
 
-/// Returns the number of blocks in each row of blocks of a matrix that connects the slaves of this
-/// level with themselves and their masters, [owned node], at least one. Level 0 means the contact
+/// Returns the number of blocks per row of blocks, [owned node], at least one, of a matrix that
+/// connects the slaves of this level with themselves and their masters. Level 0 means the contact
 /// nodes of all levels.
 std::vector<PetscInt> blocksOfRows(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
                                    int level);
 
 /// Collective. Returns the kinematics, with periodicity P and the gap basis E. Throws Error on all
-/// ranks for a held component that is not tangential at a contact node, and for any at a node that
-/// sticks.
+/// ranks for a held component that is not tangential at a contact node, and for any held component
+/// at a sticking node.
 Kinematics kinematicsOf(const mesh::Mesh& mesh, const interfaces::Interfaces& all, Mat periodic);
 
 }  // namespace squeal::contact

@@ -15,11 +15,11 @@
 namespace squeal::contact {
 namespace {
 
-// The rigid motions are found from a small dense problem with six unknowns per connected part of
-// the mesh.
+// A small dense problem with six unknowns per connected part of the mesh gives the rigid-body
+// modes.
 
-/// A RigidMotions numbers the rigid motions of all parts: for each part 3 translations and 3
-/// rotations (2 and 1 in the plane), with rotations in units of 1/length.
+/// Numbers the rigid motions of all parts: for each part 3 translations and 3 rotations (2 and 1 in
+/// the plane), with rotations in units of 1/length.
 class RigidMotions {
  public:
   RigidMotions(const mesh::Mesh& mesh, Point centre, double length)
@@ -71,7 +71,7 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
 }
 
 /// Returns the Gram matrix Σ cᵀc over the rows c of all supports, applied to rigid motions. Springs
-/// count as supports however soft they are. The null space holds the motions that nothing prevents.
+/// count as supports, however soft. The null space contains the rigid-body modes.
 linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
                          const RigidMotions& motions, const HoldingContact& holding) {
   const int n = motions.size();
@@ -112,8 +112,8 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
       keep();
     }
     motions.add(row, mesh.nodePart[node.node], node.position, node.normal, 1);
-    // Both sides move as at the place of the slave's node: the facets of a curved master would seem
-    // to hold a rotation that is free.
+    // Both sides move as at the position of the slave's node: the facets of a curved master would
+    // otherwise seem to restrain a free rotation.
     for (const auto& [part, share] : node.masterParts)
       motions.add(row, part, node.position, node.normal, -share);
     keep();
@@ -138,8 +138,8 @@ std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contac
   const RigidMotions motions = rigidMotions(mesh);
   linalg::DenseMatrix g = gram(mesh, contact, springs, motions, holding);
   const auto eigenvalues = linalg::symmetricEigen(g);
-  // A support that extends over a thousandth of the model still holds a rotation, with 1e-6 of the
-  // weight with which it holds a translation.
+  // A support that extends over a thousandth of the model still restrains a rotation, with 1e-6 of
+  // its weight for a translation.
   if (eigenvalues.front() > 1e-12 * std::max(eigenvalues.back(), 1.0)) return std::nullopt;
   int worst = 0;
   double most = -1;
@@ -154,7 +154,7 @@ std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contac
                                           "rotation x",    "rotation y",    "rotation z"};
   const char* const* names = mesh.dimension == 2 ? plane : space;
   std::string motion;
-  double sign = 0;  // an eigenvector has none; the first part listed is positive
+  double sign = 0;  // the sign of an eigenvector is arbitrary; make the first listed part positive
   for (int k = 0; k < motions.perPart(); ++k)
     if (const double part = g(worst * motions.perPart() + k, 0); std::abs(part) > 1e-6) {
       if (sign == 0) sign = std::copysign(1, part);
@@ -166,8 +166,8 @@ std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contac
 void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact, Vec springs) {
   if (const auto loose = looseBody(mesh, contact, springs, {}))
     throw Error("singular problem: body '" + loose->body +
-                "' can move rigidly while contact stays closed without friction (" + loose->motion +
-                "); hold it with -constraint_<group>_clamped or -ground_<group>_stiffness");
+                "' can move rigidly with closed frictionless contact (" + loose->motion +
+                "); support it with -constraint_<group>_clamped or -ground_<group>_stiffness");
 }
 
 }  // namespace squeal::contact

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Rigid-body modes of bodies that nothing holds.
+/// Rigid-body modes of under-constrained bodies.
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,21 +15,22 @@ struct LooseBody {
   std::string body, motion;  ///< names of its bodies, and the rigid motion in words
 };
 
-/// The contact, without friction, that holds bodies in place.
+/// The frictionless contact that supports bodies.
 struct HoldingContact {
-  bool any = true;     ///< false: contact holds nothing
-  Mask closed = {};    ///< [contact node] 0 where it is open; empty: all are closed
-  Mask released = {};  ///< [contact node] 1 where a sticking node does not
-                       ///< hold along the surface; empty: all hold
+  bool any = true;     ///< false: contact supports nothing
+  Mask closed = {};    ///< [contact node] 0 if it is open; empty: all are closed
+  Mask released = {};  ///< [contact node] 1 if a sticking node is free along the
+                       ///< surface; empty: all stick
 };
 
-/// Collective. Returns the part that can move most freely where neither constraints, springs
-/// (Bodies::springs, may be null) nor this contact hold it. Returns none if all parts are held.
+/// Collective. Returns the part with the rigid-body mode of the least support by constraints,
+/// springs (Bodies::springs, may be null) and this contact. Returns none if all parts are
+/// supported.
 std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
                                    const HoldingContact& holding);
 
-/// Collective. Throws Error, naming the body, if a body can move without strain while the contact
-/// stays closed without friction.
+/// Collective. Throws Error, naming the body, if a body has a rigid-body mode with closed
+/// frictionless contact.
 void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact, Vec springs);
 
 }  // namespace squeal::contact

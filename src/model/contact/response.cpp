@@ -31,17 +31,17 @@ std::vector<double> responseBlock(const VelocityResponse& response, const Point&
   return block;
 }
 
-/// The fields that the response on a face needs, [local node][component], ghosts and periodic
-/// images included.
+/// Fields for the response on a face, [local node][component], including ghosts and periodic
+/// images.
 struct Fields {
   std::vector<double> pressure;  // p in the component of the gap, Pa
-  std::vector<double> friction;  // f p in the same, without φ, Pa
+  std::vector<double> friction;  // f p in the component of the gap, without φ, Pa
   std::vector<double> slip;      // w, m/s
   std::vector<double> normal;
 };
 
-/// Returns the values of a field at all local nodes from those at the contact nodes. `value` sets
-/// the components of contact node i.
+/// Extends a field from the contact nodes to all local nodes. `value` sets the components of
+/// contact node i.
 template <class Value>
 std::vector<double> spread(const Contact& contact, Mat basis, const Value& value) {
   const auto& mesh = *contact.mesh;
@@ -100,7 +100,7 @@ std::vector<double> blockAt(const Contact& contact, const Fields& fields, const 
   slip.speed = mesh::length(w);
   if (slip.speed > 0) slip.direction = mesh::scaled(w, 1 / slip.speed);
   slip.law = contact.law.value(slip.speed), slip.slope = contact.law.slope(slip.speed);
-  slip.coefficient = {1, 0};  // that of the contact is in f p
+  slip.coefficient = {1, 0};  // f p contains the coefficient of the contact
   return responseBlock(velocityResponse(slip, friction, 0, dimension), slip.direction, normal,
                        dimension);
 }

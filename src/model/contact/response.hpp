@@ -8,15 +8,15 @@
 
 namespace squeal::contact {
 
-/// A VelocityResponse gives the change −B w* of the friction force of one contact node with a
-/// change w* of its relative velocity [4.7, M.20]:
+/// The change −B w* of the friction force of one contact node by a change w* of its relative
+/// velocity [4.7, M.20]:
 ///   B = across (1 − ττᵀ − nnᵀ) + along ττᵀ.
 struct VelocityResponse {
   double across = 0;  ///< f R_N φ / |w|, N·s/m; zero in the plane, which has one tangent
   double along = 0;   ///< f R_N dφ/d|w|, N·s/m
 };
 /// Not collective. Returns these factors for the normal force R_N, N, and the swept friction, from
-/// which the slip has the coefficient f.
+/// which `slip` derives the coefficient f.
 VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
                                   int dimension);
 
@@ -28,8 +28,8 @@ OwnedMat nodalResponse(const Contact& contact, const std::vector<Slip>& slip,
                        const std::vector<double>& nodalForce, double friction);
 
 /// Collective. Returns B, N×N, N·s/m, semidefinite for a constant law, from the forces R_N ≥ 0 of
-/// the gaps, N, [contact node]. Where the gap basis is the identity it is nodalResponse(). On tri6
-/// and quad8 faces, where the nodal forces of a positive pressure may be negative, it is
+/// the gaps, N, [contact node]. If the gap basis is the identity, it equals nodalResponse(). On
+/// tri6 and quad8 faces, where a positive pressure may have negative nodal forces, it is
 ///   B_ij = ∫ f p (φ/|w| (1 − ττᵀ − nnᵀ) + dφ/d|w| ττᵀ) φᵢ φⱼ dA,
 ///   f p = Σ (f R_N / ∫φ̃ dA) φ̃,   zero where p = Σ (R_N / ∫φ̃ dA) φ̃ is negative,
 /// with w and n interpolated between the nodes.

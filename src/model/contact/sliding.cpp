@@ -19,7 +19,7 @@ using mesh::Point;
 namespace {
 
 /// Returns N: the columns of A that belong to the gaps, as rows. Forces on periodic images, on tied
-/// nodes and on neighbours in the gap basis go where their displacements come from.
+/// nodes and on neighbours in the gap basis act on the nodes that determine their displacements.
 OwnedMat reactionRows(const SlidingInput& input) {
   const auto& mesh = input.mesh;
   const OwnedMat gaps = nodalMatrix(mesh, 1);
@@ -33,7 +33,6 @@ OwnedMat reactionRows(const SlidingInput& input) {
   return result;
 }
 
-/// Returns J.
 OwnedMat jumpRows(const SlidingInput& input) {
   const auto& connections = input.interfaces.connections;
   const auto& mesh = input.mesh;
@@ -50,8 +49,8 @@ OwnedMat jumpRows(const SlidingInput& input) {
   return jump;
 }
 
-/// Returns the matrix that gives u_D at the place of each slave node, in its rows, where the meshes
-/// match or the slave is the disc itself. Images are treated like their primaries.
+/// Returns the matrix that gives u_D at the position of each slave node, in its rows, if the meshes
+/// match or the slave is the disc. Images are treated like their primaries.
 OwnedMat masterRows(const SlidingInput& input) {
   const auto& mesh = input.mesh;
   OwnedMat primaries = nodalMatrix(mesh, 1), result;
@@ -63,8 +62,8 @@ OwnedMat masterRows(const SlidingInput& input) {
   return result;
 }
 
-/// Returns the base motion of the disc at each slave surface on which u_D has the values of
-/// masterRows(), borrowed; null at the others.
+/// Returns the base motion of the disc at each slave surface with the u_D of masterRows(),
+/// borrowed; null at the others.
 std::vector<const elasticity::Motion*> discMotions(const SlidingInput& input) {
   const auto& mesh = input.mesh;
   std::vector<int> body(input.interfaces.options.size(), -1);
@@ -77,10 +76,10 @@ std::vector<const elasticity::Motion*> discMotions(const SlidingInput& input) {
   return motions;
 }
 
-/// Returns the rows of D where the slave's faces carry u_D at their nodes: they lie on faces of the
-/// disc, node on node, or are the disc's own. The disc's displacement is differentiated along them
-/// with their shape functions. At a node the derivative is averaged over the faces around it,
-/// weighted by area like the nodal forces R_N. On quadratic faces the leading errors at corners and
+/// Returns the rows of D for slave faces with u_D at their nodes, which are faces of the disc or
+/// match them node on node. It differentiates the displacement of the disc along these faces with
+/// their shape functions. The derivative at a node is the mean over the surrounding faces, weighted
+/// by area like the nodal forces R_N. On quadratic faces the leading errors at corners and
 /// mid-sides then cancel.
 OwnedMat convectedByFaces(const SlidingInput& input) {
   const auto& mesh = input.mesh;
@@ -132,7 +131,6 @@ OwnedMat convectedByFaces(const SlidingInput& input) {
   return result;
 }
 
-/// Returns D.
 OwnedMat convectedRows(const SlidingInput& input) {
   const auto& connections = input.interfaces.connections;
   const auto& mesh = input.mesh;

@@ -9,7 +9,7 @@
 
 namespace squeal::contact {
 
-/// The matrices of sliding, N×N. Rows without an entry here are empty.
+/// The matrices of sliding, N×N. Rows that are not mentioned are empty.
 struct Sliding {
   OwnedMat reaction;   ///< N: R_N of a contact node from all nodal forces, in the row of its gap
   OwnedMat jump;       ///< J: [u] = u_P − u_D in the rows of the contact nodes
@@ -17,7 +17,7 @@ struct Sliding {
                        ///< motions; null without convective terms
 };
 
-/// The matrices are made from these, all borrowed.
+/// Input of slidingOf(), all borrowed.
 struct SlidingInput {
   const mesh::Mesh& mesh;
   const elasticity::Bodies& bodies;
@@ -26,7 +26,7 @@ struct SlidingInput {
   Mat periodic;  ///< P
 };
 
-/// Collective. Returns the matrices.
+/// Collective. Returns the matrices of sliding.
 Sliding slidingOf(const SlidingInput& input);
 
 }  // namespace squeal::contact

@@ -56,7 +56,7 @@ Transformation transformationOf(const mesh::Mesh& mesh, const interfaces::Interf
   check(MatMatMult(kinematics.matrix, result.selection, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    result.trial.out()));
   check(MatSetBlockSizes(result.trial, dimension,
-                         1));  // so that T x is a nodal vector that knows its components
+                         1));  // gives T x the block size of a nodal vector
 
   return result;
 }

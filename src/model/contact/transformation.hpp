@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The trial functions T, and the unknowns that two active sets share.
+/// The trial functions T, and the common unknowns of two active sets.
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -11,11 +11,11 @@
 
 namespace squeal::contact {
 
-/// The trial functions T for one choice of the gaps that are unknowns.
+/// The trial functions T for one selection of gaps as unknowns.
 struct Transformation {
   OwnedMat selection;  ///< B, N×n
   OwnedMat trial;      ///< T = A B, N×n
-  /// [contact node] global column of its gap; −1 where it is dropped
+  /// [contact node] global column of its gap; −1 if the gap is not an unknown
   std::vector<PetscInt> gapColumn;
   PetscInt ownedColumns = 0, columns = 0;  ///< columns of this rank, and of all ranks (n)
   /// [unknown of this rank] its row of B on this rank, ascending: dimension times the owned node,
@@ -23,18 +23,18 @@ struct Transformation {
   std::vector<PetscInt> rows;
 };
 
-/// The unknowns of this rank of a system with open contact, by whether one with closed contact has
-/// them too. Both lists ascend and count from 0 on each rank.
+/// The unknowns of this rank of a system with open contact: those shared with the system with
+/// closed contact, and the others. Both lists ascend and count from 0 on each rank.
 struct ReleasedUnknowns {
   std::vector<PetscInt> shared, released;
 };
 
-/// Returns which unknowns of `open` are those of `closed`, whose unknowns are among them.
+/// Divides the unknowns of `open`, which include those of `closed`, into shared and released ones.
 ReleasedUnknowns compared(const Transformation& open, const Transformation& closed);
 
-/// Collective. Returns T, in which the gaps of closed contact nodes are no unknowns. A node of a
-/// sticking interface does not move along its master unless it is released; an empty mask releases
-/// none.
+/// Collective. Returns T, which excludes the gaps of closed contact nodes from the unknowns. A node
+/// of a sticking interface does not move along its master unless it is released; an empty mask
+/// releases none.
 Transformation transformationOf(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
                                 const Kinematics& kinematics, const ActiveSet& set);
 

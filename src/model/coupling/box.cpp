@@ -11,9 +11,9 @@
 namespace squeal::coupling {
 namespace {
 
-/// Returns the control points of the face in the Bernstein basis. Its polynomials are not negative
-/// and their sum is one, so that the face lies in the convex hull of these points (Farin, Curves
-/// and Surfaces for CAGD). On an edge of second order from x_a over x_e to x_b,
+/// Returns the control points of the face in the Bernstein basis. Its polynomials are nonnegative
+/// and sum to one, so the face lies in the convex hull of these points (Farin, Curves and Surfaces
+/// for CAGD). On an edge of second order from x_a over x_e to x_b,
 ///   c_e = 2 x_e − (x_a + x_b)/2.
 /// The middle of a quadrilateral follows from the same rule in both directions. quad8 is a quad9
 /// with the middle node x_m = Σ x_e / 2 − Σ x_c / 4.
@@ -45,15 +45,15 @@ void include(Box& box, const Box& other) {
   }
 }
 
-/// Returns what a group of boxes costs whose union is `box`: it draws faces in proportion to its
-/// size, and each is compared with the whole group (Goldsmith and Salmon 1987).
+/// Returns the cost of a group of boxes with the union `box`: the group attracts faces in
+/// proportion to its size, and each is compared with the whole group (Goldsmith and Salmon 1987).
 double sizeCost(const Box& box, std::size_t count) {
   double size = 0;
   for (std::size_t d = 0; d < 3; ++d) size += box.high[d] - box.low[d];
   return size * count;
 }
 
-/// A Group is a part of a list of boxes with the box around it.
+/// A part of a list of boxes with its bounding box.
 struct Group {
   std::span<Box> boxes;
   Box around;
@@ -64,8 +64,8 @@ struct Group {
   double cost() const { return sizeCost(around, boxes.size()); }
 };
 
-/// Divides a group of two or more where the costs of both parts add up to the least, along the axis
-/// on which it is longest. This reorders its boxes.
+/// Divides a group of at least two boxes along its longest axis, with the least sum of the costs of
+/// both parts. This reorders its boxes.
 std::pair<Group, Group> divide(const Group& group) {
   const auto& [low, high] = group.around;
   std::size_t axis = 0;
@@ -75,7 +75,7 @@ std::pair<Group, Group> divide(const Group& group) {
   std::sort(boxes.begin(), boxes.end(), [axis](const Box& a, const Box& b) {
     return a.low[axis] + a.high[axis] < b.low[axis] + b.high[axis];
   });
-  std::vector<double> upper(boxes.size());  // cost of the part from here to the end
+  std::vector<double> upper(boxes.size());  // [box] cost of the part from this box to the end
   Box box = boxes.back();
   for (std::size_t i = boxes.size(); i-- > 0;) {
     include(box, boxes[i]);
@@ -109,7 +109,7 @@ std::vector<Box> summary(std::vector<Box> boxes, std::size_t most) {
   std::vector<Group> groups;
   if (!boxes.empty()) groups.emplace_back(std::span(boxes));
   while (groups.size() < std::min(most, boxes.size())) {
-    // A single box cannot be divided, whatever it costs.
+    // A single box cannot be divided.
     const auto largest =
         std::max_element(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
           return std::pair(a.boxes.size() > 1, a.cost()) < std::pair(b.boxes.size() > 1, b.cost());

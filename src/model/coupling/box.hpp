@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A Box bounds faces in space, so that most pairs of faces are known to be apart at little cost.
+/// Boxes that bound faces in space: a cheap test that excludes most pairs of faces.
 #include "model/mortar/face.hpp"
 
 namespace squeal::coupling {
@@ -14,13 +14,13 @@ struct Box {
 };
 
 /// Returns a box that contains all points of a face of first or second order, not only its nodes,
-/// to rounding. A straight face has the box of its nodes. Not collective.
+/// within round-off. A straight face has the box of its nodes. Not collective.
 Box boxOf(const Face& face);
 
 /// Returns the box moved outwards on all sides by this distance, m.
 Box widened(Box box, double distance);
 
-/// Returns at most `most` boxes that contain all of these, each around faces that are close
+/// Returns at most `most` boxes that contain all of `boxes`, each around faces that are close
 /// together.
 std::vector<Box> summary(std::vector<Box> boxes, std::size_t most);
 

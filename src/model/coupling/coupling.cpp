@@ -61,7 +61,7 @@ SideReport sideReport(MPI_Comm comm, const std::vector<Face>& faces,
   return {PetscInt(sums[0]), PetscInt(sums[2]), sums[1], sums[3]};
 }
 
-/// Collective. Returns which faces have a face of the other side near them.
+/// Collective. Returns for each face whether a face of the other side is near.
 std::vector<bool> nearOthers(MPI_Comm comm, const std::vector<Face>& faces,
                              const std::vector<Face>& others, double searchDistance) {
   std::vector<bool> isNear;
@@ -115,8 +115,7 @@ bool masterIsFiner(const mesh::Mesh& mesh, const Interface& interface) {
                    nearOthers(mesh.comm, faces, repeated(others, ways), interface.searchDistance));
     return report.nearFaces > 0 ? report.nearArea / report.nearFaces : INFINITY;
   };
-  // Cells that are about equal do not make up for a slave that overhangs its master, as a disc
-  // does.
+  // With about equal cells, prefer the slave that does not overhang its master, unlike a disc.
   return mean(masters, slaves) < 0.8 * mean(slaves, masters);
 }
 

@@ -15,12 +15,12 @@ namespace {
 using mortar::faceType;
 using mortar::wholeIntegrals;
 
-/// A node of the slave is dropped if less than this part of its area is covered: its condition
-/// would follow from a sliver.
+/// A node of the slave is dropped if less than this fraction of its area is covered: a sliver would
+/// determine its condition.
 constexpr double leastCover = 1e-2;
-/// A slave face counts as fully covered up to this part of its area. Curved rims leave that much
-/// open, and rules on different cells differ on curved faces. It is far below the least integral of
-/// φ̃ of a fully covered face, a twentieth of the area.
+/// A slave face counts as fully covered from this fraction of its area on. Curved rims leave small
+/// parts open, and rules on different cells differ on curved faces. The open part is far below the
+/// least integral of φ̃ of a fully covered face, a twentieth of the area.
 constexpr double nearlyAll = 1 - 1e-3;
 
 /// Returns the largest distance of two corners of a face, m.
@@ -33,13 +33,13 @@ double sizeOf(const Face& face) {
   return size;
 }
 
-/// Replaces the numbers of images by those of their primaries.
+/// Replaces the node numbers of images by those of their primaries.
 void fold(const NodeExchange& exchange, std::vector<Face>& faces) {
   for (auto& face : faces)
     for (auto& node : face.nodes) node = exchange.primary(exchange.local(node));
 }
 
-/// Collective. Returns the sums over the faces of all ranks of values at their nodes, [local node].
+/// Collective. Sums values at the nodes of faces over all ranks, [local node].
 template <class Values>
 std::vector<double> nodalSums(const NodeExchange& exchange, std::size_t nodes,
                               const std::vector<CoveredFace>& faces, const Values& valuesOf) {
@@ -52,8 +52,8 @@ std::vector<double> nodalSums(const NodeExchange& exchange, std::size_t nodes,
   return sums;
 }
 
-/// Returns true for a face with an open part. One that nothing covers has no integrals that could
-/// be negative.
+/// Returns true for a face with an open part. Excludes uncovered faces, which have no negative
+/// integrals.
 bool isPartial(const CoveredFace& face) {
   return face.moments.covered > 0 && face.moments.covered < nearlyAll * face.area;
 }
@@ -74,8 +74,8 @@ std::vector<double> chooseAlpha(const NodeExchange& exchange, std::size_t nodes,
   return chosen;
 }
 
-/// Returns W, [node], of a face: φ̃ of quad9 and line3 changes its sign, so that a node may have a
-/// positive integral over the covered part and yet no positive weight.
+/// Returns W, [node], of a face: φ̃ of quad9 and line3 changes its sign, so a node may have a
+/// positive integral over the covered part but no positive weight.
 std::vector<double> weights(const CoveredFace& face, const SlaveBasis& basis) {
   const auto kept = pivots(*face.type, mortar::Multiplier::nodes, basis.droppedOf(face));
   const auto terms = integrate(face.moments, basis.alphaOf(face), kept);
@@ -84,7 +84,7 @@ std::vector<double> weights(const CoveredFace& face, const SlaveBasis& basis) {
   return values;
 }
 
-/// Drops nodes of which too little is covered. Returns true if there were any.
+/// Drops nodes with too little covered area. Returns true if there were any.
 bool drop(const std::vector<double>& covered, SlaveBasis& basis) {
   bool any = false;
   for (std::size_t node = 0; node < covered.size(); ++node) {
@@ -95,7 +95,7 @@ bool drop(const std::vector<double>& covered, SlaveBasis& basis) {
   return any;
 }
 
-/// Collective. Returns the dropped nodes of this rank at faces that are covered in part.
+/// Collective. Returns the dropped nodes of this rank at partly covered faces.
 std::vector<PetscInt> droppedOwned(const mesh::Mesh& mesh, const NodeExchange& exchange,
                                    const std::vector<CoveredFace>& faces, const SlaveBasis& basis) {
   std::vector<double> atCovered(mesh.localNodes(), 0.0);
@@ -167,7 +167,7 @@ std::vector<CoveredFace> cover(MPI_Comm comm, const Surfaces& surfaces, const st
       failure = formatted("surface '%s' near (%g, %g, %g): %s", slave.c_str(), face.points[0][0],
                           face.points[0][1], face.points[0][2], error.what());
     }
-    if (!isPartial(found)) found.moments.points = {};  // they take most of the memory
+    if (!isPartial(found)) found.moments.points = {};  // the points take most of the memory
   }
   failTogether(comm, failure);
   return faces;
@@ -203,7 +203,7 @@ SlaveBasis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
   for (const auto& face : faces)
     for (PetscInt node : face.local)
       if (excluded[node]) basis.dropped[node] = true, basis.alpha[node] = 0;
-  // Without a node, D and W of its neighbours change, of which more may have to go.
+  // Dropping a node changes D and W of its neighbours, some of which may then be dropped too.
   bool again = true;
   while (again) {
     again = drop(nodalSums(exchange, nodes, faces, coveredOf), basis);

@@ -11,7 +11,7 @@ NodeExchange::NodeExchange(const mesh::Mesh& mesh) : mesh_(mesh), primary_(mesh.
   check(VecCreateMPI(mesh.comm, mesh.ownedNodes, PETSC_DETERMINE, global_.out()));
   check(VecCreateSeq(PETSC_COMM_SELF, mesh.localNodes(), local_.out()));
   connect();
-  // Only the owner of an image knows its primary; node numbers are exact as doubles.
+  // Only the owner of an image has its primary; node numbers are exact as doubles.
   std::vector<double> primaries(mesh.localNodes(), 0.0);
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) primaries[node] = mesh.globalNode[node];
   for (const auto& image : mesh.images) primaries[image.node] = image.primary;

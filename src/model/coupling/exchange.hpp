@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A NodeExchange combines values that several ranks have at the same nodes.
+/// Combines the values of several ranks at the same nodes.
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -20,8 +20,8 @@ class NodeExchange {
   PetscInt primary(PetscInt localNode) const { return primary_[localNode]; }
   /// Collective. Replaces the values, [local node], by the sums over all ranks and images.
   void sum(std::vector<double>& values) const { combine(values, ADD_VALUES); }
-  /// Collective. Replaces the values, [local node], which are not negative, by the largest over all
-  /// ranks and images.
+  /// Collective. Replaces the nonnegative values, [local node], by the largest over all ranks and
+  /// images.
   void largest(std::vector<double>& values) const { combine(values, MAX_VALUES); }
 
  private:

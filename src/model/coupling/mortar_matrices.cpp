@@ -25,7 +25,7 @@ std::vector<double> inverted(std::vector<double> values) {
   return values;
 }
 
-/// Calls action(face, edge, middle) for each edge of each face whose mid-edge node, a pivot, is
+/// Calls action(face, edge, middle) for each edge of each face whose mid-edge node is a pivot
 /// combined with the ends; `middle` is its local number.
 template <class Action>
 void forEachEdge(const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
@@ -54,7 +54,8 @@ OwnedMat edgeMatrix(const mesh::Mesh& mesh, const NodeExchange& exchange,
                     const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
                     const Pivoting& pivoting,
                     const std::function<std::array<double, 2>(double alpha)>& middleAndEnd) {
-  const auto facesAt = facesAtEdges(mesh, exchange, faces, basis, pivoting);  // add to one row
+  const auto facesAt =
+      facesAtEdges(mesh, exchange, faces, basis, pivoting);  // faces that contribute to one row
   Triples triples;
   forEachEdge(faces, basis, pivoting, [&](const auto& face, const auto& edge, PetscInt middle) {
     const auto [atMiddle, atEnd] = middleAndEnd(basis.alpha[middle]);
@@ -94,8 +95,8 @@ Components bowsOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
 }
 
 /// Collective. Returns SlaveNode::offset of the pivots of this rank, from means `bow` over the
-/// faces of each edge. With ũ = x_j + m_j at the pivots, m_j = D_j⁻¹ Sums::offset, and x_a − x_e as
-/// the face at the edge e has it,
+/// faces of each edge. With ũ = x_j + m_j at the pivots, m_j = D_j⁻¹ Sums::offset, and x_a − x_e of
+/// the face at the edge e,
 ///   Σ P_il x_l − x_i = Σ_j E_ij m_j + Σ_a α (x_a − x_e).
 std::vector<Point> offsetsOf(const mesh::Mesh& mesh, const Pivoting& pivoting, const Sums& sums,
                              const Components& bow, Mat edges) {

@@ -8,24 +8,24 @@
 namespace squeal::coupling {
 
 /// The pivots of this rank and, on all local nodes, the factors W/D of their jumps, which are zero
-/// at nodes that are no pivots.
+/// at nodes that are not pivots.
 struct Pivoting {
   std::vector<PetscInt> owned;  ///< local nodes, ascending
   std::vector<double> ratio;    ///< [local node]
 };
 
-/// Returns the nodes that carry a condition. Not collective.
+/// Returns the nodes with a condition. Not collective.
 Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const SlaveBasis& basis,
                   const Sums& sums);
 
-/// The matrices of one coupling, with a row per node that is empty unless the node is a pivot.
+/// The matrices of one coupling, with a row per node, empty unless the node is a pivot.
 struct Matrices {
   OwnedMat masters, jumps, jumpsOf, convected;  ///< P, G, G⁻¹, rows of SlaveNode::convected
   OwnedMat parts, bodies;                       ///< shares, a column per part or body
   std::vector<Point> offsets;                   ///< SlaveNode::offset, [pivot of this rank]
 };
 
-/// Collective. Returns the matrices. The triples of the sums are used up.
+/// Collective. Returns the matrices. It consumes the triples of the sums.
 Matrices matricesOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
                     const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
                     const Pivoting& pivoting, Sums& sums);

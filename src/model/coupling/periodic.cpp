@@ -14,7 +14,7 @@ namespace {
 using mesh::Point;
 using mortar::Face;
 
-/// Adds a translation unless it is there, up to the digits of a mesh file, or zero.
+/// Adds a translation unless it is zero or already in the list, within the digits of a mesh file.
 void add(const Point& shift, double tolerance, std::vector<Point>& list) {
   const auto same = [&](const Point& other) {
     return mesh::length(mesh::minus(shift, other)) <= tolerance;
@@ -42,7 +42,7 @@ std::vector<Point> translations(const mesh::Mesh& mesh, const std::vector<Face>&
   mpi::reduce<int>(mesh.comm, bears, MPI_MAX);
   longest = mpi::max(mesh.comm, longest);
   if (longest == 0) return {};
-  const double tolerance = 1e-4 * longest;  // pairs of nodes lie apart by less
+  const double tolerance = 1e-4 * longest;  // tolerance of the pairing of nodes
   std::vector<Point> mine, ways, all;
   for (const auto& image : mesh.images)
     if (bears[mesh.nodePart[image.node]]) add(image.shift, tolerance, mine);

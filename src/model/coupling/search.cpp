@@ -19,8 +19,8 @@
 namespace squeal::coupling {
 namespace {
 
-/// The number of boxes that contain all slave faces of a rank: enough to tell faces on both sides
-/// of a disc, or at several places round it, from those between.
+/// The number of boxes that contain all slave faces of a rank: enough to separate faces on both
+/// sides of a disc, or at several places around it.
 constexpr std::size_t mostBoxes = 8;
 
 std::vector<Box> boxesOf(const std::vector<Face>& faces) {
@@ -30,14 +30,14 @@ std::vector<Box> boxesOf(const std::vector<Face>& faces) {
   return boxes;
 }
 
-/// A BoxTree finds which of many boxes touch a given one.
+/// Finds the boxes of a list that touch a given one.
 class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes) {
     std::vector<Entry> entries;
     entries.reserve(boxes.size());
     for (const auto& box : boxes) entries.emplace_back(converted(box), entries.size());
-    tree_ = Tree(entries);  // from a range it is packed, which is faster than insertion
+    tree_ = Tree(entries);  // bulk loading is faster than insertion
   }
   /// Calls action(index) for each box that touches `box`, in no particular order.
   template <class Action>
@@ -70,7 +70,8 @@ RankBoxes gather(MPI_Comm comm, const std::vector<Box>& mine) {
   return {concatenated(comm, mine), concatenated(comm, std::vector<int>(mine.size(), rank))};
 }
 
-/// Returns for each rank with a box that one of `boxes` touches the indices of all that do.
+/// Returns for each rank the indices of the `boxes` that touch a box of that rank, if there are
+/// any.
 std::map<int, std::vector<std::size_t>> wantedBy(const RankBoxes& all,
                                                  const std::vector<Box>& boxes) {
   std::map<int, std::vector<std::size_t>> wanted;
@@ -78,7 +79,8 @@ std::map<int, std::vector<std::size_t>> wantedBy(const RankBoxes& all,
   for (std::size_t i = 0; i < boxes.size(); ++i)
     tree.forEach(boxes[i], [&](std::size_t box) {
       auto& list = wanted[all.rank[box]];
-      if (list.empty() || list.back() != i) list.push_back(i);  // it may touch several of a rank
+      if (list.empty() || list.back() != i)
+        list.push_back(i);  // a box may touch several boxes of a rank
     });
   return wanted;
 }
@@ -100,8 +102,8 @@ void unpack(std::vector<char> message, std::vector<Face>& faces) {
   std::ranges::move(more, std::back_inserter(faces));
 }
 
-/// Collective. Sends each message to its rank and returns what other ranks send here. No rank needs
-/// to know before who sends to it, and none has a list of all ranks.
+/// Collective. Sends each message to its rank and returns the messages for this rank. No rank needs
+/// to know its senders in advance, and none stores a list of all ranks.
 std::vector<std::vector<char>> messagesTo(MPI_Comm comm,
                                           const std::map<int, std::vector<char>>& outgoing) {
   std::vector<PetscMPIInt> to, lengths;
@@ -109,8 +111,8 @@ std::vector<std::vector<char>> messagesTo(MPI_Comm comm,
   for (const auto& [rank, message] : outgoing) {
     if (message.size() > std::numeric_limits<PetscMPIInt>::max())
       failure =
-          "the master faces of an interface near the slave faces of one process take more than a "
-          "message holds (2 GiB); run with more processes";
+          "the master faces of an interface near the slave faces of one process exceed the size of "
+          "a message (2 GiB); run with more processes";
     to.push_back(rank);
     lengths.push_back(message.size());
   }
@@ -118,7 +120,7 @@ std::vector<std::vector<char>> messagesTo(MPI_Comm comm,
   PetscMPIInt count = 0, tag = 0, *from = nullptr, *sizes = nullptr;
   check(PetscCommBuildTwoSided(comm, 1, MPI_INT, to.size(), to.data(), lengths.data(), &count,
                                &from, &sizes));
-  MPI_Comm inner = MPI_COMM_NULL;  // PETSc's copy, where no message of anyone else has this tag
+  MPI_Comm inner = MPI_COMM_NULL;  // PETSc's copy, on which no other message has this tag
   check(PetscCommDuplicate(comm, &inner, &tag));
   std::vector<std::vector<char>> incoming(count);
   std::vector<MPI_Request> requests;
@@ -138,7 +140,7 @@ std::vector<std::vector<char>> messagesTo(MPI_Comm comm,
   return incoming;
 }
 
-/// Collective. Returns the master faces of all ranks that touch one of the boxes of this rank.
+/// Collective. Returns the master faces of all ranks that touch a box of this rank.
 std::vector<Face> nearby(MPI_Comm comm, const std::vector<Face>& masters,
                          const std::vector<Box>& slaveBoxes, std::size_t& received) {
   const int rank = mpi::rank(comm);
@@ -156,13 +158,13 @@ std::vector<Face> nearby(MPI_Comm comm, const std::vector<Face>& masters,
   return faces;
 }
 
-/// Global node numbers depend on the number of ranks, positions do not.
+/// Orders by position, since global node numbers depend on the number of ranks.
 bool before(const Face& a, const Face& b) {
   return std::tie(a.points, a.type, a.sign, a.body) < std::tie(b.points, b.type, b.sign, b.body);
 }
 
-/// Moves the faces that some slave needs to `found.masters` in their order, and renumbers the lists
-/// of the slaves accordingly.
+/// Moves the faces that a slave needs to `found.masters`, in order, and renumbers the lists of the
+/// slaves.
 void keepNeeded(Candidates& found, std::vector<Face>& faces) {
   std::vector<std::size_t> needed;
   for (const auto& list : found.ofSlave) needed.insert(needed.end(), list.begin(), list.end());

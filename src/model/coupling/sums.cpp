@@ -66,7 +66,7 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples triples, PetscInt columns) {
   check(MatSetSizes(matrix, mesh.ownedNodes, byNodes ? mesh.ownedNodes : PETSC_DECIDE,
                     PETSC_DETERMINE, columns));
   check(MatSetType(matrix, MATAIJ));
-  // This takes the indices of any rank's rows, and may change them.
+  // This accepts indices of rows of any rank, and may change them.
   check(MatSetPreallocationCOO(matrix, triples.row.size(), triples.row.data(),
                                triples.column.data()));
   check(MatSetValuesCOO(matrix, triples.value.data(), ADD_VALUES));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Sums of the couplings of single slave faces, by nodes of the mesh.
+/// Sums of the couplings of single slave faces over the nodes of the mesh.
 #include <array>
 #include <vector>
 
@@ -12,8 +12,9 @@ namespace squeal::coupling {
 
 using elasticity::Triples;
 
-/// Collective. Returns the matrix with a row per node of the triples of all ranks, which may be of
-/// any rows, with `columns` columns, or one per node. Triples of one place are added.
+/// Collective. Returns the matrix of the triples of all ranks, with a row per node and `columns`
+/// columns (default: one per node). A rank may have triples of any row. Triples with equal indices
+/// are added.
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples triples, PetscInt columns = PETSC_DETERMINE);
 
 /// The sums over the faces of this rank. Rows and columns are primaries.
@@ -24,7 +25,7 @@ struct Sums {
   Triples bodies;                          ///< M by bodies of the master
   std::vector<double> slave, weight, gap;  ///< D, W, G, [local node], over all ranks
   /// Σ M_jl (x_l − x_j) − Σ B_jo (x_o − x_j), [component][local node], over all ranks; images count
-  /// where they are
+  /// at their own positions
   std::array<std::vector<double>, 3> offset;
   PetscInt sliverFaces = 0;  ///< FaceTerms without dual functions
 };

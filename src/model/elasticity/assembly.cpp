@@ -23,7 +23,7 @@ OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt dimension) {
   return matrix;
 }
 
-/// Collective. Makes an assembled matrix as symmetric as is said.
+/// Collective. Gives an assembled matrix the required symmetry.
 void makeSymmetric(Mat matrix, SymmetryClass symmetry) {
   if (symmetry != SymmetryClass::rounded) {  // (A ± Aᵀ)/2
     OwnedMat transposed;
@@ -79,7 +79,7 @@ NodePattern::NodePattern(const mesh::Mesh& mesh, const CellFilter& uses)
     }
     list = {};
   }
-  for (PetscInt i = 0; i < mesh.ownedNodes; ++i) {  // springs stand on the diagonal
+  for (PetscInt i = 0; i < mesh.ownedNodes; ++i) {  // springs are on the diagonal
     rows.push_back(mesh.firstNode + i);
     columns.push_back(mesh.firstNode + i);
   }
@@ -161,13 +161,13 @@ std::vector<Point> pointsOf(const mesh::Mesh& mesh, std::span<const PetscInt> no
 
 namespace {
 
-/// The number of some cells of all ranks, and the first ten by their tags in words.
+/// The number of some cells of all ranks, and a list of the first ten by tag.
 struct CellsNamed {
   PetscInt count = 0;
   std::string words;
 };
 
-/// Collective. Returns the number and the first names of the cells that the ranks have.
+/// Collective. Returns the number of the cells of all ranks and the first names.
 CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
   constexpr PetscInt most = 10;
   CellsNamed result;
@@ -214,15 +214,15 @@ void failOnInverted(const mesh::Mesh& mesh, const std::vector<InvertedCell>& inv
   if (count == 0) return;
   worst = mpi::min(mesh.comm, worst);
   byCorners = mpi::sum(mesh.comm, byCorners);
-  const std::string least = formatted(", at worst %.2g of its largest", worst);
+  const std::string least = formatted("; the worst ratio to its largest value is %.2g", worst);
   std::string message =
       count == 1 ? "inverted element: " + words + " has a Jacobian that is not positive" + least
                  : "inverted elements: " + std::to_string(count) +
                        " cells have a Jacobian that is not positive" + least + ": " + words;
   if (byCorners < count) message += "; -mesh_straighten bad straightens the edges of such cells";
   if (byCorners > 0)
-    message += "; with straight edges too, by only the corners, it is not in " +
-               std::to_string(byCorners) + " of them: mesh again";
+    message += "; with straight edges, from only the corners, it is still not positive in " +
+               std::to_string(byCorners) + " of these cells: mesh again";
   throw Error(message);
 }
 

@@ -13,8 +13,7 @@
 
 namespace squeal::elasticity {
 
-/// A Triples holds entries of a matrix as triples (row, column, value), as MatSetPreallocationCOO
-/// takes them.
+/// Entries of a matrix as triples (row, column, value), in the format of MatSetPreallocationCOO.
 struct Triples {
   std::vector<PetscInt> row, column;
   std::vector<PetscScalar> value;
@@ -23,12 +22,12 @@ struct Triples {
   }
 };
 
-/// SymmetryClass says how symmetric a matrix is. Contributions are summed in any order, so that a
-/// `rounded` matrix is symmetric up to rounding; `symmetric` and `skew` matrices are made exactly
-/// so.
+/// The symmetry of a matrix. Contributions are summed in any order, so a `rounded` matrix is
+/// symmetric only within round-off; `symmetric` and `skew` matrices are made exactly symmetric or
+/// skew.
 enum class SymmetryClass { rounded, symmetric, skew };
 
-/// Collective. Returns the N×N matrix of the triples of all ranks, which are used up.
+/// Collective. Returns the N×N matrix of the triples of all ranks, and consumes them.
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, SymmetryClass symmetry);
 
 /// Not collective. Appends the entries of the matrix of one element with these local nodes, whose
@@ -39,27 +38,27 @@ void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> 
 /// Selects cells by their block and index.
 using CellFilter = std::function<bool(const mesh::CellBlock&, std::size_t)>;
 
-/// A NodePattern counts the nodes that share a cell with each node of this rank.
+/// Counts the nodes that share a cell with each node of this rank.
 struct NodePattern {
   std::vector<PetscInt> own, other;  ///< [owned node] nodes of this rank, and of other ranks
   /// Collective. Counts over the cells of all ranks that `uses` selects.
   NodePattern(const mesh::Mesh& mesh, const CellFilter& uses);
 };
 
-/// An Assembly sums the matrices of elements as they come into an N×N matrix, so that they are
-/// never held together.
+/// Adds element matrices one by one to an N×N matrix, so they are never in memory together.
 class Assembly {
  public:
-  /// Collective. Makes room for the pairs of nodes of the pattern, on all components, or on equal
-  /// components alone if `diagonal`. The mesh is borrowed during the life of the object.
+  /// Collective. Reserves entries for the pairs of nodes of the pattern, for all components or,
+  /// with `diagonal`, only for equal components. Borrows the mesh during the lifetime of the
+  /// object.
   Assembly(const mesh::Mesh& mesh, const NodePattern& pattern, bool diagonal);
-  /// Not collective. Adds the matrix of one element with these local nodes. If `scalar`, it is
-  /// [node][node] and is repeated on each component; otherwise its rows and columns are
-  /// [node][component]. It is row-major.
+  /// Not collective. Adds the matrix of one element with these local nodes. The matrix is
+  /// row-major. With `scalar`, it is [node][node] and repeats on each component; otherwise its rows
+  /// and columns are [node][component].
   void add(std::span<const PetscInt> nodes, const std::vector<double>& matrix, bool scalar);
   /// Not collective. Adds a diagonal, which may be null.
   void addDiagonal(Vec diagonal);
-  /// Collective. Returns the sum over all ranks. Nothing may be added afterwards.
+  /// Collective. Returns the sum over all ranks. The object must not be used afterwards.
   OwnedMat finish(SymmetryClass symmetry);
 
  private:
@@ -89,17 +88,17 @@ inline CellName nameOf(const mesh::CellBlock& block, std::size_t e) {
 struct InvertedCell {
   CellName name;
   double ratio;    ///< jacobianRatio()
-  bool byCorners;  ///< it is inverted with straight edges as well
+  bool byCorners;  ///< it is also inverted with straight edges
 };
-/// Not collective. Returns the description of a cell that throws InvertedElement.
+/// Not collective. Describes a cell that throws InvertedElement.
 InvertedCell invertedCell(const mesh::CellBlock& block, std::size_t e,
                           const std::vector<Point>& nodes);
-/// Collective. Throws Error on all ranks if any rank has inverted cells. The message gives their
-/// number and the worst Jacobian, names the first ten of them, and says what helps.
+/// Collective. Throws Error on all ranks if any rank has inverted cells. The message contains their
+/// number, the worst Jacobian, the names of the first ten and the remedy.
 void failOnInverted(const mesh::Mesh& mesh, const std::vector<InvertedCell>& inverted);
 
-/// Collective. Warns in one line of cells that are used although folded(), with their number and
-/// the first ten of them.
+/// Collective. Warns in one line of folded() cells in use, with their number and the names of the
+/// first ten.
 void warnOfFoldedCells(const mesh::Mesh& mesh);
 
 /// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell of this rank.

@@ -12,8 +12,7 @@
 namespace squeal::elasticity {
 namespace {
 
-/// A Crossing holds the flux of matter through the surface of one body at each node i, and its
-/// scale:
+/// The flux of matter through the surface of one body at each node i, and its scale:
 ///   flux cᵢ = ∮ φᵢ V·n dA = Σ_cells ∫ Dφᵢ,   scale = Σ_cells ∫ |Dφᵢ|.
 struct Crossing {
   OwnedVec flux, scale;
@@ -30,8 +29,8 @@ void assembled(Vec vector) {
   check(VecAssemblyEnd(vector));
 }
 
-/// Adds the values of periodic images to those of their primaries: what leaves through one surface
-/// comes back through the other.
+/// Adds the values of periodic images to those of their primaries: the flux out of one surface
+/// enters through the other.
 void fold(const mesh::Mesh& mesh, Vec vector) {
   std::vector<double> values;
   for (const ReadArray array(vector); const auto& image : mesh.images)
@@ -43,11 +42,11 @@ void fold(const mesh::Mesh& mesh, Vec vector) {
   assembled(vector);
 }
 
-/// Collective. Throws Error if the flux is too large for a body that keeps its place. Flat facets
-/// inscribed in a circle let a little through although the body is one of revolution: nothing where
-/// neighbouring facets have equal lengths, 0.015 of the scale on unstructured tetrahedra, and 0.14
-/// with 12 facets around whose neighbours have lengths of 2 to 1. A square body reaches 0.5 to 1,
-/// and an axis off the centre by a tenth of the radius 0.24.
+/// Collective. Throws Error if the flux is too large for a body that does not change its place. A
+/// faceted body of revolution has a small flux: none if neighbouring facets have equal lengths,
+/// 0.015 of the scale on unstructured tetrahedra, and 0.14 with 12 facets whose neighbours have a
+/// ratio of lengths of 2 to 1. A square body reaches 0.5 to 1, and an axis off the centre by a
+/// tenth of the radius 0.24.
 void rejectCrossing(const mesh::Mesh& mesh, const std::string& body, const Motion& motion,
                     Crossing& crossing) {
   const double tolerance = motion.speed != 0 ? 0.15 : 1e-6;

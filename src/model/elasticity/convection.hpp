@@ -17,8 +17,8 @@ struct ConvectiveTerms {
   OwnedMat rotationStiffness;  ///< K^R, N/m
 };
 
-/// Collective. Assembles the terms of these materials and motions, [body]. Throws Error if matter
-/// of a moving body crosses the body's surface, so that the body does not keep its place.
+/// Collective. Assembles the terms of these materials and motions, [body]. Throws Error if the
+/// matter of a moving body crosses the body's surface, since the place of the body then changes.
 ConvectiveTerms convectiveTerms(const mesh::Mesh& mesh,
                                 const std::vector<material::Material>& materials,
                                 const std::vector<Motion>& motions);

@@ -23,8 +23,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-/// Returns the matrix that has the same scalar matrix on each component, with rows and columns
-/// [node][component].
+/// Repeats a scalar matrix on each component, with rows and columns [node][component].
 std::vector<double> onAllComponents(const std::vector<double>& scalar, int count, int dimension) {
   const int size = count * dimension;
   std::vector<double> full(size * size, 0.0);
@@ -42,9 +41,9 @@ CellFilter cellsOf(std::optional<int> body) {
   };
 }
 
-/// Collective. Warns of bodies that hardly change their volume and have linear cells, which then
-/// lock: such a cell cannot keep the volume at each point of its rule and deform otherwise.
-/// Incompatible modes give the cell this freedom.
+/// Collective. Warns of nearly incompressible bodies with linear cells, which lock: such a cell
+/// cannot deform at constant volume at each point of its rule. Incompatible modes remove the
+/// locking.
 void warnOfLocking(const mesh::Mesh& mesh, const Bodies& bodies) {
   constexpr double least = 0.49;  // the bulk modulus is 50 times the shear modulus
   const auto& materials = bodies.materials;
@@ -59,8 +58,7 @@ void warnOfLocking(const mesh::Mesh& mesh, const Bodies& bodies) {
       printWarning(
           mesh.comm,
           formatted("warning: body '%s', with a Poisson's ratio of %.6g, has %" PetscInt_FMT
-                    " linear cells, which lock above %g: they are too stiff; use a mesh of "
-                    "second order",
+                    " linear cells, which lock above %g: use a mesh of second order",
                     mesh.bodies[b].c_str(), materials[b].poisson, counts[b], least));
 }
 
@@ -70,7 +68,7 @@ struct CellMatrices {
   std::optional<Assembly> damping;  // C = α M + (β + η / 2πf) K, dashpots
 };
 
-/// Collective. Sums over the cells, with room for `dashpots` in the damping matrix if there are
+/// Collective. Sums over the cells, with entries for `dashpots` in the damping matrix if there are
 /// any.
 CellMatrices cellMatrices(const mesh::Mesh& mesh, const Bodies& bodies, std::optional<int> body,
                           bool dashpots) {

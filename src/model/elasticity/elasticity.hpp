@@ -13,7 +13,7 @@
 
 namespace squeal::elasticity {
 
-/// The matrices, loads and base motions of all bodies, and what they were made from.
+/// The matrices, loads and base motions of all bodies, with the settings and materials.
 struct Bodies {
   OwnedMat stiffness;  ///< K, N×N, symmetric, block-diagonal over the bodies, grounded springs
                        ///< included, N/m
@@ -22,7 +22,7 @@ struct Bodies {
   OwnedMat gyroscopic;  ///< G = 2∫ρ(Dφⱼ)·φᵢ for the base motions [4.10], N×N, exactly skew, N·s/m;
                         ///< null without convective terms
   OwnedMat rotationStiffness;  ///< K^R = −∫ρ(Dφⱼ)·(Dφᵢ) for the base motions [4.10], N×N, exactly
-                               ///< symmetric, N/m; null where G is
+                               ///< symmetric, N/m; null if G is
   OwnedVec load;         ///< b, N entries, N: pressures, and centrifugal forces of the base motions
   OwnedVec centrifugal;  ///< the centrifugal part of b, N entries, N
   OwnedVec springs;      ///< stiffness of grounded springs, N entries, N/m; null if none
@@ -33,13 +33,13 @@ struct Bodies {
 
 /// Collective. Assembles the matrices and loads of all bodies. Throws Error for materials and
 /// motions that do not suit the mesh, for an inverted element (the message names body and cell),
-/// and for convective terms on a body that does not keep its place as its matter moves.
+/// and for convective terms on a body whose place changes as its matter moves.
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
                 const Settings& settings);
 
-/// A BodyPart is the contribution of one body to Bodies, on all nodal displacements. Its matrices
-/// and its vector are the derivatives with respect to a factor on its moduli (K, and the part of C
-/// with K) and to one on its density (all others).
+/// The contribution of one body to Bodies, on all nodal displacements. Its matrices and its vector
+/// are derivatives: K, and the part of C with K, with respect to a factor on its moduli, and all
+/// others with respect to a factor on its density.
 struct BodyPart {
   OwnedMat stiffness, mass;  ///< without grounded springs
   OwnedMat gyroscopic,
@@ -51,17 +51,16 @@ struct BodyPart {
 /// Collective. Returns the contribution of the body with this index.
 BodyPart bodyPart(const mesh::Mesh& mesh, const Bodies& bodies, int body);
 
-/// Collective. Returns the geometric stiffness [M.6], the same on each component,
+/// Collective. Returns the geometric stiffness [M.6], equal for all components,
 ///   K_σ,ij = ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
-/// for the stress of the given nodal displacements and of the incompatible modes that go with them.
-/// It is N×N, N/m, exactly symmetric and has the pattern of K. If `body` is given, only this body
-/// contributes.
+/// for the stress of the given nodal displacements and of their incompatible modes. It is N×N, N/m,
+/// exactly symmetric and has the pattern of K. If `body` is given, only this body contributes.
 OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec displacement,
                             std::optional<int> body = {});
 
 /// Collective. Returns a nodal vector of zeros, with N entries and the block size `dimension`.
 OwnedVec nodalVector(const mesh::Mesh& mesh);
-/// Collective. Returns the values of a nodal vector, [local node][component], ghosts included.
+/// Collective. Returns the values of a nodal vector, [local node][component], including ghosts.
 std::vector<double> localValues(const mesh::Mesh& mesh, Vec u);
 
 }  // namespace squeal::elasticity

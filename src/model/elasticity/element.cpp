@@ -28,7 +28,7 @@ void strainColumns(double* b, int columns, int i, const Point& g, int dimension)
   at(5, 0) = g[2], at(5, 2) = g[0];
 }
 
-/// Returns the amplitudes of the trailing `inner` unknowns per unit of each of the others,
+/// Returns the amplitudes of the trailing `inner` unknowns per unit of each other unknown,
 ///   −Kii⁻¹ Kio,
 /// [other][inner], from a symmetric row-major matrix of size `all`.
 std::vector<double> innerResponse(const std::vector<double>& k, int all, int inner) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Stiffness matrices of one element. Coordinates and material go in,
-/// and small dense arrays come out. No PETSc object is used here. None is collective.
+/// Stiffness matrices of one element, as small dense arrays from coordinates and material, without
+/// PETSc objects. Not collective.
 #include <vector>
 
 #include "model/elasticity/shape.hpp"
@@ -15,25 +15,25 @@ using material::Law;
 using material::Material;
 using mesh::Point;
 
-/// An InvertedElement is thrown by routines with J⁻¹ where det J ≤ 0 at a point of their quadrature
-/// rule, and by mass() where the volume or the matrix is not positive.
+/// Thrown by routines with J⁻¹ if det J ≤ 0 at a point of their quadrature rule, and by mass() if
+/// the volume or the matrix is not positive.
 struct InvertedElement {};
 
-/// Returns true if det J ≤ 0 at a point of the rule. Such a cell can still be used where the
-/// smallest rule for the stiffness has no such point: terms with J⁻¹ take that rule, loads are
-/// polynomials and are integrated as usual, and the mass has the true volume.
+/// Returns true if det J ≤ 0 at a point of the rule. Such a cell is usable if the smallest rule for
+/// the stiffness has no such point: terms with J⁻¹ use that rule, loads are polynomials and are
+/// integrated as usual, and the mass has the true volume.
 bool folded(const ShapeTable& table, const std::vector<Point>& nodes);
-/// Returns the table of a cell for terms with J⁻¹: the given one, or that for the stiffness if the
-/// cell is folded.
+/// Returns the table of a cell for terms with J⁻¹: the given one or, for a folded cell, that of the
+/// stiffness.
 const ShapeTable& gradientTable(const ShapeTable& table, const std::vector<Point>& nodes);
 
 /// Returns true if the cell is folded on the rule of its stiffness or on the stricter one of its
 /// mass. `type` is gmsh's.
 bool foldedAnywhere(int type, const std::vector<Point>& nodes);
-/// Returns the smallest det J at the points of both rules over the largest |det J| there.
+/// Returns the ratio of the smallest det J at the points of both rules to the largest |det J|.
 double jacobianRatio(int type, const std::vector<Point>& nodes);
-/// Returns the nodes of the cell with straight edges: nodes other than corners are moved to where
-/// the linear cell of the same corners has them.
+/// Returns the nodes of the cell with straight edges: nodes other than corners move to their
+/// positions in the linear cell with the same corners.
 std::vector<Point> straightened(int type, const std::vector<Point>& nodes);
 
 /// Returns the stiffness
@@ -46,8 +46,8 @@ std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>&
 
 /// Returns the geometric stiffness
 ///   ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
-/// row-major [node][node], N/m, the same for all components. The strain ε is that of the
-/// displacement, [node][component], m, and of the bubble modes that go with it.
+/// row-major [node][node], N/m, the same for all components. ε is the strain of the displacement,
+/// [node][component], m, and of its bubble modes.
 std::vector<double> geometricStiffness(const ShapeTable& table, const std::vector<Point>& nodes,
                                        const Law& law, bool incompatible,
                                        std::vector<double> displacement);

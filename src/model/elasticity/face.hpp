@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The normals, the mass matrix and the derivatives of the shape functions
-/// of one face, which is a line in the plane. Coordinates go in, and small dense arrays come out.
-/// None is collective.
+/// The normals, the mass matrix and the derivatives of the shape functions of one face (in the
+/// plane, a line), as small dense arrays from coordinates. Not collective.
 #include <vector>
 
 #include "model/elasticity/shape.hpp"
@@ -13,7 +12,7 @@ namespace squeal::elasticity {
 using mesh::Point;
 
 /// Returns ∫ φᵢ n dA on a face (a line in the plane), [node][3], m² (m in the plane). The unit
-/// normal n is that of the node order times `sign`.
+/// normal n is that by node order, times `sign`.
 std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
 /// Returns the weights of the points of the rule for integrals over the face, [point], m² (m in the
 /// plane).
@@ -24,13 +23,11 @@ std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& 
 /// (m in the plane).
 std::vector<double> normalMass(const ShapeTable& table, const std::vector<Point>& nodes,
                                int components);
-/// Returns the derivative of each shape function along the velocity at each node of the face,
-/// [at node][function], 1/s for velocities in m/s. Only the part of `velocity` in the tangent plane
-/// of the face counts.
+/// Returns the derivative of each shape function along the velocity at each node of the face, [at
+/// node][function], 1/s for velocities in m/s. Only the tangential part of `velocity` counts.
 std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Point>& nodes,
                                    const std::vector<Point>& velocity);
-/// Returns the unit normal of the face at each of its nodes, that of the node order times `sign`,
-/// [node].
+/// Returns the unit normal of the face at each of its nodes, by node order times `sign`, [node].
 std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
 
 }  // namespace squeal::elasticity

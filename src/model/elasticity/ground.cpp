@@ -10,8 +10,8 @@
 namespace squeal::elasticity {
 namespace {
 
-/// Collective. Adds a total that the nodes of a group share. Makes the vector if it is null and the
-/// total is not zero.
+/// Collective. Distributes a total over the nodes of a group. Creates the vector if it is null and
+/// the total is not zero.
 void addShared(const mesh::Mesh& mesh, const std::string& group, const mesh::Point& total,
                OwnedVec& vector) {
   const auto& nodes = mesh.nodeGroups.at(group);

@@ -21,9 +21,9 @@ bool positiveDefinite(std::vector<double> matrix, std::size_t size) {
   return info == 0;
 }
 
-/// Returns the volume that belongs to each point of the rule. Where det J changes its sign, the
-/// mass ∫ ρ φᵢ φⱼ det J dξ would be indefinite: points with a negative one then get no volume, and
-/// the others share the volume of the cell.
+/// Returns the volume of each point of the rule. If det J changes its sign, the mass ∫ ρ φᵢ φⱼ det
+/// J dξ would be indefinite: points with negative det J then get no volume, and the others share
+/// the volume of the cell.
 std::vector<double> massVolumes(const ShapeTable& table, const std::vector<Point>& nodes) {
   std::vector<double> volumes, determinants;
   double total = 0, positive = 0;  // by the sign of det J: rules of odd degree on tri3 and tet4

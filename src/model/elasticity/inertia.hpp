@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The terms of one element's inertia: its mass, its centrifugal forces and
-/// the convective terms of matter that moves through it. Coordinates and density go in, and small
-/// dense arrays come out. mass() and convection() throw InvertedElement. None is collective.
+/// Inertia of one element: its mass, its centrifugal forces and the convective terms of matter that
+/// moves through it, as small dense arrays from coordinates and density. mass() and convection()
+/// throw InvertedElement. Not collective.
 #include <vector>
 
 #include "model/elasticity/motion.hpp"
@@ -28,17 +28,17 @@ std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& node
 std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes,
                                 double density, const Motion& motion);
 
-/// A Convection holds the convective terms of matter that moves through the element with the
-/// velocity V, with Dφ = V·∇φ. Matrices are row-major [node][node], the same for all components.
+/// The convective terms of matter that moves through the element with the velocity V, with Dφ =
+/// V·∇φ. Matrices are row-major [node][node], the same for all components.
 struct Convection {
   std::vector<double> gyroscopic;  ///< ∫ ρ ((Dφⱼ) φᵢ − (Dφᵢ) φⱼ), kg/s; equal to 2 ∫ ρ (Dφⱼ) φᵢ
-                                   ///< where no matter crosses the surface
+                                   ///< if no matter crosses the surface
   std::vector<double> rotationStiffness;  ///< −∫ ρ (Dφⱼ)(Dφᵢ), N/m
   std::vector<double> flux;       ///< ∫ Dφᵢ, m³/s, [node]; summed over a body: ∮ φᵢ V·n
   std::vector<double> fluxScale;  ///< ∫ |Dφᵢ|, m³/s, [node]
 };
-/// Returns the convective terms. `velocity` is V at the nodes, m/s. It is affine in x, so that the
-/// shape functions interpolate it exactly.
+/// Returns the convective terms. `velocity` is V at the nodes, m/s. V is affine in x, so the shape
+/// functions interpolate it exactly.
 Convection convection(const ShapeTable& table, const std::vector<Point>& nodes,
                       const std::vector<Point>& velocity, double density);
 

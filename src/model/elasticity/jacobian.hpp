@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Maps from reference to physical coordinates of one element; the element routines share
-/// them.
+/// The map from reference to physical coordinates of one element, for the element routines.
 #include <array>
 #include <vector>
 
@@ -16,7 +15,7 @@ using mesh::Matrix3;
 
 /// Returns the Jacobian
 ///   J[r][d] = ∂x_d/∂ξ_r.
-/// Rows beyond the element's dimension are unit vectors, so that the inverse exists.
+/// Rows beyond the element's dimension are unit vectors, so the inverse exists.
 inline Matrix3 jacobian(const double* gradient, const std::vector<Point>& nodes, int dimension) {
   Matrix3 j{};
   for (int r = dimension; r < 3; ++r) j[r][r] = 1;

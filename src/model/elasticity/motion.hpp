@@ -2,7 +2,7 @@
 #pragma once
 /// Base motion of a body's matter (paper, section 2), a rotation or a translation [2.1]:
 ///   V = ω k × (x − x0)   or   V = const.
-/// No function is collective; all ranks have the same options, and so the same results and Errors.
+/// Not collective: all ranks have the same options, and therefore the same results and Errors.
 #include <map>
 #include <string>
 #include <vector>
@@ -25,8 +25,8 @@ struct Motion {
 };
 
 /// Returns the motion of each body, [body]; a body without options is at rest. Throws Error for an
-/// option of a group that is not a body, for an axis of zero length, and for vectors whose number
-/// of components does not suit the dimension.
+/// option of a group that is not a body, for an axis of zero length, and for vectors with a wrong
+/// number of components.
 std::vector<Motion> motionsOf(const std::vector<std::string>& bodies, int dimension,
                               const std::map<std::string, MotionSettings>& settings);
 

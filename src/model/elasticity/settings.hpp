@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Settings of the elements, loads, base motions and supports of the bodies. None of this is
-/// collective; all ranks have the same options, and so the same results and Errors.
+/// Settings of the elements, loads, base motions and supports of the bodies. Not collective: all
+/// ranks have the same options, and therefore the same results and Errors.
 #include <map>
 #include <string>
 #include <vector>
@@ -27,7 +27,7 @@ struct MotionSettings {
 struct GroundSettings {
   VectorValue stiffness;                   ///< N/m
   VectorValue damping;                     ///< N·s/m
-  bool springs = false, dashpots = false;  ///< which of them are given
+  bool springs = false, dashpots = false;  ///< true if given
 };
 
 struct Settings {
@@ -35,7 +35,7 @@ struct Settings {
   std::vector<std::string> incompatible{"hex8"};  ///< cell types with incompatible modes
   bool prestress = false;   ///< the geometric stiffness of the steady stress is added to K
   bool centrifugal = true;  ///< centrifugal forces act on rotating bodies
-  /// The matter of moving bodies carries its displacement along, D u = (V·∇)u.
+  /// The matter of moving bodies convects its displacement, D u = (V·∇)u.
   bool convective = false;
   std::map<std::string, double> pressure;         ///< [surface group], Pa, positive inwards
   std::map<std::string, MotionSettings> motions;  ///< [body], those with an option
@@ -48,9 +48,9 @@ struct Settings {
   bool isIncompatible(const std::string& cellType) const;
 };
 
-/// Returns the bodies that a velocity or a speed is given for.
+/// Returns the bodies with a given velocity or speed.
 std::vector<std::string> movingBodies(const Settings& settings);
-/// These return groups for the mesh reader: surfaces with a pressure, and groups with springs or
+/// Return groups for the mesh reader: surfaces with a pressure, and groups with springs or
 /// dashpots.
 std::vector<mesh::GroupRequest> loadedSurfaces(const Settings& settings);
 std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings);

@@ -23,7 +23,7 @@ OwnedMat nodalMatrix(const mesh::Mesh& mesh, const std::vector<PetscInt>& blocks
   for (PetscInt count : blocks)
     for (int d = 0; d < mesh.dimension; ++d) {
       own.push_back(mesh.dimension * std::min(count, mesh.ownedNodes));
-      others.push_back(mesh.dimension * (count - 1));  // one block is that of the node itself
+      others.push_back(mesh.dimension * (count - 1));  // one block belongs to the node itself
     }
   check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 0, own.data(), 0,
                      others.data(), matrix.out()));

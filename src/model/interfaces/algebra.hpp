@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The contact matrices: N×N matrices that consist of a block per pair of
-/// nodes. Only those that say so are collective.
+/// N×N matrices with a block per pair of nodes, for the contact.
 #include <string>
 #include <vector>
 
@@ -12,16 +11,16 @@ namespace squeal::interfaces {
 
 using mesh::Point;
 
-/// Collective. Returns an N×N matrix with room for `blocksPerRow` dimension×dimension blocks per
-/// row of blocks.
+/// Collective. Returns an N×N matrix with entries reserved for `blocksPerRow` dimension×dimension
+/// blocks per row of blocks.
 OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow);
-/// Collective. Returns an N×N matrix with room for `blocks`[owned node] blocks in the rows of a
-/// node.
+/// Collective. Returns an N×N matrix with entries reserved for `blocks`[owned node] blocks in the
+/// rows of a node.
 OwnedMat nodalMatrix(const mesh::Mesh& mesh, const std::vector<PetscInt>& blocks);
 /// Collective. Assembles the matrix after values have been set.
 void assembled(Mat matrix);
-/// Not collective. Sets the block of two global nodes, row-major. Zeros are kept as entries, so
-/// that friction only changes values within the frictionless pattern.
+/// Not collective. Sets the block of two global nodes, row-major. Zeros are stored as entries, so
+/// friction changes only values within the frictionless pattern.
 void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
               const std::vector<double>& block);
 /// Not collective. Sets the diagonal of the block of a global node to one.
@@ -31,7 +30,7 @@ std::vector<double> outer(const Point& a, const Point& b, int dimension, double 
 /// Returns factor times the unit matrix, dimension × dimension.
 std::vector<double> identity(int dimension, double factor);
 
-/// Returns the coordinates of a point for a message.
+/// Formats the coordinates of a point for a message.
 std::string text(const Point& p);
 
 /// Collective. Returns the product of two matrices.

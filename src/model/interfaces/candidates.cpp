@@ -38,7 +38,7 @@ std::vector<Candidate> pairedNodes(const mesh::Mesh& mesh, int interface,
   return found;
 }
 
-/// Returns the body of each local node, one of them where several meet.
+/// Returns the body of each local node, any one if several meet there.
 std::vector<int> bodyOfNode(const mesh::Mesh& mesh) {
   std::vector<int> body(mesh.localNodes(), -1);
   for (const auto& block : mesh.cells)
@@ -82,7 +82,7 @@ std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const coupling::Node
     throw Error(optionsOf(options) + "all nodes of '" + (discIsSlave ? disc : pad) +
                 "' on the other side belong to " +
                 earlierOwners(mesh, exchange, all, discIsSlave ? disc : pad) +
-                (options.isTie() ? "; exchange slave and master, or leave one of them out" : ""));
+                (options.isTie() ? "; exchange slave and master, or remove one of the ties" : ""));
   if (count == 0)
     throw Error(optionsOf(options) + "no part of '" + pad + "' faces a part of '" + disc +
                 "' within " + searchText(options));
@@ -152,8 +152,8 @@ void Claims::add(const std::vector<PetscInt>& nodes, const std::vector<Interface
     const int before = claimed[node] - 1;
     if (role == Role::sliding && before >= 0)
       failure = "interfaces '" + options[before].surfaces.name + "' and '" +
-                options[interface].surfaces.name + "' both claim the node at " +
-                text(mesh_.coordinates[node]) + " for sliding; a node has one gap";
+                options[interface].surfaces.name + "' both contain the node at " +
+                text(mesh_.coordinates[node]) + " as sliding; a node has only one gap";
     claimed[node] = interface + 1;
   }
   failTogether(mesh_.comm, failure);

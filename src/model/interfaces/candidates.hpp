@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The nodes that an interface would have, and which of them it must leave to
-/// others.
+/// Candidate nodes of interfaces, and the assignment of nodes that several interfaces claim.
 #include <string>
 #include <vector>
 
@@ -11,23 +10,23 @@
 
 namespace squeal::interfaces {
 
-/// A node as its interface gives it.
+/// A candidate node of an interface.
 struct Candidate {
   int interface;
   int discBody;      ///< index into Mesh::bodies; −1 on a rigid obstacle
-  PetscInt partner;  ///< global node of the master where the meshes match, otherwise −1
+  PetscInt partner;  ///< global node of the master if the meshes match, otherwise −1
   coupling::SlaveNode slave;
 };
 
-/// The claims on nodes, [local node]: one more than the index of the interface, 0 for none.
+/// The claims on nodes, [local node]: the index of the interface plus 1; 0: none.
 class Claims {
  public:
   /// Collective. The exchange is borrowed.
   Claims(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange);
-  /// Returns the nodes that an interface of this role must leave to others.
+  /// Returns the nodes that an interface of this role must leave to other interfaces.
   std::vector<unsigned char> against(Role role) const;
-  /// Collective. Claims these local nodes of an interface. Throws Error if one of them slides on
-  /// another interface.
+  /// Collective. Claims these local nodes of an interface. Throws Error if a node slides on another
+  /// interface.
   void add(const std::vector<PetscInt>& nodes, const std::vector<InterfaceSettings>& options,
            int interface);
 
@@ -45,8 +44,8 @@ std::string slaveSurface(const mesh::Mesh& mesh, const InterfaceSettings& option
 std::vector<PetscInt> slaveNodesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                                    const std::string& surface);
 
-/// Collective. Returns the nodes that an interface has apart from excluded[local node], from pairs
-/// or from the coupling of its surfaces. Fills its report, its slave side and Interfaces::lost.
+/// Collective. Returns the nodes of an interface except excluded[local node], from pairs of nodes
+/// or from the coupling of its surfaces. Sets its report, its slave side and Interfaces::lost.
 /// `bodies` may be null for a tie. Throws Error for surfaces that do not meet.
 std::vector<Candidate> candidatesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                                     const elasticity::Bodies* bodies, int interface,
@@ -55,7 +54,7 @@ std::vector<Candidate> candidatesOf(const mesh::Mesh& mesh, const coupling::Node
 /// Returns the local nodes of these candidates.
 std::vector<PetscInt> nodesOf(const std::vector<Candidate>& candidates);
 
-/// Returns what a node rests on, in the words of Interfaces.
+/// Returns the connection of a node to its masters.
 Connection connectionOf(const coupling::SlaveNode& slave);
 
 }  // namespace squeal::interfaces

@@ -23,7 +23,7 @@ struct Held {
   int terms;
 };
 
-/// What is known of a node that masters others, on all ranks.
+/// The state of a node that masters others, the same on all ranks.
 struct Master {
   PetscInt node = -1;  // global
   bool inContact = false;
@@ -38,8 +38,8 @@ struct Equation {
   double value, scale;
 };
 
-/// Collective. Returns the rows that give u at all nodes from u at those that are not tied, a row
-/// per node, as all components are tied alike.
+/// Collective. Returns the rows that give u at all nodes from u at the nodes that are not tied, one
+/// row per node, since all components are tied in the same way.
 OwnedMat tieRows(const mesh::Mesh& mesh, const Interfaces& all) {
   OwnedMat rows;
   for (int level = 1; level <= all.levels; ++level) {
@@ -73,7 +73,7 @@ OwnedMat tieRows(const mesh::Mesh& mesh, const Interfaces& all) {
   return rows;
 }
 
-/// The equations of all ranks, in the order of places, which no partition changes.
+/// The equations of all ranks, ordered by position, independent of the partition.
 struct Equations {
   std::vector<Held> held;
   std::vector<Equation> list;
@@ -114,7 +114,7 @@ Equations equationsOf(const mesh::Mesh& mesh, const Interfaces& all, Mat rows) {
   return found;
 }
 
-/// Collective. Returns what is known of the masters in the equations.
+/// Collective. Returns the states of the masters in the equations.
 std::map<PetscInt, Master> mastersOf(const mesh::Mesh& mesh, const Interfaces& all,
                                      const Equations& equations) {
   std::set<PetscInt> nodes;
@@ -144,9 +144,9 @@ class Elimination {
   Elimination(int component, const Interfaces& all, const std::map<PetscInt, Master>& masters)
       : component_(component), all_(all), masters_(masters) {}
   void add(Equation equation);
-  /// Returns [pivot] its equation, with the weight 1 at the pivot.
+  /// Returns the equation of each pivot, [pivot], with the weight 1 at the pivot.
   const std::map<PetscInt, Equation>& solved() const { return solved_; }
-  /// Returns the equations that follow from the others, or nearly so.
+  /// Returns the equations that depend on the others, exactly or nearly.
   const std::vector<const Held*>& idle() const { return idle_; }
 
  private:
@@ -183,8 +183,8 @@ void Elimination::insertKnown(Equation& equation) const {
     }
 }
 
-/// Returns the node with the largest weight, one that is not in contact if there is any; −1 if all
-/// are too small.
+/// Returns the node with the largest weight, if possible one that is not in contact; −1 if all
+/// weights are too small.
 PetscInt Elimination::pivotOf(const Equation& equation) const {
   PetscInt pivot = -1;
   for (const bool inContact : {false, true}) {
@@ -205,14 +205,14 @@ std::string nameOf(const Held& held, const Interfaces& all) {
 
 void Elimination::reject(const Equation& equation) const {
   throw Error(nameOf(*equation.held, all_) +
-              "; the displacement differs from what other supports of slave and master ask for");
+              "; the displacement differs from that of other supports of slave and master");
 }
 
 void Elimination::add(Equation equation) {
   insertKnown(equation);
   const PetscInt pivot = pivotOf(equation);
   if (pivot < 0) {
-    // With u = ū at all masters that are left, the equation must hold.
+    // With u = ū at all remaining masters, the equation must hold.
     double rest = equation.value, size = std::abs(equation.held->value);
     for (const auto& [node, weight] : equation.weights) rest -= weight * equation.held->value;
     for (const auto& [node, weight] : equation.weights)
@@ -239,18 +239,18 @@ void Elimination::add(Equation equation) {
   solved_.emplace(pivot, std::move(equation));
 }
 
-/// Throws Error if a component follows from others and one of them is of a contact node, whose
-/// unknowns are no Cartesian components.
+/// Throws Error if a component depends on others and one belongs to a contact node, whose unknowns
+/// are not Cartesian components.
 void rejectContact(const Equation& equation, const Interfaces& all,
                    const std::map<PetscInt, Master>& masters) {
   if (equation.weights.size() == 1) return;
   for (const auto& [node, weight] : equation.weights)
     if (masters.at(node).inContact)
       throw Error(nameOf(*equation.held, all) + " on " + std::to_string(equation.weights.size()) +
-                  " nodes, one of them in contact; let the other side be the slave");
+                  " nodes, at least one in contact; let the other side be the slave");
 }
 
-/// Puts the solution of one component into the constraints of this rank.
+/// Stores the solution of one component in the constraints of this rank.
 void apply(const mesh::Mesh& mesh, int component, const Elimination& elimination, Interfaces& all) {
   auto& constraints = all.constraints;
   for (const auto& [pivot, equation] : elimination.solved()) {

@@ -11,7 +11,7 @@
 namespace squeal::interfaces {
 namespace {
 
-/// The levels of the masters of this rank's slaves, wherever they are.
+/// The levels of the masters of this rank's slaves, on any rank.
 class MasterLevels {
  public:
   /// Collective. `masters` are global nodes, ascending, without repetition.
@@ -34,7 +34,7 @@ class MasterLevels {
     check(VecScatterBegin(scatter_, all_, found_, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(scatter_, all_, found_, INSERT_VALUES, SCATTER_FORWARD));
   }
-  /// Returns one more than the largest level of the masters.
+  /// Returns the largest level of the masters plus 1.
   int above(const Connection& slave) const {
     const ReadArray levels(found_);
     double largest = 0;
@@ -60,7 +60,7 @@ std::vector<PetscInt> mastersOf(const std::vector<Connection*>& slaves) {
   return masters;
 }
 
-/// Collective. Returns the labels of the interfaces, of all ranks, whose nodes have this level.
+/// Collective. Returns the labels of the interfaces with nodes of this level on any rank.
 std::string interfacesAt(const mesh::Mesh& mesh, const Interfaces& all, int level) {
   std::vector<int> found(all.options.size(), 0);
   for (std::size_t k = 0; k < all.nodes.size(); ++k)
@@ -81,8 +81,7 @@ void setLevels(const mesh::Mesh& mesh, Interfaces& all) {
   for (auto& connection : all.connections) slaves.push_back(&connection);
   for (auto& node : all.tied) slaves.push_back(&node.connection);
   MasterLevels masters(mesh, mastersOf(slaves));
-  // A chain without a circle passes each interface once, or there and back where pairs of nodes are
-  // tied.
+  // An acyclic chain passes each interface at most once or, with tied pairs of nodes, twice.
   for (int pass = 0; pass <= 2 * std::ssize(all.options); ++pass) {
     masters.set(slaves);
     bool changed = false;
@@ -97,8 +96,8 @@ void setLevels(const mesh::Mesh& mesh, Interfaces& all) {
     all.levels = mpi::max(mesh.comm, all.levels);
     if (!changed) return;
   }
-  throw Error("the slaves of these rest on each other in a circle: " +
-              interfacesAt(mesh, all, all.levels) + "; exchange slave and master of one of them");
+  throw Error("the slaves of these interfaces depend on each other in a circle: " +
+              interfacesAt(mesh, all, all.levels) + "; exchange slave and master of one interface");
 }
 
 }  // namespace squeal::interfaces

@@ -9,7 +9,7 @@
 namespace squeal::interfaces {
 namespace {
 
-/// Throws Error unless the held components are those of the dimension, each once.
+/// Throws Error unless the held components exist in the dimension and are listed once.
 void requireComponents(const std::string& group, const std::string& components, int dimension) {
   const std::string allowed = std::string("xyz").substr(0, dimension),
                     head = "option " + clampedName(group) + " '" + components + "': ";
@@ -26,7 +26,7 @@ void warnOfUnheld(MPI_Comm comm, const std::string& group, const std::string& co
   for (const char letter : std::string("xyz"))
     if (displacement[letter - 'x'] != 0 && components.find(letter) == std::string::npos)
       printWarning(comm, "option " + displacementName(group) + ": the displacement of " + letter +
-                             " was not used, as " + clampedName(group) + " " + components +
+                             " was not used, since " + clampedName(group) + " " + components +
                              " does not hold it");
 }
 

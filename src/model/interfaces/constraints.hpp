@@ -11,7 +11,8 @@
 
 namespace squeal::interfaces {
 
-/// A component of a master that follows from others, as a support holds a tied node between them:
+/// A component of a master that depends on others, because a support holds a tied node between
+/// them:
 ///   u_c = constant + Σ w u_c of the others.
 struct CombinedComponent {
   PetscInt node;  ///< local node
@@ -29,14 +30,14 @@ struct Constraints {
   std::vector<double> displacement;
   std::vector<CombinedComponent> combined;  ///< owned by this rank
   bool anyCombined = false;                 ///< on any rank
-  /// [owned node · dimension + component] 1 if supports act on it, its own or those of tied nodes
-  /// that rest on it
+  /// [owned node · dimension + component] 1 if supports act on it directly or on tied nodes that
+  /// follow it
   std::vector<unsigned char> supported;
 };
 
 /// Collective. Returns the constraints of these clamps, [group]. Throws Error for a component that
-/// the dimension does not have or that is given twice, and for two groups that disagree. Warns of a
-/// displacement that is not held.
+/// is given twice or does not exist in the dimension, and for two groups that disagree. Warns of
+/// displacements of components that are not held.
 Constraints constraintsOf(const mesh::Mesh& mesh,
                           const std::map<std::string, ClampSettings>& clamps);
 

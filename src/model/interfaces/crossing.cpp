@@ -18,9 +18,9 @@
 namespace squeal::interfaces {
 namespace {
 
-/// Flat facets of a round body leave a smaller part of |V·n|.
+/// Flat facets of a round body leave a smaller fraction of |V·n|.
 constexpr double facets = 0.2;
-/// A smaller component along the normal is taken for an inaccuracy of the mesh.
+/// A smaller component along the normal counts as an inaccuracy of the mesh.
 constexpr double negligible = 0.01;
 
 /// Integrals over the faces around each node, [local node].

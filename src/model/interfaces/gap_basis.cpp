@@ -41,7 +41,7 @@ std::vector<Edge> combinedEdges(const mesh::Mesh& mesh, const std::vector<std::s
   return found;
 }
 
-/// Returns true if all rows say that the gap of a node is its own.
+/// Returns true if all rows are identity rows.
 bool allAreIdentity(const mesh::Mesh& mesh, const std::vector<CombinedGap>& given) {
   return std::all_of(given.begin(), given.end(), [&](const auto& gap) {
     return gap.row.size() == 1 && gap.row[0].node == mesh.globalNode[gap.node] &&
@@ -60,7 +60,7 @@ GapBasis gapBasis(const mesh::Mesh& mesh, const std::vector<std::string>& surfac
   GapBasis basis;
   const bool needed = !edges.empty() || !allAreIdentity(mesh, given);
   if (!mpi::any(mesh.comm, needed)) return basis;
-  const OwnedVec isGiven = elasticity::nodalVector(mesh);  // the rows that are not the identity
+  const OwnedVec isGiven = elasticity::nodalVector(mesh);  // the rows that are not identity rows
   for (const auto& edge : edges)
     check(VecSetValue(isGiven, row(mesh.globalNode[edge.middle]), 1, INSERT_VALUES));
   for (const auto& node : given)

@@ -19,8 +19,7 @@
 namespace squeal::interfaces {
 namespace {
 
-/// Collective. Returns the area of a surface that belongs to marked nodes, [local node], and the
-/// whole of it.
+/// Collective. Returns the area of a surface at marked nodes, [local node], and the whole area.
 std::array<double, 2> areasOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                               const std::string& surface, std::vector<double> marks) {
   exchange.largest(marks);
@@ -39,7 +38,7 @@ std::array<double, 2> areasOf(const mesh::Mesh& mesh, const coupling::NodeExchan
   return areas;
 }
 
-/// What becomes of the lost nodes of this rank.
+/// The interfaces that own the lost nodes of this rank.
 class Owners {
  public:
   /// Collective.
@@ -71,7 +70,7 @@ class Owners {
     const auto found = gaps_.find(mesh_.firstNode + node);
     return found == gaps_.end() ? -1 : found->second;
   }
-  /// Returns true if the contact has the gap of the lost node all the same.
+  /// Returns true if the contact has the gap of the lost node nevertheless.
   bool isMet(const LostNode& lost) const {
     const auto tied = tied_.find(lost.node);
     if (tied == tied_.end() || all_.options[lost.interface].isTied()) return false;
@@ -106,7 +105,7 @@ class Owners {
   const Interfaces& all_;
   std::map<PetscInt, int> gaps_;              // [global node] interface of all contact nodes
   std::map<PetscInt, const TiedNode*> tied_;  // [local node]
-  std::map<PetscInt, PetscInt> leader_;       // [global node] the one that it follows
+  std::map<PetscInt, PetscInt> leader_;       // [global node] the node that it follows
   std::map<int, std::set<int>> parts_;        // [interface] parts of its master side
 };
 
@@ -155,7 +154,7 @@ double areaOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange
 void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all,
                 Role role) {
   if (!mpi::any(mesh.comm, !all.lost.empty()))
-    return;  // as nearly always: the owners of all nodes are not gathered
+    return;  // the usual case, which avoids gathering the owners of all nodes
   const Owners owners(mesh, all);
   for (int i = 0; i < std::ssize(all.options); ++i) {
     const auto& options = all.options[i];

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Nodes that an interface has to leave to another one: a node has one gap, and it follows from one
-/// set of masters.
+/// Lost nodes, which an interface leaves to another one: a node has at most one gap and one set of
+/// masters.
 #include "model/coupling/exchange.hpp"
 #include "model/interfaces/nodes.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::interfaces {
 
-/// Collective. Returns the area of the slave of an interface that belongs to its lost nodes,
-/// Σ ∫ |φ| dA, m² (m in the plane).
+/// Collective. Returns the area Σ ∫ |φ| dA of the lost nodes on the slave of an interface, m² (m in
+/// the plane).
 double areaOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                   const Interfaces& all, int interface);
 
-/// Collective. Warns of the nodes that ties (Role::tied), or interfaces in contact (any other
-/// role), have lost, with their number, area, place and the remedy. Nodes whose condition is met
-/// all the same are no loss: those that follow a node with the same gap, and those that are tied to
-/// what they are in contact with.
+/// Collective. Warns of the lost nodes of ties (Role::tied) or of interfaces in contact (any other
+/// role), with their number, area, position and the remedy. Nodes whose condition holds
+/// nevertheless do not count: nodes that follow a node with the same gap, and nodes tied to the
+/// surface they touch.
 void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all,
                 Role role);
 

@@ -23,8 +23,8 @@
 namespace squeal::interfaces {
 namespace {
 
-/// A FaceSums holds the sums over the slave faces at each node: area-weighted normals (from disc to
-/// pad) and ∫ φ̃ dA. The sums of images are added to those of their primaries.
+/// Sums over the slave faces at each node: area-weighted normals (from disc to pad) and ∫ φ̃ dA.
+/// Sums of images are added to those of their primaries.
 struct FaceSums {
   OwnedVec normal, area;  // nodal vectors; the area is in the component of the gap
 };
@@ -70,7 +70,7 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
 void setSlip(const Point& velocity, double fastest, ContactNode& node) {
   const Point w = mesh::scaled(mesh::tangential(velocity, node.normal), -1);
   node.slipSpeed = mesh::length(w);
-  // On the axis of a rotation, and where the velocity is normal to the contact, w is only rounding;
+  // On the axis of a rotation, or if the velocity is normal to the contact, w is only round-off;
   // gmsh places nodes to 1e-11.
   if (node.slipSpeed > 1e-9 * fastest)
     node.slip = mesh::scaled(w, 1 / node.slipSpeed);
@@ -78,7 +78,6 @@ void setSlip(const Point& velocity, double fastest, ContactNode& node) {
     node.slipSpeed = 0;
 }
 
-/// Collective. Fills Interfaces::nodes.
 void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                const std::vector<Candidate>& candidates, Mat periodic, Interfaces& all) {
   const FaceSums sums = sumFaces(mesh, all, periodic);
@@ -115,7 +114,6 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   }
 }
 
-/// Collective. Returns Interfaces::interfaceOf.
 std::vector<int> interfacesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                               const std::vector<Candidate>& touching) {
   std::vector<double> numbers(mesh.localNodes(), 0.0);
@@ -126,7 +124,7 @@ std::vector<int> interfacesOf(const mesh::Mesh& mesh, const coupling::NodeExchan
   return found;
 }
 
-/// Collective. Adds up the nodes of each interface in contact.
+/// Collective. Counts the nodes of each interface in contact.
 void countNodes(MPI_Comm comm, Interfaces& all) {
   for (const auto& node : all.nodes) ++all.reports[node.interface].nodes;
   for (std::size_t i = 0; i < all.reports.size(); ++i) {
@@ -167,7 +165,7 @@ std::string describe(const Interfaces& all, int interface) {
     line += formatted("; %.4g m2 are tied, %" PetscInt_FMT " nodes are not", report.coveredArea,
                       report.untied);
   else if (report.dropped > 0)
-    line += formatted("; %" PetscInt_FMT " nodes at its rim carry no condition", report.dropped);
+    line += formatted("; %" PetscInt_FMT " nodes at its rim have no condition", report.dropped);
   if (report.carried > 0)
     line += formatted("; %" PetscInt_FMT " held components of tied nodes are held on the master",
                       report.carried);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The nodes that touch or are tied, and their masters: from pairs of nodes where
-/// the meshes match, and from the coupling of the surfaces where they do not.
+/// The nodes that touch or are tied, and their masters: from pairs of nodes if the meshes match,
+/// otherwise from the coupling of the surfaces.
 #include <array>
 #include <string>
 #include <vector>
@@ -15,15 +15,15 @@
 
 namespace squeal::interfaces {
 
-/// A ContactNode is a node in contact that this rank owns. It is of the slave side: the pad where
-/// the meshes match. Contact nodes stand in the order of local nodes.
+/// A node in contact, owned by this rank, on the slave side (the pad if the meshes match). Contact
+/// nodes are in the order of local nodes.
 struct ContactNode {
   Point position;    ///< m
   Point normal;      ///< n, unit, from disc to pad
-  Point slip;        ///< τ = w/|w|, w = −V at the base motions; zero where there is no slip
+  Point slip;        ///< τ = w/|w|, w = −V at the base motions; zero without slip
   double slipSpeed;  ///< |w| at the base motions, m/s
   double area;  ///< ∫ ψ dA over the part of the faces in contact, positive, m² (m in the plane);
-                ///< ∫ φ̃ dA where the meshes match
+                ///< ∫ φ̃ dA if the meshes match
   double wholeArea;     ///< ∫ φ̃ dA over the faces of the slave, m² (m)
   double gap;           ///< gap without load, m
   int interface;        ///< index into Interfaces::options
@@ -31,31 +31,31 @@ struct ContactNode {
   int side;             ///< +1 if the slave is the pad, −1 if it is the disc
   PetscInt node;        ///< local node
   PetscInt globalNode;  ///< global node
-  PetscInt master;      ///< global node of the disc where the meshes match; otherwise −1
+  PetscInt master;      ///< global node of the disc if the meshes match; otherwise −1
   int discBody;         ///< index into Mesh::bodies; −1 on a rigid obstacle
   /// parts of the master; none on a rigid obstacle
   std::vector<coupling::PartShare> masterParts;
 };
 
-/// A Connection couples a node i of the slave side with nodes l of the master side:
+/// The coupling of a node i of the slave side with nodes l of the master side:
 ///   u_i = Σ_l P_il u_l + jump.
 struct Connection {
   PetscInt node;  ///< local node
-  /// 1 if no master is itself a slave, otherwise one more than the largest level of its masters
+  /// 1 if no master is itself a slave, otherwise the largest level of its masters plus 1
   int level = 1;
   std::vector<coupling::Weight> masters;    ///< row of P; empty on a rigid obstacle
-  std::vector<coupling::Weight> convected;  ///< D u_D, 1/s, where the slave is the pad and the
+  std::vector<coupling::Weight> convected;  ///< D u_D, 1/s, if the slave is the pad and the
                                             ///< meshes do not match
 };
 
-/// A node that is tied, owned by this rank.
+/// A tied node, owned by this rank.
 struct TiedNode {
   int interface;  ///< index into Interfaces::options
   Connection connection;
   std::vector<coupling::PartShare> masterParts;
-  Point offset;  ///< Σ P_il x_l − x_i in the file, m: from the node to its place on the master
-  /// [component] 1 if a support holds it and the tie does not: what the support asks of the masters
-  /// follows from the conditions of other nodes
+  Point offset;  ///< Σ P_il x_l − x_i in the file, m: from the node to its position on the master
+  /// [component] 1 if a support holds it instead of the tie: the conditions of other nodes then
+  /// imply the condition of the support on the masters
   std::array<unsigned char, 3> apart{};
 };
 
@@ -65,27 +65,27 @@ struct SlaveSide {
   int sign;             ///< +1 if it is the pad, −1 if it is the disc
 };
 
-/// The findings at an interface, the same on all ranks.
+/// A report on an interface, the same on all ranks.
 struct InterfaceReport {
   bool matching = true;         ///< node on node, or a rigid obstacle
-  std::string whyNot;           ///< a sentence that says where the meshes do not match
+  std::string whyNot;           ///< a sentence on where the meshes do not match
   bool nearlyMatching = false;  ///< they do not match, but most nodes have a partner
   PetscInt nodes = 0;           ///< nodes in contact, or tied
-  // These are zero if the meshes match, except for the slave of a tie.
+  // The following are zero if the meshes match, except for the slave of a tie.
   coupling::SideReport slave, master;
   double coveredArea = 0;  ///< of the slave, m² (m in the plane)
-  double largestGap = 0;   ///< largest distance of the surfaces where they touch, m
-  PetscInt dropped = 0;    ///< nodes that touch without a condition: too little covered, or left
+  double largestGap = 0;   ///< largest distance of the touching surfaces, m
+  PetscInt dropped = 0;    ///< touching nodes without a condition: too little covered, or left
                            ///< to another interface
-  // These are of ties only.
+  // The following apply only to ties.
   PetscInt carried = 0;          ///< held components of tied nodes that the master carries
   PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
-  double largestAdjustment = 0;  ///< largest way by which a tied node was moved, m
+  double largestAdjustment = 0;  ///< largest move of a tied node, m
 };
 
 /// A node that an interface leaves to another one, owned by this rank.
 struct LostNode {
-  int interface;  ///< the one that does without it, index into Interfaces::options
+  int interface;  ///< the interface that lost it, index into Interfaces::options
   PetscInt node;  ///< local node
 };
 
@@ -108,8 +108,8 @@ struct Interfaces {
   std::vector<LostNode> lost;              ///< owned by this rank
   Constraints constraints;
   PetscInt totalNodes = 0;  ///< contact nodes of all ranks
-  /// [local node] index into options of the contact in which the node has a gap, −1 if in none;
-  /// ghosts and periodic images included
+  /// [local node] index into `options` of the contact with a gap at the node, −1 if there is none;
+  /// includes ghosts and periodic images
   std::vector<int> interfaceOf;
   int levels = 1;     ///< largest level of a connection of all ranks
   GapBasis gapBasis;  ///< E
@@ -118,19 +118,19 @@ struct Interfaces {
   bool hasGapOn(const std::string& surface, PetscInt node) const {
     return interfaceOf[node] >= 0 && slaves[interfaceOf[node]].surface == surface;
   }
-  /// Returns the slave side of a contact interface of which this is the surface, borrowed; null if
-  /// there is none.
+  /// Returns the slave side of a contact interface with this surface, borrowed; null if there is
+  /// none.
   const SlaveSide* slaveOf(const std::string& surface) const;
 };
 
-/// Returns a line on what was found at an interface and how its sides are coupled, for the log.
+/// Returns a line for the log on the nodes of an interface and the coupling of its sides.
 std::string describe(const Interfaces& all, int interface);
 
-/// Collective. Adds the nodes in contact to the `ties`, which are those of findTies(). A node
-/// belongs to one interface: to a tie before a sliding one, and to this before one that sticks or
-/// is free of friction. `periodic` copies u of primaries to their images, N×N. Throws Error for
-/// surfaces that do not meet, for a node that two sliding interfaces claim, and for slaves that
-/// rest on each other in a circle.
+/// Collective. Adds the nodes in contact to `ties`, the result of findTies(). A node belongs to one
+/// interface: ties precede sliding interfaces, and these precede sticking and frictionless ones.
+/// `periodic`, N×N, copies u of primaries to their images. Throws Error for surfaces that do not
+/// meet, for a node in two sliding interfaces, and for slaves that depend on each other in a
+/// circle.
 Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, Mat periodic,
                      Interfaces ties);
 

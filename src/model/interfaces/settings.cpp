@@ -71,7 +71,7 @@ mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
   return {group, "-" + option.fullName(name) + " " + group};
 }
 
-/// Throws Error for options of this list whose subject lacks the option that they need.
+/// Throws Error for options of this list whose subject lacks the `needed` option.
 void requireOption(const std::vector<const Option*>& options, const Option& needed) {
   for (const Option* option : options)
     for (const auto& name : option->subjects())
@@ -86,7 +86,7 @@ Enumeration valueOf(const ChoiceOption& option, const std::vector<std::string>& 
   return Enumeration(std::find(names.begin(), names.end(), option.get(interface)) - names.begin());
 }
 
-/// Throws Error for options that mean nothing on this interface.
+/// Throws Error for options that have no effect on this interface.
 void rejectIdleOptions(const InterfaceSettings& interface) {
   const std::string& name = interface.surfaces.name;
   const auto reject = [&](const Option& option, const std::string& why) {
@@ -109,7 +109,7 @@ void rejectIdleOptions(const InterfaceSettings& interface) {
   if (frictionOption.given(name))
     reject(factorOption, "is a factor on -flutter_friction, which -" +
                              frictionOption.fullName(name) + " replaces; give one of them");
-  if (interface.isTied()) reject(gapOption, "means nothing on a tied interface, which has no gap");
+  if (interface.isTied()) reject(gapOption, "has no effect on a tied interface, which has no gap");
 }
 
 /// Throws Error for options of an interface or a tie that lacks a surface.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Settings of the contact interfaces, ties and constraints. None of this is collective; all ranks
-/// have the same options, and so the same results and Errors.
+/// Settings of the contact interfaces, ties and constraints. Not collective: all ranks have the
+/// same options, and therefore the same results and Errors.
 #include <map>
 #include <optional>
 #include <string>
@@ -17,7 +17,7 @@ using mesh::Point;
 /// The side of an interface whose nodes have the gaps.
 enum class SlaveChoice { finer, pad, disc };
 
-/// What the two sides of an interface do to each other. All except tied ones may separate.
+/// The interaction of the two sides of an interface. All except tied interfaces may separate.
 enum class Role {
   sliding,       ///< friction along the sliding velocity
   sticking,      ///< no tangential jump
@@ -46,9 +46,9 @@ struct InterfaceSettings {
   SlaveChoice slave = SlaveChoice::finer;
   double searchDistance = 0;  ///< m; 0: half the size of a face
   Coefficient friction;       ///< of a sliding interface; zero on others
-  /// Coefficient of friction up to which the nodes of a sticking interface may be held; none: any.
+  /// Coefficient of friction up to which the nodes of a sticking interface stick; none: unlimited.
   std::optional<double> stickingLimit;
-  bool releases = false;       ///< nodes of a sticking interface slide where they exceed this limit
+  bool releases = false;       ///< nodes of a sticking interface slide if they exceed this limit
   bool gapIsMeasured = false;  ///< the gap without load is the distance of the surfaces
   double gap = 0;       ///< gap without load if it is not measured, m; negative: interference
   bool adjust = false;  ///< of a tie: its nodes are moved onto the master
@@ -70,11 +70,11 @@ struct ClampSettings {
 struct Settings {
   std::vector<InterfaceSettings> interfaces;    ///< contact, then ties, each sorted by name
   std::map<std::string, ClampSettings> clamps;  ///< [group]
-  std::map<std::string, std::string> imageOf;   ///< [group] the group that it is the image of
+  std::map<std::string, std::string> imageOf;   ///< [group] the group whose image it is
 
   /// Reads the options. Throws Error for an interface without a pad surface, for one with neither
   /// or both of a disc surface and an obstacle, for a tie without one of its sides, for a
-  /// displacement without a clamp, and for options that do not go together.
+  /// displacement without a clamp, and for incompatible options.
   static Settings given();
   /// Returns the interface with this label, borrowed; there must be one.
   const InterfaceSettings& interface(const std::string& label) const;
@@ -84,13 +84,13 @@ struct Settings {
 /// a fixed part, 1 where one has a swept part; ascending.
 std::vector<int> frictionExponents(const std::vector<InterfaceSettings>& interfaces);
 
-/// These return groups and interfaces for the mesh reader: groups with a clamp, pairs of groups
-/// that are periodic images, and the surfaces of the interfaces.
+/// Return groups and interfaces for the mesh reader: groups with a clamp, periodic pairs of groups,
+/// and the surfaces of the interfaces.
 std::vector<mesh::GroupRequest> clampedGroups(const Settings& settings);
 std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings);
 std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings);
 
-/// These return names of options of an interface with their dash, for messages:
+/// Return names of options of an interface with their dash, for messages:
 /// `-contact_<interface>_obstacle_velocity`, `-contact_<interface>_search` or
 /// `-tie_<name>_tolerance`, `-contact_<interface>_role`, and `-tie_<name>_adjust`.
 std::string obstacleVelocityName(const std::string& interface);
@@ -99,7 +99,7 @@ std::string roleName(const std::string& interface);
 std::string adjustName(const std::string& tie);
 /// Returns the option of the search with its value in words, for messages.
 std::string searchText(const InterfaceSettings& interface);
-/// These return names of options of a constraint with their dash, for messages:
+/// Return names of options of a constraint with their dash, for messages:
 /// `-constraint_<group>_clamped` and `-constraint_<group>_displacement`.
 std::string clampedName(const std::string& group);
 std::string displacementName(const std::string& group);

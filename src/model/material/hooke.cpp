@@ -91,7 +91,7 @@ bool mirrorSymmetric(const Hooke& solid) {
   for (double x : solid.matrix) largest = std::max(largest, std::abs(x));
   for (int i : {0, 1, 2, 3})
     for (int j : {4, 5}) across = std::max(across, std::abs(solid(i, j)));
-  return across <= 1e-9 * largest;  // axes are given with some digits
+  return across <= 1e-9 * largest;  // axes are given with a limited number of digits
 }
 
 Hooke inPlane(const Hooke& solid, bool planeStress) {

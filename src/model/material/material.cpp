@@ -37,7 +37,6 @@ Law cylindricalLaw(const Hooke& solid, const CylinderAxis& axis, const std::stri
           }};
 }
 
-/// Returns the law of a body.
 Law lawOf(const std::string& name, const BodySettings& body, int dimension, bool planeStress) {
   if (!body.orthotropy) return {isotropic(body.young, body.poisson, dimension, planeStress), {}};
   const Hooke solid = orthotropic(body.orthotropy->constants);
@@ -51,7 +50,6 @@ Law lawOf(const std::string& name, const BodySettings& body, int dimension, bool
   return {inPlane(turned, planeStress), {}};
 }
 
-/// Returns Material::poisson.
 double poissonRatio(const BodySettings& body, int dimension, bool planeStress) {
   if (dimension == 2 && planeStress) return 0;
   if (!body.orthotropy) return body.poisson;

@@ -15,13 +15,13 @@ struct Material {
   double density;           ///< kg/m³
   double massDamping;       ///< α, 1/s: C = α M + …
   double stiffnessDamping;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
-  /// Poisson's ratio; that of the mean bulk and shear moduli of an orthotropic body. Zero in plane
-  /// stress, in which the thickness gives way.
+  /// Poisson's ratio; for an orthotropic body, that of the mean bulk and shear moduli. Zero in
+  /// plane stress, where the thickness is free to change.
   double poisson;
 };
 
 /// Not collective. Returns the materials in the order of `mesh.bodies`, [body]. Throws Error for
-/// axes with which a plane problem would leave its plane.
+/// axes that would couple in-plane and out-of-plane motion in a plane problem.
 std::vector<Material> materialsOf(const mesh::Mesh& mesh, const Settings& settings);
 
 }  // namespace squeal::material

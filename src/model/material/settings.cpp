@@ -163,8 +163,8 @@ BodySettings bodyGiven(const std::string& body) {
   return settings;
 }
 
-/// Returns the groups with an elastic law. Throws Error if there is none, and for a group whose
-/// other options lack one.
+/// Returns the groups with an elastic law. Throws Error if there is none, and for a group with
+/// other options but no law.
 std::set<std::string> groupsGiven() {
   std::set<std::string> groups;
   for (const Option* option :

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Settings of the materials of the bodies. None of this is collective; all ranks have the same
-/// options, and so the same results and Errors.
+/// Settings of the materials of the bodies. Not collective: all ranks have the same options, and
+/// therefore the same results and Errors.
 #include <map>
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ struct CylinderAxis {
   Point direction{0, 0, 1};  ///< unit vector
 };
 
-/// The elastic constants of an orthotropic body, and where its axes point.
+/// The elastic constants and the axes of an orthotropic body.
 struct Orthotropy {
   EngineeringConstants constants;
   std::variant<Axes, CylinderAxis> axes;
@@ -39,8 +39,8 @@ struct Settings {
   bool planeStress = false;                    ///< of plane problems; otherwise plane strain
   std::map<std::string, BodySettings> bodies;  ///< [volume group], those with an elastic law
 
-  /// Reads the options. Throws Error if no group has a law, for a group whose other options lack
-  /// one, for a bad or missing option, for options of different laws, and for constants without
+  /// Reads the options. Throws Error if no group has a law, for a group with other options but no
+  /// law, for a wrong or missing option, for options of different laws, and for constants without
   /// positive strain energy.
   static Settings given();
 };
@@ -49,7 +49,7 @@ struct Settings {
 std::vector<mesh::GroupRequest> groupRequests(const Settings& settings);
 /// Returns the options that give a material, for messages: "give -…".
 std::string howToGiveMaterials();
-/// These return names of options of a body, with their dash, for messages:
+/// Return names of options of a body, with their dash, for messages:
 /// `-material_<group>_orientation` and `-material_<group>_cylindrical`.
 std::string orientationName(const std::string& body);
 std::string cylindricalName(const std::string& body);

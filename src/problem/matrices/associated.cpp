@@ -78,7 +78,7 @@ std::string badDiagonal(Mat matrix) {
                    count, lowest + 1);
 }
 
-/// Collective. Throws Error if the matrix is not positive definite. In a large model cancellation
+/// Collective. Throws Error if the matrix is not positive definite. In a large model, cancellation
 /// leaves a pivot of 1e-13 of the scaled matrix instead of zero. The rows are scaled, so stiff
 /// springs do not cause such small pivots.
 void requirePositiveDefinite(Mat matrix, const std::string& what, const std::string& advice) {
@@ -111,7 +111,7 @@ SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms) {
   requirePositiveDefinite(mass, massName, "condense unknowns without mass");
   requirePositiveDefinite(stiffness,
                           stiffnessName + (departure > 0 ? ", by its symmetric part," : ""),
-                          "is a body loose? Hold it by weak springs if it is");
+                          "is a body under-constrained? If so, support it by weak springs");
   return {factor::AssociatedSystem(std::move(stiffness), std::move(mass),
                                    "associated symmetric stiffness"),
           departure};

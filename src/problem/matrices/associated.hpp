@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The associated system of a problem from files: K0 and M0 are sums of the terms without
+/// The associated system of a problem from files: K0 and M0, the sums of the terms without
 /// exponents.
 #include <vector>
 
@@ -9,18 +9,18 @@
 
 namespace squeal::matrices {
 
-/// The associated system consists of the sums of the stiffness and of the mass terms without
-/// exponents of friction, speed and damping, except terms marked as friction. If such a stiffness
-/// contains friction all the same, it stays in the pencil.
+/// The associated system: the sums of the stiffness and of the mass terms without exponents of
+/// friction, speed and damping, except terms marked as friction. If such a stiffness contains
+/// unmarked friction, the friction stays in the pencil.
 struct SymmetricPart {
   factor::AssociatedSystem system;  ///< K0 is the symmetric part of the sum
   double asymmetry;  ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0 if it is 1e-10 or less
 };
 
-/// Collective. Returns the associated system of the terms. Throws Error, with the matrices, if no
-/// term of the stiffness or of the mass is of this kind, if the mass is not symmetric to 1e-10, and
-/// if the mass or the stiffness is not positive definite to within round-off, as with massless
-/// unknowns or a loose body.
+/// Collective. Returns the associated system of the terms. Throws Error, naming the matrices, if
+/// there is no such stiffness or mass, if the mass is not symmetric to 1e-10, and if the mass or
+/// the stiffness is not positive definite within round-off, as with massless unknowns or a
+/// rigid-body mode.
 SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms);
 
 }  // namespace squeal::matrices

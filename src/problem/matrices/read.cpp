@@ -31,8 +31,8 @@ OwnedMat load(MPI_Comm comm, const std::filesystem::path& path) {
   return matrix;
 }
 
-/// Collective. Returns the matrix of the entries that rank 0 has. PETSc sums those of equal row and
-/// column. The insert mode only decides whether they are added to earlier values or replace them.
+/// Collective. Returns the matrix of the entries of rank 0. PETSc sums entries of equal row and
+/// column. The insert mode only selects whether they are added to earlier values or replace them.
 OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
   std::array<PetscInt, 2> sizes{entries.rows, entries.columns};
   mpi::broadcast(comm, sizes);
@@ -60,7 +60,7 @@ matrixfile::Entries readHere(matrixfile::Format format, const std::filesystem::p
                              const std::string& dataset) {
   if (!dataset.empty() &&
       (format == matrixfile::Format::matrixMarket || format == matrixfile::Format::petscBinary))
-    throw Error("the file is a single matrix, it contains no '" + dataset + "' by name");
+    throw Error("the file is a single matrix without named objects such as '" + dataset + "'");
   matrixfile::Entries entries;
   switch (format) {
     case matrixfile::Format::matrixMarket:
@@ -96,7 +96,7 @@ OwnedMat read(MPI_Comm comm, const std::filesystem::path& path, const std::strin
   PetscReal norm = 0;
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));
   if (!std::isfinite(norm))
-    throw Error(path.string() + ": the numbers are too large, their squares overflow");
+    throw Error(path.string() + ": the numbers are too large: their squares overflow");
   return matrix;
 }
 

@@ -70,8 +70,8 @@ void rejectMeshOptions() {
                                      "constraint", "load",     "motion",     "friction",
                                      "contact",    "tie",      "steady"};
   const auto reject = [&](const std::string& name) {
-    throw Error("option -" + name + ": a run is of a mesh or of matrices (-" +
-                fileOptionOf(fileOption.subjects()[0]) + "), not of both");
+    throw Error("option -" + name + ": a run uses either a mesh or matrices (-" +
+                fileOptionOf(fileOption.subjects()[0]) + "), not both");
   };
   for (const auto* option : Option::all()) {
     if (!ofMesh.count(option->stage)) continue;

@@ -36,8 +36,8 @@ std::string roleOf(const pencil::Term& term) {
   return term.power == 2 ? "mass" : term.power == 1 ? "damping" : "stiffness";
 }
 
-/// Returns a name such as "stiffness_friction1", with a number at its end where several terms would
-/// have the same one.
+/// Returns a name such as "stiffness_friction1", with a number at its end if several terms would
+/// have the same name.
 std::string nameOf(const pencil::Term& term, std::set<std::string>& taken) {
   std::string name = roleOf(term);
   for (const auto& [word, exponent] : {std::pair{"friction", term.frictionExponent},
@@ -77,8 +77,8 @@ matrixfile::Entries entriesOf(Mat matrix) {
   return entries;
 }
 
-/// Collective. Writes a matrix: in Matrix Market format if the name ends with .mtx, and otherwise
-/// in that of PETSc.
+/// Collective. Writes a matrix: in Matrix Market format if the name ends with .mtx, otherwise in
+/// that of PETSc.
 void writeMatrix(Mat matrix, const fs::path& path, const std::string& blame) {
   const MPI_Comm comm = commOf(matrix);
   if (path.extension() == ".mtx") {
@@ -86,8 +86,8 @@ void writeMatrix(Mat matrix, const fs::path& path, const std::string& blame) {
     onFirstRank(comm, blame, [&] { matrixfile::writeMatrixMarket(path, entriesOf(whole)); });
     return;
   }
-  // The bytes are those of header, length and columns of the rows, and values. On a full disc PETSc
-  // would abort the run with a message of its own, or hang on other ranks than the first.
+  // The file consists of header, row lengths, columns and values. On a full disk PETSc would abort
+  // the run with its own message, or hang on ranks other than the first.
   MatInfo info;
   PetscInt rows = 0;
   check(MatGetInfo(matrix, MAT_GLOBAL_SUM, &info));
@@ -130,9 +130,8 @@ void requireOnePencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep,
                       std::size_t steadyPoints) {
   if (steadyPoints != sweep.steadyPoints().size())
     throw Error(
-        "option -report_matrices: the contact is not the same at all points of the sweep; export "
-        "one -flutter_friction, "
-        "-flutter_speed and -flutter_pressure at a time");
+        "option -report_matrices: the contact differs between points of the sweep; export one "
+        "-flutter_friction, -flutter_speed and -flutter_pressure at a time");
   if (pencil.terms().size() > pencil.affineCount() && steadyPoints > 1)
     throw Error(
         "option -report_matrices: some matrices depend on the steady state of each point of the "
@@ -161,7 +160,7 @@ void requireExportFolder(MPI_Comm comm, const ExportSettings& settings, const fs
   const auto place = [](const fs::path& folder) {
     return fs::weakly_canonical(fs::absolute(folder)) / "";
   };
-  if (place(results) == place(settings.folder))  // it has an options.txt of its own
+  if (place(results) == place(settings.folder))  // the results have their own options.txt
     throw Error(blame(settings) + "is the folder of the results; name another one");
   const output::Folder folder(comm, naming(settings), settings.folder);
 }

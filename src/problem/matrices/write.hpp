@@ -11,17 +11,16 @@
 
 namespace squeal::matrices {
 
-/// Collective. Call it before work begins. Throws Error if the folder of `-report_matrices` is that
-/// of the results or cannot be written, or if a file in it prevents the export.
+/// Collective. Call it before work begins. Throws Error if the folder of `-report_matrices` is the
+/// results folder or cannot be written, or if a file in it prevents the export.
 void requireExportFolder(MPI_Comm comm, const ExportSettings& settings,
                          const std::filesystem::path& results);
 
 /// Collective. Writes the matrices of the pencil to the folder of `-report_matrices`, and
-/// options.txt, an -options_file that solves it again. Terms that belong to one point of the
-/// parameters, made with its steady forces, are frozen at it. `steadyPoints` is the number of
-/// steady states of the sweep that the pencil is for. Throws Error if that is not all of them, if
-/// there are such terms and a sweep of several points, and if the folder or a file cannot be
-/// written.
+/// options.txt, an -options_file that solves it again. Terms that depend on the steady state of one
+/// point are written as they are there. `steadyPoints` is the number of steady states of the sweep
+/// to which the pencil applies. Throws Error if it does not apply to all, if the sweep has several
+/// points and the pencil has such terms, and if the folder or a file cannot be written.
 void exportPencil(const pencil::Pencil& pencil, const ExportSettings& settings,
                   const sweep::Sweep& sweep, std::size_t steadyPoints);
 

@@ -14,7 +14,7 @@ BinaryFile::BinaryFile(const std::filesystem::path& path) : file_(path, std::ios
 void BinaryFile::seek(std::uint64_t position) { file_.seekg(position); }
 
 void BinaryFile::read(char* to, std::size_t count) {
-  if (!file_.read(to, count)) throw Error("the file is cut short");
+  if (!file_.read(to, count)) throw Error("the file is truncated");
 }
 
 }  // namespace squeal::matrixfile

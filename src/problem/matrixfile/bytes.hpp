@@ -30,7 +30,7 @@ class BinaryFile {
   explicit BinaryFile(const std::filesystem::path& path);
   std::uint64_t size() const { return size_; }
   void seek(std::uint64_t position);
-  /// Reads `count` bytes. Throws Error if the file ends before.
+  /// Reads `count` bytes. Throws Error if the file is too short.
   void read(char* to, std::size_t count);
   template <class Number>
   Number number(bool swapped) {

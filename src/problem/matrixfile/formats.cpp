@@ -44,7 +44,7 @@ bool begins(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// Returns true if the text begins with `start`, in capitals or not.
+/// Returns true if the text begins with `start`, ignoring case.
 bool beginsAsWord(const std::string& text, const char* start) {
   return strncasecmp(text.c_str(), start, std::strlen(start)) == 0;
 }
@@ -55,24 +55,24 @@ std::int32_t wordAt(const std::string& bytes, std::size_t position, bool big) {
              : numberAt<std::int32_t>(bytes.data() + position, big == littleEndian);
 }
 
-/// Returns true for a MATLAB file of version 5. The version and the mark of the byte order end the
-/// header of 128 bytes; the text before them is free.
+/// Returns true for a MATLAB file of version 5. The header of 128 bytes ends with the version and
+/// the byte-order mark; the text before them is arbitrary.
 bool isMatlab5(const std::string& head) {
   if (begins(head, "MATLAB 5.0 MAT-file")) return true;
   return head.size() == 128 && (head.substr(124) == std::string("\0\1IM", 4) ||
                                 head.substr(124) == std::string("\1\0MI", 4));
 }
 
-/// Returns true for an HDF5 file. MATLAB files of version 7.3 have a header of their own before
-/// that of HDF5.
+/// Returns true for an HDF5 file. MATLAB files of version 7.3 have an additional header before that
+/// of HDF5.
 bool isHdf5(const std::string& head) {
   const std::string signature = "\x89HDF\r\n\x1a\n";
   return begins(head, signature) || begins(head, "MATLAB 7.3 MAT-file") ||
          (head.size() >= 520 && head.compare(512, signature.size(), signature) == 0);
 }
 
-/// Returns true for a MATLAB file of version 4. It has no signature; its header holds type, rows,
-/// columns, a flag for an imaginary part, and the length of the name.
+/// Returns true for a MATLAB file of version 4. It has no signature; its header contains type,
+/// rows, columns, a flag for an imaginary part, and the length of the name.
 bool isMatlab4(const std::string& head) {
   const auto looksSound = [&](bool big) {
     const auto at = [&](std::size_t word) { return wordAt(head, 4 * word, big); };
@@ -99,15 +99,15 @@ int indexBits(const std::string& head) {
   return wordAt(head, 0, true) == 0 && wordAt(head, 4, true) == MAT_FILE_CLASSID ? 64 : 0;
 }
 
-/// Throws Error for a file of another kind, naming that kind where it is known.
+/// Throws Error for a file of another format, naming the format if it is known.
 [[noreturn]] void refuse(const std::string& head) {
   if (begins(head, "PK"))
     throw Error(
-        "an archive, as numpy and scipy.sparse.save_npz write it: make scripts/convert_matrix a "
-        ".mtx or .h5 of it");
+        "an archive of numpy or scipy.sparse.save_npz: convert it to .mtx or .h5 by "
+        "scripts/convert_matrix");
   if (begins(head, "\x93NUMPY"))
-    throw Error("an array of numpy: make scripts/convert_matrix a .mtx or .h5 of it");
-  if (begins(head, "\x1f\x8b")) throw Error("a file packed by gzip: unpack it first");
+    throw Error("an array of numpy: convert it to .mtx or .h5 by scripts/convert_matrix");
+  if (begins(head, "\x1f\x8b")) throw Error("a file compressed by gzip: decompress it first");
   if (const int bits = indexBits(head); bits > 0)
     throw Error(
         formatted("a matrix in PETSc's binary format with %d-bit indices: write it with %d-bit "

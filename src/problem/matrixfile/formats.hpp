@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Common parts of the readers of matrix files. A reader accepts only files that its format allows:
-/// it ignores nothing in a file, and requires all that the header announces. No function of the
-/// room is collective; they are for rank 0. Every Error gives the reason, and none names the file.
+/// Common parts of the readers of matrix files. A reader accepts only valid files: it ignores
+/// nothing in a file, and requires everything that the header announces. The functions of this room
+/// are not collective; rank 0 calls them. Their Errors contain the reason, but not the name of the
+/// file.
 #include <petscsys.h>
 
 #include <filesystem>
@@ -29,8 +30,8 @@ struct Entries {
 /// Throws Error if the matrix is not square, has no rows, or has more than PetscInt can count.
 void requireSquare(long long rows, long long columns);
 
-/// A Compressed is a matrix in compressed rows or columns. Row (or column) k has the entries from
-/// begin[k] on, up to begin[k + 1], which is the first one of the next row (or column).
+/// A matrix in compressed rows or columns. Row (or column) k has the entries begin[k] to begin[k +
+/// 1], the latter excluded.
 struct Compressed {
   long long rows = 0, columns = 0;
   bool byColumns = false;
@@ -38,9 +39,9 @@ struct Compressed {
   std::vector<double> value;
   const char *beginName = "indptr", *indexName = "indices";  ///< names in the format, for messages
 
-  /// Removes free places after the last entry, which MATLAB stores, at least one.
+  /// Removes unused space after the last entry; MATLAB stores at least one unused entry.
   void dropFree();
-  /// Returns the entries. Throws Error if the lists do not fit together.
+  /// Returns the entries. Throws Error if the lists are inconsistent.
   Entries entries() const;
 };
 

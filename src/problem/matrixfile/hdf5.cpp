@@ -21,7 +21,7 @@ bool isCompressed(hid_t object) {
   return isGroup(object) && has(object, "data") && has(object, "indices") && has(object, "indptr");
 }
 
-/// Returns the class with which MATLAB 7.3 marks every variable; empty in other files.
+/// Returns the class attribute of MATLAB 7.3 variables; empty in other files.
 std::string matlabClass(hid_t object) { return textOfAttribute(object, "MATLAB_class"); }
 bool isMatlabSparse(hid_t object) {
   return isGroup(object) && has(object, "jc") && hasAttribute(object, "MATLAB_sparse");
@@ -40,14 +40,14 @@ bool isMatrix(hid_t object) {
   return isCompressed(object) || isMatlabSparse(object) || isTable(object);
 }
 
-/// Returns true for a single number. MATLAB saves every number as a matrix; next to a real matrix
-/// none of them can be meant.
+/// Returns true for a single number. MATLAB saves every number as a matrix; if there is a larger
+/// matrix, numbers do not count.
 bool isNumber(hid_t object) {
   return isTable(object) && shapeOf(object) == std::vector<hsize_t>{1, 1};
 }
 
-/// Returns true for lists by columns and false for lists by rows; none if the group does not
-/// define it. scipy.sparse.save_npz stores the format as a dataset; so does a copy of it in HDF5.
+/// Returns true for lists by columns and false for lists by rows; none if the group does not define
+/// it. scipy.sparse.save_npz, and copies of its files in HDF5, store the format as a dataset.
 std::optional<bool> byColumns(hid_t group) {
   std::string found;
   for (const std::string& text :
@@ -56,14 +56,14 @@ std::optional<bool> byColumns(hid_t group) {
     if (text.empty()) continue;
     const std::string format = text.substr(0, 3);
     if (format != "csr" && format != "csc")
-      throw Error("the format '" + text + "', where csr and csc are read");
-    if (!found.empty() && found != format) throw Error("the group is marked csr as well as csc");
+      throw Error("the format '" + text + "' is not supported; use csr or csc");
+    if (!found.empty() && found != format) throw Error("the group is marked as both csr and csc");
     found = format;
   }
   return found.empty() ? std::nullopt : std::optional(found == "csc");
 }
 
-/// Returns true if the matrix is symmetric. Read by rows and by columns, the same lists are a
+/// Returns true if the matrix is symmetric. The same lists, read by rows and by columns, are a
 /// matrix and its transpose.
 bool isSymmetric(const Entries& entries) {
   using Sum = std::tuple<PetscInt, PetscInt, double>;
@@ -85,8 +85,8 @@ bool isSymmetric(const Entries& entries) {
   return sums(entries.row, entries.column) == sums(entries.column, entries.row);
 }
 
-/// Throws Error unless rows and columns are as many as `size`, if they are stored: in the
-/// attribute of anndata or h5sparse, or in the dataset of scipy.sparse.save_npz.
+/// Throws Error if the stored numbers of rows and columns, if any, differ from `size`: the
+/// attribute of anndata or h5sparse, or the dataset of scipy.sparse.save_npz.
 void checkShape(hid_t group, long long size) {
   std::vector<long long> shape;
   for (const char* name : {"shape", "h5sparse_shape"})
@@ -113,14 +113,13 @@ Entries compressedGroup(hid_t group) {
   Entries entries = matrix.entries();
   if (!said && !isSymmetric(entries))
     throw Error(
-        "the group does not say whether its lists are by rows or by columns, and the matrix is "
-        "not symmetric: give it the attribute 'format' (or 'h5sparse_format', 'encoding-type') "
+        "the group does not define whether its lists are by rows or by columns, and the matrix is "
+        "not symmetric: add the attribute 'format' (or 'h5sparse_format', 'encoding-type') "
         "with the text csr or csc");
   return entries;
 }
 
-/// Returns the entries of a sparse matrix of MATLAB 7.3. Without entries there are no lists of
-/// them.
+/// Returns the entries of a sparse matrix of MATLAB 7.3. A matrix without entries has no lists.
 Entries matlabSparse(hid_t group) {
   Compressed matrix{0, 0, true, {}, {}, {}, "jc", "ir"};
   const auto rows = integersOfAttribute(group, "MATLAB_sparse");
@@ -140,12 +139,11 @@ Entries matlabSparse(hid_t group) {
   return matrix.entries();
 }
 
-/// Returns the entries of a dataset of two dimensions, which is stored by rows, in MATLAB files by
+/// Returns the entries of a two-dimensional dataset, stored by rows or, in MATLAB files, by
 /// columns.
 Entries table(hid_t file, hid_t dataset, const std::string& name) {
   const auto shape = shapeOf(dataset);
-  if (shape[0] > LLONG_MAX || shape[1] > LLONG_MAX)
-    throw Error("its sizes are beyond what 64 bits count");
+  if (shape[0] > LLONG_MAX || shape[1] > LLONG_MAX) throw Error("its sizes exceed 64 bits");
   requireSquare(shape[0], shape[1]);
   const bool transposed = !matlabClass(dataset).empty();
   const auto values = reals(file, name, 2);
@@ -211,10 +209,10 @@ Entries readHere(const std::filesystem::path& path, const std::string& name) {
 
 }  // namespace
 
-/// Reads the file in a child process, as the HDF5 library crashes on damaged files.
+/// Reads the file in a child process, since the HDF5 library crashes on damaged files.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
   const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * std::filesystem::file_size(path),
-                           availableMemory(), "it asks for more memory than is free",
+                           availableMemory(), "it requires more memory than is free",
                            "the HDF5 library"};
   const auto exchange = [](Stream& stream, Entries& entries) {
     stream(entries.row, entries.column, entries.value);

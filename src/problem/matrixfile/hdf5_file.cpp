@@ -21,8 +21,7 @@ std::vector<hsize_t> extentOf(hid_t space) {
 /// Returns the product of the extents and `size`. Throws Error if 64 bits cannot count it.
 hsize_t product(const std::vector<hsize_t>& shape, hsize_t size) {
   for (const auto extent : shape)
-    if (__builtin_mul_overflow(size, extent, &size))
-      throw Error("its sizes are beyond what 64 bits count");
+    if (__builtin_mul_overflow(size, extent, &size)) throw Error("its sizes exceed 64 bits");
   return size;
 }
 
@@ -52,8 +51,8 @@ hsize_t chunksOf(const std::vector<hsize_t>& shape, const std::vector<hsize_t>& 
   return chunks;
 }
 
-/// Returns the bytes that the values take, those of whole chunks. Throws Error if some chunks were
-/// never written.
+/// Returns the size of the values in bytes, in whole chunks. Throws Error if some chunks were never
+/// written.
 hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width,
                     const std::vector<hsize_t>& shape) {
   const hsize_t wanted = product(shape, width);
@@ -75,12 +74,12 @@ hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width,
 void requireStored(hid_t dataset, hid_t type, const std::vector<hsize_t>& shape) {
   const PropertiesId properties(H5Dget_create_plist(dataset));
   if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) > 0)
-    throw Error("its values are in other files: merge them by h5repack");
+    throw Error("its values are in other files: merge them with h5repack");
   const hsize_t wanted = wantedBytes(dataset, properties, H5Tget_size(type), shape),
                 stored = H5Dget_storage_size(dataset);
   if (wanted > mostUnpacked(properties, stored))
-    throw Error("the file holds " + std::to_string(stored) + " bytes of it, where its size takes " +
-                std::to_string(wanted));
+    throw Error("the file contains " + std::to_string(stored) +
+                " bytes of it, but its size requires " + std::to_string(wanted));
 }
 
 /// Returns the name of a type for messages.
@@ -91,7 +90,7 @@ std::string kindOf(hid_t type) {
     case H5T_FLOAT:
       return "reals";
     case H5T_COMPOUND:
-      return "a compound type, as complex numbers are";
+      return "a compound type, such as complex numbers";
     case H5T_STRING:
       return "text";
     default:
@@ -105,11 +104,11 @@ std::vector<Number> valuesOf(hid_t dataset, bool onlyIntegers, hid_t memory, int
   const auto kind = H5Tget_class(type);
   if (kind != H5T_INTEGER && (onlyIntegers || kind != H5T_FLOAT))
     throw Error(std::string(onlyIntegers ? "integers" : "real numbers") +
-                " are expected, it contains " + kindOf(type));
+                " are expected, but it contains " + kindOf(type));
   const SpaceId space(H5Dget_space(dataset));
   if (H5Sget_simple_extent_type(space) != H5S_SIMPLE ||
       H5Sget_simple_extent_ndims(space) != dimensions)
-    throw Error(formatted("%d dimensions are expected, it has %d", dimensions,
+    throw Error(formatted("%d dimensions are expected, but it has %d", dimensions,
                           H5Sget_simple_extent_ndims(space)));
   const auto shape = extentOf(space);
   requireStored(dataset, type, shape);

@@ -26,20 +26,19 @@ bool hasAttribute(hid_t object, const std::string& name);
 /// Returns the extents of a dataset; empty for a scalar and for a dataset without extent.
 std::vector<hsize_t> shapeOf(hid_t dataset);
 
-/// These functions return the values of a dataset. They throw Error if it has another type or
-/// number of dimensions, or if its values are not in the file, because they were never written or
-/// are in other files.
+/// Return the values of a dataset. Throw Error if it has another type or number of dimensions, or
+/// if its values are not in the file (never written, or in other files).
 std::vector<long long> integers(hid_t group, const std::string& name);
 std::vector<double> reals(hid_t group, const std::string& name, int dimensions = 1);
 
-/// These functions return the text of an attribute or of a dataset with a single one. A text
-/// of fixed length may have up to 64 characters; one of variable length is cut to as many.
-/// Otherwise the result is empty.
+/// Return the text of an attribute or of a dataset with a single text. A text of fixed length may
+/// have up to 64 characters; a text of variable length is truncated to 64. Otherwise the result is
+/// empty.
 std::string textOfAttribute(hid_t object, const std::string& name);
 std::string textOfDataset(hid_t group, const std::string& name);
 
-/// Returns the integers of an attribute; empty if there is none, one of another type, or one with
-/// more than 64 integers.
+/// Returns the integers of an attribute; empty if it does not exist, has another type, or has more
+/// than 64 integers.
 std::vector<long long> integersOfAttribute(hid_t object, const std::string& name);
 
 }  // namespace squeal::matrixfile

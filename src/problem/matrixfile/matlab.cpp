@@ -63,8 +63,7 @@ bool isVersion5(BinaryFile& file) {
   return (mark[0] == 'I' && mark[1] == 'M') || (mark[0] == 'M' && mark[1] == 'I');
 }
 
-/// Returns true if the text at the beginning is that of version 5, as it also is where the mark of
-/// the byte order is missing.
+/// Returns true if the file begins with the text of version 5, even without a byte-order mark.
 bool claimsVersion5(BinaryFile& file) {
   char text[6] = {};
   file.seek(0);
@@ -78,7 +77,7 @@ Entries readMatlab(const std::filesystem::path& path, const std::string& name) {
   BinaryFile file(path);
   const bool version5 = isVersion5(file);
   if (!version5 && claimsVersion5(file))
-    throw Error("the header of the MATLAB file is cut short or damaged");
+    throw Error("the header of the MATLAB file is truncated or damaged");
   const auto variables = version5 ? variablesOfVersion5(file) : variablesOfVersion4(file);
   const Variable& variable = chosen(variables, name);
   if (!variable.sparse || version5) requireSquare(variable.shape[0], variable.shape[1]);

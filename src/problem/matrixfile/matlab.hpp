@@ -8,9 +8,9 @@
 
 namespace squeal::matrixfile {
 
-/// Reads a MATLAB file of version 4 or 5 (as `save -v4`, `-v6` and `-v7` write): the variable
-/// `name`, sparse or full. An empty name means the only square matrix of more than one row.
-/// Throws Error if there is none or several of them, and for complex or damaged content, including
+/// Reads the variable `name`, sparse or full, from a MATLAB file of version 4 or 5 (`save -v4`,
+/// `-v6` and `-v7`). An empty name means the only square matrix with more than one row. Throws
+/// Error if there is no such matrix or more than one, and for complex or damaged content, including
 /// damaged sizes of other variables.
 Entries readMatlab(const std::filesystem::path& path, const std::string& name);
 

@@ -49,17 +49,17 @@ std::vector<double> valuesOf(BinaryFile& file, const Variable& variable) {
 Variable variableAt(BinaryFile& file, std::uint64_t position) {
   file.seek(position);
   if (file.size() - position < headerSize)
-    throw Error("the file is cut short in the header of a variable");
+    throw Error("the file is truncated in the header of a variable");
   const auto fail = [&] {
     throw Error(formatted("no header of a MATLAB variable at byte %" PRIu64
-                          ": the file is damaged, or no MATLAB file",
+                          ": the file is damaged, or not a MATLAB file",
                           position));
   };
   char bytes[headerSize];
   file.read(bytes, sizeof bytes);
   Variable variable;
-  // The thousands give the byte order, 0 for little-endian and 1 for big; so the type itself shows
-  // the order it is written in.
+  // The thousands digit is the byte order, 0 for little-endian and 1 for big-endian, so the type
+  // reveals its own byte order.
   const auto type = [&](bool swapped) { return numberAt<std::int32_t>(bytes, swapped); };
   variable.swapped =
       type(!littleEndian) / 1000 == 0 && type(!littleEndian) >= 0 ? !littleEndian : littleEndian;
@@ -78,13 +78,13 @@ Variable variableAt(BinaryFile& file, std::uint64_t position) {
   const std::uint64_t count = word(1) * word(2),  // less than 2^62
       width = widthOf(variable.type) * (1 + imaginary);
   if (variable.begin > file.size() || count > (file.size() - variable.begin) / width)
-    throw Error(formatted("the file is cut short: the variable at byte %" PRIu64
+    throw Error(formatted("the file is truncated: the variable at byte %" PRIu64
                           " is longer than the rest of the file",
                           position));
   variable.end = variable.begin + count * width;
   variable.name.resize(nameLength);
   file.read(variable.name.data(), variable.name.size());
-  variable.name = variable.name.c_str();  // a zero ends it
+  variable.name = variable.name.c_str();  // it ends with a zero
   const bool isText = mopt % 10 == 1, complex = imaginary == 1 || (variable.sparse && word(2) == 4);
   variable.kind = std::string(complex ? "complex " : "") + (isText            ? "text"
                                                             : variable.sparse ? "sparse"

@@ -9,8 +9,8 @@
 
 namespace squeal::matrixfile {
 
-/// Returns all variables in the order of the file. Throws Error if their sizes do not add up to
-/// that of the file, and for damaged headers.
+/// Returns all variables in the order of the file. Throws Error for damaged headers, and if the
+/// sizes do not add up to the size of the file.
 std::vector<Variable> variablesOfVersion4(BinaryFile& file);
 
 /// Reads a variable that is `real` and has two dimensions. Throws Error for damaged content.

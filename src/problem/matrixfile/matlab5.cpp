@@ -24,7 +24,7 @@ class Source {
   Source(BinaryFile& file, std::uint64_t begin, std::uint64_t end, bool packed)
       : file_(file), left_(end - begin), packed_(packed) {
     file_.seek(begin);
-    if (packed_ && inflateInit(&stream_) != Z_OK) throw Error("zlib lacks memory");
+    if (packed_ && inflateInit(&stream_) != Z_OK) throw Error("zlib is out of memory");
   }
   ~Source() {
     if (packed_) inflateEnd(&stream_);
@@ -39,8 +39,8 @@ class Source {
     file_.read(to, count);
     left_ -= count;
   }
-  /// Returns the next `count` bytes. Memory is taken as the bytes come, not as a length promises
-  /// them.
+  /// Returns the next `count` bytes. It allocates memory as bytes arrive, since the given length
+  /// may be damaged.
   std::vector<char> take(std::uint64_t count) {
     constexpr std::uint64_t step = 1 << 22;
     std::vector<char> bytes;
@@ -51,11 +51,11 @@ class Source {
     }
     return bytes;
   }
-  /// Throws Error unless packed bytes end here, with their check sum.
+  /// Throws Error unless packed bytes end here, with their checksum.
   void finish() {
     if (!packed_) return;
     char surplus = 0;
-    if (!atEnd_ && produce(&surplus, 1) == 1) throw Error("it is longer than its header says");
+    if (!atEnd_ && produce(&surplus, 1) == 1) throw Error("it is longer than its header states");
     if (!atEnd_ || left_ > 0 || stream_.avail_in > 0)
       throw Error("its packed bytes do not end where they should");
   }
@@ -103,7 +103,7 @@ class Elements {
         swapped_(variable.swapped),
         left_(variable.end - variable.begin) {
     if (!variable.packed) return;
-    left_ = std::numeric_limits<std::uint64_t>::max();  // until the tag within says
+    left_ = std::numeric_limits<std::uint64_t>::max();  // until the inner tag defines it
     const Tag tag = nextTag();
     if (tag.type != matrixType) throw Error("no variable in packed bytes");
     left_ = tag.size;
@@ -128,7 +128,7 @@ class Elements {
     left_ -= padding;
     return element;
   }
-  /// Throws Error unless all that was announced has been read.
+  /// Throws Error unless all announced bytes have been read.
   void finish() {
     if (left_ != 0) throw Error("it is longer than its parts");
     source_.finish();
@@ -142,7 +142,7 @@ class Elements {
     char data[4] = {};
   };
   /// Reads the next tag. A small element has its length in the upper half of the type, and its
-  /// bytes where others have their length.
+  /// bytes in place of the length.
   Tag nextTag() {
     char bytes[tagSize];
     if (left_ < tagSize) throw Error("it is cut short");
@@ -217,7 +217,7 @@ std::vector<long long> shapeOf(const Elements::Element& element, bool swapped) {
   return shape;
 }
 
-/// Reads the flags, sizes (not of an opaque object) and name with which every variable begins.
+/// Reads the header of a variable: flags, sizes (except of an opaque object) and name.
 void readHeader(Elements& elements, Variable& variable) {
   const auto flags = elements.next();
   if (flags.type != 6 || flags.bytes.size() != 8) throw Error("its flags are damaged");
@@ -239,7 +239,7 @@ void readHeader(Elements& elements, Variable& variable) {
 
 Variable variableAt(BinaryFile& file, std::uint64_t position, bool swapped) {
   if (file.size() - position < tagSize)
-    throw Error("the file is cut short in the header of a variable");
+    throw Error("the file is truncated in the header of a variable");
   file.seek(position);
   const auto type = file.number<std::uint32_t>(swapped), size = file.number<std::uint32_t>(swapped);
   if (type != matrixType && type != packedType)
@@ -250,10 +250,10 @@ Variable variableAt(BinaryFile& file, std::uint64_t position, bool swapped) {
   variable.packed = type == packedType;
   variable.swapped = swapped;
   if (variable.end > file.size())
-    throw Error(formatted("the file is cut short: the variable at byte %" PRIu64
+    throw Error(formatted("the file is truncated: the variable at byte %" PRIu64
                           " takes %u bytes, %" PRIu64 " are left",
                           position, size, file.size() - variable.begin));
-  if (size == 0) return variable;  // an empty matrix of nothing
+  if (size == 0) return variable;  // an empty matrix
   try {
     Elements elements(file, variable);
     readHeader(elements, variable);
@@ -276,7 +276,7 @@ std::vector<Variable> variablesOfVersion5(BinaryFile& file) {
     Variable variable = variableAt(file, position, swapped);
     position = variable.end;
     if (!variable.name.empty())
-      variables.push_back(std::move(variable));  // one without a name is MATLAB's own
+      variables.push_back(std::move(variable));  // MATLAB's internal variables have no name
   }
   return variables;
 }

@@ -9,7 +9,7 @@
 
 namespace squeal::matrixfile {
 
-/// A variable, as its header describes it.
+/// A variable as described by its header.
 struct Variable {
   std::string name;
   std::string kind;                  ///< "double", "complex sparse", "struct": for messages

@@ -39,7 +39,7 @@ class Lines {
   }
 
   void requireWords(std::size_t wanted, const char* what) const {
-    if (count_ != wanted) fail(formatted("%zu words where %s are expected", count_, what));
+    if (count_ != wanted) fail(formatted("%zu words instead of %s", count_, what));
   }
   long long integer(std::size_t i, const char* what) const {
     const std::string_view text = withoutPlus(words_[i]);
@@ -71,7 +71,7 @@ class Lines {
   std::string quoted(std::size_t i) const {
     return " '" + std::string(words_[i].substr(0, 40)) + "'";
   }
-  /// Splits the line into words. A word too many is enough to know of.
+  /// Splits the line into words, at most one more than expected.
   void split() {
     const std::string_view line = line_, blanks = " \t\r\f\v";
     count_ = 0;
@@ -97,7 +97,7 @@ std::string lowerCase(std::string_view word) {
   return text;
 }
 
-/// The contents that the first lines announce.
+/// The contents announced by the first lines.
 struct Header {
   bool array = false, pattern = false, integer = false, symmetric = false, skew = false;
   long long rows = 0, columns = 0, count = 0;
@@ -141,7 +141,7 @@ Header readHeader(Lines& lines) {
   header.rows = lines.integer(0, "the number of rows");
   header.columns = lines.integer(1, "the number of columns");
   if (header.rows < 0 || header.columns < 0) lines.fail("a negative number of rows or columns");
-  const Entries checked(header.rows, header.columns);  // so that their product fits into 64 bits
+  const Entries checked(header.rows, header.columns);  // their product must fit into 64 bits
   if (header.oneTriangle() && header.rows != header.columns)
     lines.fail(
         formatted("a symmetric matrix of %lld rows and %lld columns", header.rows, header.columns));
@@ -156,7 +156,7 @@ Header readHeader(Lines& lines) {
   return header;
 }
 
-/// A Filler adds entries to a matrix, those of one triangle on both sides.
+/// Adds entries to a matrix, and mirrors the entries of a stored triangle.
 class Filler {
  public:
   Filler(const Lines& lines, const Header& header)
@@ -202,7 +202,7 @@ double valueOf(const Lines& lines, const Header& header, std::size_t word) {
 long long indexOf(const Lines& lines, std::size_t word, const char* what, long long size) {
   const long long index = lines.integer(word, what);
   if (index < 1 || index > size)
-    lines.fail(formatted("%s %lld is outside of 1 to %lld", what, index, size));
+    lines.fail(formatted("%s %lld is outside 1 to %lld", what, index, size));
   return index - 1;
 }
 
@@ -214,8 +214,8 @@ void addCoordinate(const Lines& lines, const Header& header, Filler& filler) {
   filler.add(i, j, header.pattern ? 1 : valueOf(lines, header, 2));
 }
 
-/// The place of the next value of an array. Values go column by column, of a symmetric
-/// matrix from the diagonal on, of a skew one from below it.
+/// The index of the next value of an array. Values are stored by columns; columns of a symmetric
+/// matrix start at the diagonal, those of a skew-symmetric one below it.
 class Place {
  public:
   explicit Place(const Header& header) : header_(header), row_(firstRow()) {}

@@ -16,12 +16,12 @@ namespace {
 
 constexpr bool swapped = littleEndian;  // the format is big-endian
 
-/// PETSc writes its own integers, and its MatLoad() reads no others.
+/// PETSc writes integers of its own size, and MatLoad() reads only these.
 using Index = PetscInt;
 constexpr long long indexBytes = sizeof(Index);
 
-/// A Header holds the numbers at the beginning of a file: class, rows, columns and entries. The
-/// length of each row, the columns row by row, and the values follow without gaps.
+/// The numbers at the beginning of a file: class, rows, columns and entries. The length of each
+/// row, the columns row by row, and the values follow without gaps.
 struct Header {
   long long rows = 0, columns = 0, entries = 0;
   std::uint64_t columnsBegin() const { return indexBytes * (4 + rows); }
@@ -31,7 +31,7 @@ struct Header {
 
 Header headerOf(BinaryFile& file) {
   if (file.size() < 4 * indexBytes || file.number<Index>(swapped) != MAT_FILE_CLASSID)
-    throw Error("not a matrix in PETSc's binary format: the file is cut short");
+    throw Error("not a matrix in PETSc's binary format: the file is truncated");
   Header header;
   for (auto* value : {&header.rows, &header.columns, &header.entries})
     *value = file.number<Index>(swapped);
@@ -43,8 +43,8 @@ Header headerOf(BinaryFile& file) {
   return header;
 }
 
-/// The lengths of all rows must sum to the number of entries; each row's columns lie in the matrix,
-/// none of them twice, of which MatLoad() would keep the last.
+/// Checks that the row lengths sum to the number of entries, and that the columns of each row are
+/// valid and distinct: MatLoad() would use the last of two entries in one column.
 void checkPattern(const std::filesystem::path& path, const Header& header) {
   BinaryFile lengths(path), columns(path);
   lengths.seek(4 * indexBytes);
@@ -93,11 +93,10 @@ void requirePetscBinary(const std::filesystem::path& path) {
   BinaryFile file(path);
   const Header header = headerOf(file);
   if (file.size() != header.end())
-    throw Error(
-        formatted("%" PRIu64
-                  " bytes where a real matrix of %lld rows and %lld entries with %lld-bit indices "
-                  "takes %" PRIu64 ": cut short, or of another PETSc configuration",
-                  file.size(), header.rows, header.entries, 8 * indexBytes, header.end()));
+    throw Error(formatted("%" PRIu64 " bytes, but a real matrix of %lld rows and %lld entries with "
+                          "%lld-bit indices takes %" PRIu64
+                          ": truncated, or of another PETSc configuration",
+                          file.size(), header.rows, header.entries, 8 * indexBytes, header.end()));
   requireSquare(header.rows, header.columns);
   checkPattern(path, header);
   checkValues(path, header);

@@ -5,9 +5,9 @@
 
 namespace squeal::matrixfile {
 
-/// Throws Error for a file that is not one square real sparse matrix in PETSc's binary format with
-/// the indices of this build, that is truncated, or whose row lengths, columns or values MatLoad()
-/// would misread or crash on. Only one row is in memory at a time.
+/// Throws Error unless the file is one square real sparse matrix in PETSc's binary format with the
+/// indices of this build, complete, and with row lengths, columns and values that MatLoad() reads
+/// correctly. Only one row is in memory at a time.
 void requirePetscBinary(const std::filesystem::path& path);
 
 }  // namespace squeal::matrixfile

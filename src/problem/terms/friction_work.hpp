@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The work of friction on the motion of a mode, by contact node. It shows where friction
+/// The work of friction on the motion of a mode, by contact node: the places where friction
 /// destabilises the mode.
 #include <array>
 #include <vector>
@@ -25,7 +25,7 @@ struct MotionForces {
   double energy = 0;
 };
 
-/// A motion u e^{st} at a point of the sweep; all of it is borrowed.
+/// A motion u e^{st} at a point of the sweep; all members are borrowed.
 struct Motion {
   const sweep::Parameters& at;
   Complex s;
@@ -39,8 +39,8 @@ MotionForces motionForces(const elasticity::Bodies& bodies, const Motion& motion
 struct ContactMotion {
   linalg::ComplexVector jump;       ///< [u] in the rows of the pad nodes, N entries
   linalg::ComplexVector convected;  ///< D u_D in the same rows; null without convective terms
-  /// The normal components of the nodal forces, E⁻ᵀ N r*, without those of open gaps, [owned
-  /// contact node].
+  /// The normal components of the nodal forces, E⁻ᵀ N r*, except those of open gaps, [owned contact
+  /// node].
   std::vector<Complex> nodalForce;
 };
 /// Collective. Returns the values of a nodal vector in the rows of the pad nodes, [owned contact
@@ -55,11 +55,12 @@ ContactMotion contactMotion(const contact::Contact& contact,
 
 /// The data of friction at one point of a sweep.
 struct FrictionState {
-  sweep::Parameters at;  ///< its friction is that of the part with the change of the normal force
+  sweep::Parameters at;  ///< its friction applies to the part with the change of the normal force
   std::vector<contact::Slip> slip;  ///< [owned contact node]
-  OwnedMat response;                ///< B of these, N×N
+  OwnedMat response;                ///< B at this state, N×N
 };
-/// Collective. Returns the data of friction with B of these normal forces, responseForces().
+/// Collective. Returns the data of friction, with B of the normal forces `responseForce`, from
+/// responseForces().
 FrictionState frictionState(const contact::Contact& contact, const sweep::Parameters& at,
                             std::vector<contact::Slip> slip,
                             const std::vector<double>& responseForce);

@@ -11,11 +11,11 @@ namespace squeal::terms {
 namespace {
 
 /// The step of central differences along the change of the steady state. It balances a truncation
-/// error of its square against round-off divided by it.
+/// error proportional to its square against round-off divided by the step.
 constexpr double step = 1e-4;
 
-/// Returns true if the steady state enters the terms of the point by the direction and law of slip,
-/// by friction damping or by prestress.
+/// Returns true if the terms of the point depend on the steady state by the direction and law of
+/// slip, by friction damping or by prestress.
 bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters& at, Mat prestress,
                         const Settings& settings) {
   const bool damping =
@@ -25,7 +25,7 @@ bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters
 
 }  // namespace
 
-/// One parameter θ, and the change of the steady state with it.
+/// A parameter θ, and the change of the steady state with θ.
 struct Influences::Influence {
   std::string name;
   double sweep::Parameters::*member = nullptr;  // θ in the point; null: θ belongs to a body
@@ -37,7 +37,7 @@ struct Influences::Influence {
   OwnedMat prestress = {};                 // its change
 };
 
-/// A triple is given on all nodal displacements, so that
+/// A triple on all nodal displacements, with
 ///   yᴴ L(f)ᵀ X T x = zᴴ X u,   u = T x,   z = L(f) y.
 struct Influences::Projected {
   Complex s;
@@ -158,8 +158,8 @@ Influences::Projected Influences::project(const BodyPoint& state,
   return pair;
 }
 
-/// Returns zᴴ (∂P/∂θ) u for the matrices of one body [M.47]: K, C and K_σ with its moduli, or M, C,
-/// G and K^R with its density.
+/// Returns zᴴ (∂P/∂θ) u for the matrices of one body [M.47]: K, C and K_σ for its moduli, or M, C,
+/// G and K^R for its density.
 Complex Influences::materialForm(const Influence& influence, const BodyPoint& state,
                                  const Projected& pair) const {
   if (influence.member) return 0;
@@ -177,8 +177,8 @@ Complex Influences::materialForm(const Influence& influence, const BodyPoint& st
   return sum;
 }
 
-/// Returns the part that comes from the change of the steady state. That of K_σ, which is linear in
-/// the displacement, is exact; that of friction is a central difference.
+/// Returns the part from the change of the steady state. The part of K_σ, which is linear in the
+/// displacement, is exact; that of friction is a central difference.
 Complex Influences::steadyForm(const Influence& influence, const BodyPoint& state,
                                const Projected& pair) const {
   if (!influence.change.displacement) return 0;
@@ -198,7 +198,7 @@ Complex Influences::steadyForm(const Influence& influence, const BodyPoint& stat
     for (std::size_t k = 0; k < force.size(); ++k)
       force[k] += sign * h * influence.responseForce[k];
     FrictionState moved = frictionState(contact_, at, contact_.slip(at.speed, u), force);
-    // The f that multiplies the change of the normal force is constant: it is a coefficient of the
+    // The f that multiplies the change of the normal force is constant, a coefficient of the
     // pencil.
     moved.at.friction = state.at.friction;
     for (const auto& form : frictionForms(contact_, moved, pair.s, pair.test, pair.motion))

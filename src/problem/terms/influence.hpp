@@ -19,7 +19,7 @@
 
 namespace squeal::terms {
 
-/// One point of a sweep in the terms of the bodies. System, solution and prestress are borrowed.
+/// A point of a sweep in terms of the bodies. System, solution and prestress are borrowed.
 struct BodyPoint {
   sweep::Parameters at;
   const contact::CoupledSystem& system;
@@ -30,17 +30,18 @@ struct BodyPoint {
 /// Computes total derivatives of eigenvalues.
 class Influences {
  public:
-  /// Borrows mesh, bodies and contact during the life of the object.
+  /// Borrows mesh, bodies and contact during the lifetime of the object.
   Influences(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
              const contact::Contact& contact, const Settings& settings)
       : mesh_(mesh), bodies_(bodies), contact_(contact), settings_(settings) {}
 
-  /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point, whose
-  /// terms are in the pencil. The derivatives [M.46] include the terms that follow the steady
-  /// state; the active set and the matrix of modal damping are constant. The parameters are
-  /// friction, speed, pressure and damping as in Parameters, a factor young_BODY on all moduli of a
-  /// body (ds/d ln E), and a factor density_BODY on its density (ds/d ln ρ). Left vectors are
-  /// computed from `start`. Throws Error if the change of the steady state is not found.
+  /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point.
+  /// `pencil` contains the terms of the point. The derivatives [M.46] include the terms that depend
+  /// on the steady state; the active set and the matrix of modal damping are constant. The
+  /// parameters are friction, speed, pressure and damping as in Parameters, a factor young_BODY on
+  /// all moduli of a body (ds/d ln E), and a factor density_BODY on its density (ds/d ln ρ). The
+  /// search for left vectors starts from `start`. Throws Error if the change of the steady state
+  /// does not converge.
   void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
 

@@ -6,7 +6,7 @@ namespace squeal::terms {
 
 struct Settings {
   /// The friction force turns with the relative velocity and follows the friction law. If false, it
-  /// changes by R_T* = −f φ R_N* τ only.
+  /// changes only by R_T* = −f φ R_N* τ.
   bool frictionDamping = true;
 
   /// Returns the settings that the options give.

@@ -54,8 +54,8 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
   check(MatMatMult(contact.sliding.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
   check(MatMatMult(friction.response, jumps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, answered.out()));
   check(MatTransposeMatMult(jumps, answered, MAT_INITIAL_MATRIX, PETSC_DEFAULT, damping.out()));
-  // With a constant law only round-off is left in the plane, and if supports hold the motion across
-  // the sliding direction.
+  // With a constant law, only round-off remains in the plane, and also if supports prevent motion
+  // across the sliding direction.
   PetscReal size = 0, scale = 0;
   check(MatNorm(damping, NORM_FROBENIUS, &size));
   check(MatNorm(friction.response, NORM_FROBENIUS, &scale));

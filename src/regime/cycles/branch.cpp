@@ -21,23 +21,23 @@ double turningPoint(double f0, double slope0, double f1, double slope1, double d
   return f0 + distance * t * (slope0 + t * (b + t * a));
 }
 
-/// Returns the next motion for a guess on the tangent, and sets why there is none.
+/// Returns the next motion for a guess on the tangent, and sets the reason if there is none.
 ShootingResult correct(const Period& period, const Orbit& guess, const ShootingRequest& request,
                        std::string& failure) {
   if (!(guess.friction > 0)) return {};
   try {
     return shoot(period, guess, request);
-  } catch (const Error& error) {  // a motion without bound: a shorter step may find one
+  } catch (const Error& error) {  // the motion is unbounded: a shorter step may succeed
     failure = std::string(": ") + error.what();
     return {};
   }
 }
 
-/// Returns why the branch ends at a motion; empty: it does not.
+/// Returns why the branch ends at a motion; empty if it does not.
 std::string endAt(const ShootingResult& motion, const ContinuationLimits& limits) {
   const double friction = motion.orbit.friction;
   if (friction < limits.lowest || friction > limits.highest) return "the end of the range";
-  if (motion.measures.linear) return "the motion touches no limit of the contact";
+  if (motion.measures.linear) return "no node separates or sticks";
   return "";
 }
 
@@ -83,7 +83,7 @@ Route follow(const Period& period, const ShootingResult& first, bool upwards,
     ++motions;
   }
   route.end = last.orbit.friction;
-  route.reason = "the most motions that are wanted";
+  route.reason = "the largest number of motions is reached";
   return route;
 }
 

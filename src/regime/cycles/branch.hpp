@@ -16,7 +16,7 @@ struct ContinuationLimits {
   double tolerance = 0;            ///< of shoot()
 };
 
-/// The course of a branch in one direction.
+/// A branch in one direction.
 struct Route {
   std::vector<double> folds;  ///< frictions at which the branch turns back, interpolated
   double end = 0;             ///< friction at its end
@@ -24,8 +24,8 @@ struct Route {
 };
 
 /// Collective. Follows the branch through a converged periodic motion by pseudo-arclength
-/// continuation, first towards larger friction if `upwards`. The step is adaptive: it is halved if
-/// Newton's method fails. `inspect` is called for each motion found, except the first.
+/// continuation, first towards larger friction if `upwards`. The step is adaptive, and halved if
+/// Newton's method fails. It calls `inspect` for each motion found, except the first.
 Route follow(const Period& period, const ShootingResult& first, bool upwards,
              const ContinuationLimits& limits, const Progress& progress,
              const std::function<void(const ShootingResult&)>& inspect);

@@ -11,8 +11,8 @@
 namespace squeal::cycles {
 namespace {
 
-/// The accuracy of contact forces, relative to the mean steady force. Their error is part of that
-/// of the end of a passage.
+/// The accuracy of contact forces, relative to the mean steady force. Their error contributes to
+/// the error at the end of a passage.
 constexpr double forceAccuracy = 1e-10;
 
 /// Accumulates the measures of a march, step by step.
@@ -104,8 +104,8 @@ Passage Period::pass(const Orbit& orbit, int steps) const {
   return passage;
 }
 
-/// Collective. Returns the slips that stick at the start. They follow from the last step before it,
-/// as a periodic motion ends in the state in which it starts.
+/// Collective. Returns the slips that stick at the start. They follow from the step before the
+/// start, which is the last one of a period if the motion is periodic.
 std::vector<PetscInt> Period::stuckAtStart(const Orbit& orbit) const {
   std::vector<PetscInt> rows;
   workApart(comm_, [&](const StopAsked& asked) {
@@ -120,7 +120,7 @@ std::vector<PetscInt> Period::stuckAtStart(const Orbit& orbit) const {
 }
 
 /// Collective. Returns the variations of q, v and all z at the end for unit variations of the
-/// entries q, v and stuck z at the start, of which each rank computes some.
+/// entries q, v and stuck z at the start, distributed over the ranks.
 DenseMatrix Period::variationsAtEnd(const Orbit& orbit, const std::vector<PetscInt>& stuck) const {
   const PetscInt k = model_.modes(), rows = model_.rows(), order = 2 * k + std::ssize(stuck);
   const int rank = mpi::rank(comm_), size = mpi::size(comm_);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A passage is a march over a single period, from the initial state of its first step to that of
-/// the step after its last one [M.77].
+/// A passage: a march over a single period, from the initial state of its first step to that of the
+/// step after its last one [M.77].
 #include <mpi.h>
 
 #include <vector>
@@ -27,7 +27,7 @@ struct Measures {
   double largestKinetic = 0;       ///< J
   double frictionPower = 0;        ///< heat of friction, W
   double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N
-  int opening = 0, sticking = 0;   ///< nodes that separate, or stick, at some time
+  int opening = 0, sticking = 0;   ///< nodes that separate or stick at some time
   bool linear = true;              ///< each node stays in its state of steady sliding
 };
 
@@ -38,13 +38,13 @@ struct Passage {
   int quietest = 0;  ///< the number of steps after which the fewest nodes stick
 };
 
-/// The derivative of the end of a passage with respect to its start, in the entries of q and v and
-/// of those slips in z that stick at the start. The motion forgets other entries of z in a few
+/// The derivative of the end of a passage with respect to its start, in the entries of q, of v, and
+/// of the slips in z that stick at the start. The effect of other entries of z decays in a few
 /// steps.
 struct Monodromy {
   std::vector<PetscInt> stuck;  ///< rows of z
   DenseMatrix end;              ///< of q, v and stuck z, square
-  DenseMatrix z;                ///< of all z, rows × columns of the above
+  DenseMatrix z;                ///< of all z, rows × columns of `end`
 };
 
 /// Returns √(qᵀΛq + vᵀv + zᵀK_z z), √J.
@@ -52,13 +52,12 @@ double norm(const ReducedModel& model, const InitialState& x);
 /// Returns norm(end − start) over norm(start).
 double change(const ReducedModel& model, const InitialState& start, const InitialState& end);
 
-/// Makes passages of one model at any friction. The model is as accurate at other frictions as at
-/// its own, because its displacements include static responses to friction.
+/// Computes passages of one model at any friction. The model is as accurate at other frictions as
+/// at its own, because its displacements include static responses to friction.
 class Period {
  public:
-  /// The model, which is copied, was made at the friction `friction`. A period has `steps` steps of
-  /// the massless scheme. All ranks of `comm` have the same model; they share the columns of
-  /// derivatives.
+  /// Copies the model, which was made at `friction`. A period has `steps` steps of the massless
+  /// scheme. All ranks of `comm` must have the same model; they divide the columns of derivatives.
   Period(MPI_Comm comm, ReducedModel model, double friction, int steps);
   MPI_Comm comm() const { return comm_; }
   const ReducedModel& model() const { return model_; }

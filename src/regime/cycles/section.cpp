@@ -35,7 +35,7 @@ bool isLinear(const ReducedModel& model, const march::Massless& scheme) {
 
 }  // namespace
 
-// All members are named, so that a new one does not compile until it is in the stream too.
+// These list all members: a new one does not compile until it is added here.
 void fields(Stream& stream, Pass& pass) {
   auto& [state, acceleration, period] = pass;
   stream(state, acceleration, period);
@@ -65,7 +65,6 @@ void Section::inspect(const march::Massless& scheme) {
   const double time = scheme.state().time, level = march::dot(weight_, now.q);
   if (linear_) linear_ = isLinear(model_, scheme);
   if (!last_.q.empty() && before_ < 0 && level >= 0) {
-    // The state is interpolated linearly between two steps.
     const double part = before_ / (before_ - level), at = lastTime_ + part * (time - lastTime_);
     const auto between = [&](const std::vector<double>& a, const std::vector<double>& b) {
       std::vector<double> result(a.size());
@@ -92,7 +91,7 @@ std::vector<Orbit> firstOrbits(const Passes& passes, double step, int steps) {
     Orbit orbit{pass.state, pass.period / count, 0};
     for (auto* part : {&orbit.start.q, &orbit.start.v, &orbit.start.z})
       for (double& entry : *part) entry /= count;
-    // v is that of half a step before.
+    // v belongs to half a step earlier.
     for (std::size_t i = 0; i < orbit.start.v.size(); ++i)
       orbit.start.v[i] += (step - orbit.period / steps) / 2 * pass.acceleration[i] / count;
     orbits.push_back(std::move(orbit));

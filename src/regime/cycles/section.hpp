@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Starting points for shooting. If a march swings about an unstable periodic motion, two states
-/// are near that motion: the mean of the states at which the march passes a section, and the pass
-/// that comes nearest to the one before it.
+/// Starting points for shooting. If a march oscillates about an unstable periodic motion, two
+/// states are near that motion: the mean of the states at which the march passes a section, and the
+/// pass nearest to the preceding one.
 #include <utility>
 #include <vector>
 
@@ -15,30 +15,30 @@ namespace squeal::cycles {
 struct Pass {
   InitialState state;
   std::vector<double> acceleration;  ///< of the modes
-  double period = 0;                 ///< since the pass before, s
+  double period = 0;                 ///< since the preceding pass, s
 };
 
 /// The passes of a span of time.
 struct Passes {
   int count = 0;
   Pass sum;
-  /// The pass that differs least from the one before it, √J over √J. A node must have left its
-  /// state of steady sliding between the two: linear motions that grow slowly come nearer.
+  /// The pass that differs least from the preceding one, √J over √J. Between the two a node must
+  /// have separated or stuck: slowly growing linear motions would differ even less.
   Pass nearest;
   double change = -1;  ///< of `nearest`; -1: there is none
   void add(const Passes& other);
 };
 
-/// Writes the passes to a stream, or reads them.
+/// Write or read the passes.
 void fields(Stream& stream, Passes& passes);
 void fields(Stream& stream, Pass& pass);
 
-/// A Section is passed where the coordinate of a mode passes zero upwards.
+/// The section at which the coordinate of a mode passes zero upwards.
 class Section {
  public:
-  /// The model is borrowed. The mode has the coordinates q and this period, s.
+  /// Borrows the model. The mode has the coordinates q and this period, s.
   Section(const ReducedModel& model, const std::vector<Complex>& q, double period);
-  /// Is called after each step.
+  /// Call it after each step.
   void inspect(const march::Massless& scheme);
   /// Returns the passes since the last call.
   Passes take() { return std::exchange(passes_, {}); }
@@ -53,8 +53,8 @@ class Section {
   Passes passes_;
 };
 
-/// Returns the orbits to start from, the mean and the nearest if there is one, for periods of this
-/// number of steps; `step` is that of the march, s. Their friction is not set.
+/// Returns the initial orbits, the mean and, if there is one, the nearest, for periods of this
+/// number of steps. `step` is the time step of the march, s. Their friction is not set.
 std::vector<Orbit> firstOrbits(const Passes& passes, double step, int steps);
 
 }  // namespace squeal::cycles

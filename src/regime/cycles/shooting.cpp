@@ -69,7 +69,7 @@ std::vector<double> Linearisation::phase(const Period& period, const Orbit& at) 
   return phase;
 }
 
-/// Solves with a last equation; `last` is a Direction.
+/// Solves with `last`, a Direction, as the last equation.
 std::vector<double> Linearisation::solve(std::vector<double> right, const Direction& last) const {
   const PetscInt n = std::ssize(scale_), k = modes();
   DenseMatrix a(n + 2, n + 2);
@@ -140,7 +140,7 @@ Multipliers Linearisation::multipliers() const {
   double best = -2;
   for (PetscInt place = 0; place < n; ++place) {
     result.values.push_back(eigen.value[order[place]]);
-    // The vector of a shift in time is the velocity of the motion.
+    // The eigenvector of a shift in time is the velocity of the motion.
     Complex along = 0;
     for (PetscInt i = 0; i < n; ++i) along += phase_[i] * eigen.right(i, order[place]);
     const bool near = std::abs(result.values.back() - 1.0) < 0.1;
@@ -168,7 +168,7 @@ Orbit Linearisation::changed(const Orbit& orbit, const InitialState& end, const 
   auto& z = result.start.z;
   std::vector<unsigned char> sticks(z.size());
   for (const PetscInt row : monodromy_.stuck) sticks[row] = 1;
-  // A slip that does not stick takes the value of the end of the period.
+  // A slip that does not stick gets its value at the end of the period.
   for (std::size_t i = 0; i < z.size(); ++i)
     if (!sticks[i]) z[i] += factor * (end.z[i] - z[i] + step.z[i]);
   for (std::size_t i = 0; i < step.stuck.size(); ++i)
@@ -178,7 +178,7 @@ Orbit Linearisation::changed(const Orbit& orbit, const InitialState& end, const 
 
 namespace {
 
-/// Newton's method with damping and with linearisations that are used again.
+/// Newton's method with damping and with reused linearisations.
 class Newton {
  public:
   Newton(const Period& period, const Orbit& guess, const ShootingRequest& request)
@@ -229,12 +229,12 @@ class Newton {
         Passage there = period_.pass(trial);
         const double change = cycles::change(period_.model(), trial.start, there.end);
         if (!(change < (1 - factor / 10) * result_.change)) continue;
-        // A linearisation is used again only if it converges fast.
+        // A linearisation is reused only while convergence is fast.
         const bool slow = change > result_.change / 4;
         result_.orbit = trial, result_.change = change, passage_ = std::move(there);
         if (slow) linearisation_.reset();
         return true;
-      } catch (const Error&) {  // a motion without bound
+      } catch (const Error&) {  // the motion is unbounded
       }
     }
     return false;
@@ -243,7 +243,7 @@ class Newton {
   const Period& period_;
   const ShootingRequest& request_;
   std::shared_ptr<const Linearisation> linearisation_;
-  bool fresh_ = false;  // the linearisation is about the orbit of the result
+  bool fresh_ = false;  // the linearisation belongs to the orbit of the result
   Passage passage_;     // of that orbit
   ShootingResult result_;
 };

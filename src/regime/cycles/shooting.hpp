@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Periodic motions of the reduced model by shooting, and their Floquet multipliers [M.77]. A brake
-/// can perform only the stable ones.
+/// Periodic motions of the reduced model by shooting, and their Floquet multipliers [M.77]. Only
+/// stable motions persist in a brake.
 #include <functional>
 #include <memory>
 #include <vector>
@@ -11,19 +11,19 @@
 
 namespace squeal::cycles {
 
-/// A direction in the unknowns (q, v, period, friction), all in √J: q is scaled by the frequency,
-/// period and friction by the norm of the motion over their values.
+/// A direction in the unknowns (q, v, period, friction), all in √J: the scale of q is the
+/// frequency, that of period and friction the norm of the motion over their values.
 using Direction = std::vector<double>;
 
-/// Floquet multipliers: a disturbance of a periodic motion is multiplied by them in each period.
+/// Floquet multipliers: the factors of disturbances of a periodic motion per period.
 struct Multipliers {
   std::vector<Complex> values;  ///< by descending modulus
-  /// Index of the multiplier of a shift in time, identified by its vector. It is 1 to the error of
-  /// the step.
+  /// Index of the multiplier of a shift in time, identified by its vector. It is 1 within the error
+  /// of the time step.
   std::size_t trivial = 0;
 };
 
-/// The equations of a periodic motion, linearised about one:
+/// The equations of a periodic motion, linearised about an orbit:
 ///   (M − 1) δx + ∂x(T)/∂T δT + ∂x(T)/∂f δf = −(x(T) − x),   ẋᵀ δx = 0,   and δf = 0 or tᵀδ = 0,
 /// in entries x of q, v and slips that stick, with the scales of Direction.
 class Linearisation {
@@ -38,10 +38,11 @@ class Linearisation {
     std::vector<double> stuck;  ///< changes of the slips that stick at the start, m
     std::vector<double> z;      ///< m
   };
-  /// Not collective. Returns the step after which the end of a period equals its start, to first
-  /// order: across the tangent if there is one, otherwise at the same friction.
+  /// Not collective. Returns the step that makes the end of a period equal its start to first
+  /// order: orthogonal to the tangent if there is one, otherwise at the same friction.
   Step step(const InitialState& start, const InitialState& end, const Direction& tangent) const;
-  /// Not collective. Returns the direction of the branch over the friction, along `near`, 2-norm 1.
+  /// Not collective. Returns the direction of the branch over the friction, 2-norm 1, oriented
+  /// along `near`.
   Direction tangent(const Direction& near) const;
   /// Returns the change of the friction along a direction of length 1, √J.
   double frictionAlong(const Direction& direction) const {
@@ -49,9 +50,9 @@ class Linearisation {
   }
   /// Not collective. Returns the eigenvalues of the monodromy.
   Multipliers multipliers() const;
-  /// Returns the orbit changed by a factor times the direction.
+  /// Returns the orbit plus a factor times the direction.
   Orbit along(const Orbit& orbit, const Direction& direction, double factor) const;
-  /// Returns the orbit changed by a factor times the step; `end` is that of a period.
+  /// Returns the orbit plus a factor times the step; `end` is the end of a period.
   Orbit changed(const Orbit& orbit, const InitialState& end, const Step& step, double factor) const;
 
  private:
@@ -95,9 +96,9 @@ using Progress = std::function<void(const Iteration&)>;
 struct ShootingRequest {
   double tolerance = 0;    ///< of change()
   Progress progress = {};  ///< empty: none
-  /// With a tangent the friction is an unknown, and the orbit is sought across the tangent.
+  /// With a tangent, the friction is an unknown, and the search is orthogonal to the tangent.
   Direction tangent = {};
-  /// A linearisation about an orbit nearby saves one.
+  /// A linearisation about a nearby orbit, to reuse.
   std::shared_ptr<const Linearisation> linearisation = nullptr;
 };
 

@@ -62,7 +62,7 @@ double StepSolver::sweep(const std::vector<double>& friction,
     }
     const double most = std::max({std::abs(change[0]), std::abs(change[1]), std::abs(change[2])});
     largest = std::max(largest, most);
-    if (most <= negligible) continue;  // loading W into the cache is not worth it
+    if (most <= negligible) continue;  // not worth loading W into the cache
     for (int c = 0; c < dimension_; ++c) r[row + c] += change[c];
     addColumns(w_, row, dimension_, change, d);
   }

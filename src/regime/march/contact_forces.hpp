@@ -16,15 +16,15 @@ namespace squeal::march {
 /// d_N is the gap at the end of the step, or its rate; d_T is the slip in the step.
 class StepSolver {
  public:
-  /// W is symmetric and positive semidefinite, rows × rows. `dimension` rows belong to a node; rows
-  /// that do not move carry no force.
+  /// W is symmetric and positive semidefinite, rows × rows. Each node has `dimension` rows; rows
+  /// that do not move have no force.
   StepSolver(DenseMatrix w, int dimension, std::vector<unsigned char> moves);
   const DenseMatrix& w() const { return w_; }
 
-  /// Improves forces R to a `tolerance`, N, and d = b + W R, given for these forces, with them.
-  /// active[node] is false for a node that is known to be open, whose forces are zero. Returns the
-  /// number of sweeps of the projected Gauss–Seidel method. Throws Error after `mostSweeps`. Throws
-  /// Interrupted, only on this rank, once asked() is true.
+  /// Improves forces R to a `tolerance`, N, and updates d = b + W R, which must be given for the
+  /// initial forces. active[node] is false for a node that is known to be open; its forces are
+  /// zero. Returns the number of sweeps of the projected Gauss–Seidel method. Throws Error after
+  /// the largest number of sweeps. Throws Interrupted, only on this rank, once asked() is true.
   int solve(const std::vector<double>& friction, const std::vector<unsigned char>& active,
             double tolerance, std::vector<double>& r, std::vector<double>& d,
             const StopAsked& asked = {}) const;
@@ -38,9 +38,9 @@ class StepSolver {
   std::vector<double> normalStep_, slipStep_;  // [node] steps of the projections, N/m
 };
 
-/// Returns the largest violation of the conditions of StepSolver by forces R and jumps d: of −d_N
-/// and of |d_N| where R_N > 0, in m; of −R_N, |R_T| − f R_N and of the part of R_T that is not
-/// opposite to d_T, in N. Gaps are weighted by `stiffness`, N/m, so that the result is in N.
+/// Returns the largest violation of the conditions of StepSolver by forces R and jumps d: −d_N, and
+/// |d_N| if R_N > 0, in m; −R_N, |R_T| − f R_N and the part of R_T that is not opposite to d_T, in
+/// N. `stiffness`, N/m, converts gaps to forces.
 double defect(int dimension, const std::vector<unsigned char>& moves,
               const std::vector<double>& friction, const std::vector<double>& r,
               const std::vector<double>& d, const std::vector<double>& stiffness);

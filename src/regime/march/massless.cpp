@@ -39,7 +39,7 @@ DenseMatrix modalInverse(const ReducedModel& model, double h) {
 
 }  // namespace
 
-// All members are named, so that a new one does not compile until it is in the stream too.
+// This lists all members: a new one does not compile until it is added here.
 void fields(Stream& stream, InitialState& state) {
   auto& [q, v, z] = state;
   stream(q, v, z);
@@ -67,7 +67,7 @@ Massless::Massless(const ReducedModel& model, const InitialState& initial, doubl
       damped_(model.rows()),
       before_(steadyForce_) {
   addProduct(model.boundaryDamping, z_, damped_);
-  std::vector<double> q = q_;  // of the step before
+  std::vector<double> q = q_;  // of the preceding step
   for (std::size_t i = 0; i < q.size(); ++i) q[i] -= h * v_[i];
   addProduct(model.jump, q, jump_);
   for (PetscInt row = 0; row < model.rows(); row += model.dimension)
@@ -77,7 +77,6 @@ Massless::Massless(const ReducedModel& model, const InitialState& initial, doubl
 
 void Massless::setAccuracy(double relative) { tolerance_ *= relative / accuracy; }
 
-/// The arrays of one step.
 struct Massless::StepArrays {
   std::vector<double> carried;  // j q
   std::vector<double> jump;     // y
@@ -96,7 +95,7 @@ void Massless::step() {
   finish(std::move(step));
 }
 
-/// Returns the part of d that does not depend on the forces and on z of this step.
+/// Returns the part of d that is independent of the forces and of z of this step.
 double Massless::known(PetscInt i) const {
   return isNormal(i) ? steadyGap_[i] : h_ * steadyVelocity_[i] - jump_[i];
 }
@@ -104,7 +103,7 @@ double Massless::known(PetscInt i) const {
 /// Extrapolates the contact forces of the last two steps, and sets d = b + W R for them [M.72].
 Massless::StepArrays Massless::predict() {
   const PetscInt m = model_.rows();
-  std::vector<double> guess(m), load(m);  // R, and all that acts on the boundary
+  std::vector<double> guess(m), load(m);  // R, and the total load on the boundary
   for (PetscInt i = 0; i < m; ++i) {
     guess[i] = 2 * state_.force[i] - before_[i];
     load[i] = damped_[i] / h_ - steadyForce_[i];
@@ -163,7 +162,7 @@ void Massless::update(StepArrays& step) {
     q_[i] += h_ * v_[i];
   }
   if (!std::isfinite(state_.kinetic))
-    throw Error("the motion is not finite: the time step is too long");
+    throw Error("the motion is not finite: reduce the time step (-regime_step)");
 }
 
 /// Adds the work of the step, and sets the velocities of the contact.
@@ -187,7 +186,7 @@ void Massless::addWork(const StepArrays& step) {
   }
 }
 
-/// Makes the arrays of the step those of the last one.
+/// Stores the arrays of the step as those of the last one.
 void Massless::finish(StepArrays step) {
   state_.v = std::move(step.mean);
   state_.jump = step.jump;
@@ -226,7 +225,7 @@ std::vector<unsigned char> Massless::stuck() const {
   return result;
 }
 
-/// Returns the rows that carry force in the last step.
+/// Returns the rows with a force in the last step.
 std::vector<PetscInt> Massless::loadedRows() const {
   std::vector<PetscInt> rows;
   for (std::size_t node = 0; node < model_.nodes.size(); ++node)
@@ -237,8 +236,8 @@ std::vector<PetscInt> Massless::loadedRows() const {
   return rows;
 }
 
-/// Sets row i of a δR = right, for the slip of a node that slides, divided by the size of its
-/// diagonal: with e = d_T/|d_T|,
+/// Sets row i of a δR = right, for the slip of a sliding node, divided by the magnitude of its
+/// diagonal entry: with e = d_T/|d_T|,
 ///   δR_T = −f e δR_N − (f R_N/|d_T|) (1 − e eᵀ) δd_T.
 void Massless::setSlidingRow(PetscInt i, const std::vector<PetscInt>& rows, const DenseMatrix& b,
                              DenseMatrix& a, DenseMatrix& right) const {
@@ -266,8 +265,8 @@ void Massless::setSlidingRow(PetscInt i, const std::vector<PetscInt>& rows, cons
             scale * across * ((c == own) - d[own] * d[c] / length / length) * b(normal + 1 + c, j);
 }
 
-/// Returns the variations δR for given ones of b in d = b + W R. A node in contact has δd_N = 0,
-/// and if it sticks δd_T = 0.
+/// Returns the variations δR for variations of b in d = b + W R. A node in contact has δd_N = 0
+/// and, if it sticks, δd_T = 0.
 DenseMatrix Massless::forceVariations(const DenseMatrix& b) const {
   const DenseMatrix& w = solver_.w();
   const auto rows = loadedRows();

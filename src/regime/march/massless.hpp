@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The scheme of the massless boundary [M.72]: the leapfrog rule for q, the backward Euler rule for
-/// z. A step maps an initial state to the next one. The derivative of this map is known, and gives
+/// z. A step maps an initial state to the next one. The derivative of this map is available, for
 /// periodic motions and their stability.
 #include <vector>
 
@@ -16,7 +16,7 @@ namespace squeal::march {
 struct InitialState {
   std::vector<double> q, v, z;
 };
-/// Writes the state to a stream, or reads it.
+/// Writes or reads the state.
 void fields(Stream& stream, InitialState& state);
 /// Returns the initial state of the first step, of length h.
 InitialState initialStateAt(const Start& start, double h);
@@ -34,7 +34,7 @@ struct Variations {
 ///   q_{n+1} = q_n + h v_{n+1/2}.
 class Massless : public Scheme {
  public:
-  /// The model is borrowed; h is the step, s.
+  /// Borrows the model; h is the time step, s.
   Massless(const ReducedModel& model, const InitialState& initial, double h,
            double sweptChange = 0);
   void step() override;
@@ -46,7 +46,7 @@ class Massless : public Scheme {
   void setAccuracy(double relative);
   /// Returns the slips that stuck in the last step, [row].
   std::vector<unsigned char> stuck() const;
-  /// Replaces variations of the initial state of the last step by those of the next one. Each node
+  /// Maps variations of the initial state of the last step to those of the next one. Each node
   /// stays open, sticking or sliding, and its coefficient of friction is constant.
   void propagate(Variations& x) const;
 
@@ -71,7 +71,7 @@ class Massless : public Scheme {
   std::vector<double> q_, v_;     // q_n and v_{n−1/2} of the next step
   std::vector<double> z_, jump_;  // z and y of the last step
   std::vector<double> damped_;    // C_z z
-  std::vector<double> before_;    // R of the step before the last
+  std::vector<double> before_;    // R of the step before the last one
 };
 
 }  // namespace squeal::march

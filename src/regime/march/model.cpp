@@ -15,8 +15,8 @@ namespace {
 using linalg::ComplexMatrix;
 using linalg::Lu;
 
-/// The linearised model in the unknowns that are free in steady sliding: q and the z of free rows.
-/// In held rows y = 0, that is z = −j q.
+/// The linearised model in the free unknowns of steady sliding: q, and z of the free rows. In held
+/// rows y = 0, hence z = −j q.
 class Linearised {
  public:
   explicit Linearised(const ReducedModel& model) : model_(model) {
@@ -32,7 +32,7 @@ class Linearised {
       }
   }
 
-  /// Returns A(s), whose null vector holds q and z of the free rows.
+  /// Returns A(s), whose null vector contains q and z of the free rows.
   ComplexMatrix matrix(Complex s) const {
     const PetscInt k = model_.modes(), n = k + std::ssize(free_);
     // W = H(s) T by rows: first those of q, then those of z.
@@ -81,7 +81,7 @@ class Linearised {
     for (const PetscInt row : held_) z[row] = -model_.jump(row, j);
   }
 
-  /// Sets the forces of a motion (q, z) e^{st}, those of q first.
+  /// Sets the forces of a motion (q, z) e^{st}, with those of q first.
   void forces(Complex s, const std::vector<Complex>& q, const std::vector<Complex>& z,
               std::span<Complex> result) const {
     const PetscInt k = model_.modes(), m = model_.rows();
@@ -107,7 +107,7 @@ class Linearised {
               z[column];
   }
 
-  /// Adds the friction of a node that slides,
+  /// Adds the friction of a sliding node,
   ///   R_T* = −f R_N* t_1 − s R_N (df/d|w| y_∥ t_1 + f/|w| y_⊥ t_2),
   /// to its virtual work.
   void addFriction(PetscInt i, Complex s, const ComplexMatrix& h, ComplexMatrix& a) const {
@@ -123,7 +123,7 @@ class Linearised {
     }
     if (model_.dimension == 3) addDamping(across, s * node.friction * node.normalForce / speed, a);
   }
-  /// Adds the virtual work δy_row b y_row of a row that moves freely.
+  /// Adds the virtual work δy_row b y_row of a free row.
   void addDamping(PetscInt row, Complex b, ComplexMatrix& a) const {
     if (!model_.moves[row]) return;
     const PetscInt k = model_.modes();
@@ -171,7 +171,8 @@ double coefficient(const ReducedModel& model, const Node& node, double speed, do
 
 LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& asked) {
   const Linearised linearised(model);
-  // A(s) is quadratic in s: three values give it, at the magnitude of s so that nothing cancels.
+  // A(s) is quadratic in s, so three values define it. They are taken at the magnitude of s to
+  // avoid cancellation.
   const double scale0 = std::abs(s);
   const ComplexMatrix constant = linearised.matrix(0), ahead = linearised.matrix(scale0),
                       behind = linearised.matrix(-scale0);
@@ -202,11 +203,11 @@ LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& as
       return mode;
     }
   }
-  throw Error("Newton's method finds no such eigenvalue of the reduced model");
+  throw Error("Newton's method does not converge to this eigenvalue of the reduced model");
 }
 
 double stableStep(const ReducedModel& model) {
-  // With all nodes held z = −j q: the stiffness is that of [I; −j].
+  // With all nodes held, z = −j q: the stiffness is projected on [I; −j].
   const PetscInt k = model.modes();
   DenseMatrix stiffness(k, k);
   for (PetscInt i = 0; i < k; ++i) stiffness(i, i) = model.stiffness[i];
@@ -218,7 +219,7 @@ double stableStep(const ReducedModel& model) {
 }
 
 double longestStep(const ReducedModel& model) {
-  // Without contact forces z = −K_z⁻¹ K_zq q.
+  // Without contact forces, z = −K_z⁻¹ K_zq q.
   DenseMatrix response = model.couplingStiffness;
   linalg::Lu<double>(DenseMatrix(model.boundaryStiffness)).solve(response);
   DenseMatrix stiffness = linalg::transposedProduct(model.couplingStiffness, response);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The reduced model of the motion about steady sliding keeps the exact conditions of contact and
+/// The reduced model of the motion about steady sliding, with the exact conditions of contact and
 /// friction at every contact node [M.70, M.71]:
 ///   u = u_s + V q + Ψ z,   y = j q + z,
 ///   q̈ + C q̇ + Λ q + K_zqᵀ z + C_zqᵀ ż = jᵀ R*,
 ///   M_z z̈ + C_z ż + K_z z + K_zq q + C_zq q̇ = R*,
-/// with the jump y of gaps and slips and the contact forces R = R_s + R*. The contact moves with
-/// the modes, j q, and by z, which the modes do not carry. Only the scheme of Moreau and Jean uses
-/// M_z. Without it the boundary is massless, and an impact has no impulse.
+/// with the jump y of gaps and slips and the contact forces R = R_s + R*. The motion of the contact
+/// consists of j q by the modes and of z, which the modes do not contain. Only the scheme of Moreau
+/// and Jean uses M_z. Without M_z the boundary is massless, and an impact has no impulse.
 #include <array>
 #include <functional>
 #include <vector>
@@ -27,13 +27,13 @@ struct Node {
   int interface = 0;
   Point position{};
   Point normal{};                    ///< unit, from disc to pad
-  std::array<Point, 2> tangents{};   ///< unit; the first along τ where the node slides
+  std::array<Point, 2> tangents{};   ///< unit; the first along τ if the node slides
   double friction = 0;               ///< coefficient of friction in steady sliding
   double lawCoefficient = 0;         ///< factor on the friction law; 0: no law applies
   double frictionSlope = 0;          ///< derivative of `friction` by the sliding speed, s/m
   double sweptFriction = 0;          ///< derivative of `friction` by the swept coefficient
   double area = 0;                   ///< m²
-  double gap = 0;                    ///< steady gap, m; 0 where it is pressed
+  double gap = 0;                    ///< steady gap, m; 0 if it is closed
   double normalForce = 0;            ///< steady R_N, N, ≥ 0
   std::array<double, 2> shear{};     ///< steady friction force on the pad along the tangents, N
   std::array<double, 2> velocity{};  ///< steady relative velocity of the pad, m/s; 0: it sticks
@@ -53,17 +53,17 @@ struct ReducedModel {
   DenseMatrix boundaryStiffness;  ///< K_z
   DenseMatrix couplingDamping;    ///< C_zq, rows × modes
   DenseMatrix couplingStiffness;  ///< K_zq
-  /// [row] false for a slip that supports hold or that has no friction: it has no z.
+  /// [row] false for a slip that supports hold or without friction: it has no z.
   std::vector<unsigned char> moves;
-  /// φ, the friction law, of the sliding speed, m/s; empty: constant coefficients.
+  /// The friction law φ of the sliding speed, m/s; empty: constant coefficients.
   std::function<double(double)> law;
 
   PetscInt modes() const { return std::ssize(stiffness); }
   PetscInt rows() const { return std::ssize(nodes) * dimension; }
 };
 
-/// Not collective. Returns the coefficient of friction of a node at a sliding speed, m/s, if the
-/// swept coefficient exceeds that of the model by `sweptChange`.
+/// Not collective. Returns the coefficient of friction of a node at a sliding speed, m/s, with the
+/// swept coefficient of the model plus `sweptChange`.
 double coefficient(const ReducedModel& model, const Node& node, double speed, double sweptChange);
 
 /// A motion of the linearised model, e^{st} times these amplitudes.
@@ -74,11 +74,11 @@ struct LinearMode {
   std::vector<Complex> force;  ///< R*, [row]
 };
 
-/// Not collective. Returns the eigenpair of the model linearised about steady sliding that Newton's
-/// method finds from s: pressed nodes stay closed, sliding ones obey
+/// Not collective. Returns the eigenpair of the model linearised about steady sliding, by Newton's
+/// method from s. Closed nodes stay closed, and sliding ones obey
 ///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7],
-/// sticking ones stick, open ones are free. Throws Error if the method does not converge. Throws
-/// Interrupted, only on this rank, once asked() is true.
+/// sticking nodes stick, and open nodes are free. Throws Error if the method does not converge.
+/// Throws Interrupted, only on this rank, once asked() is true.
 LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& asked = {});
 
 /// Not collective. Returns the largest step, s, at which the leapfrog rule is stable with all nodes

@@ -18,7 +18,7 @@ struct WholeModel {
   DenseMatrix jumps;  // Jᵀ, with zeros for the rows that do not move
 };
 
-/// Returns a matrix of x without its part of the modes.
+/// Returns a matrix of x without its modal block.
 DenseMatrix whole(const ReducedModel& model, const DenseMatrix& boundary,
                   const DenseMatrix& coupling) {
   const PetscInt k = model.modes(), m = model.rows();
@@ -115,7 +115,7 @@ class Moreau : public Scheme {
   }
 
  private:
-  /// Returns the load M v_n − h C (1 − θ) v_n − h K x_θ, where x_θ is without v_{n+1}.
+  /// Returns the load M v_n − h C (1 − θ) v_n − h K x_θ, with x_θ without v_{n+1}.
   std::vector<double> load() const {
     std::vector<double> ahead(order_), load(order_);  // x_θ
     for (PetscInt i = 0; i < order_; ++i) {
@@ -124,7 +124,7 @@ class Moreau : public Scheme {
     }
     addProduct(whole_.mass, v_, load);
     addProduct(whole_.stiffness, ahead, load, -h_);
-    // A row without mass meets the modes at the end of the step.
+    // A row without mass uses the modes at the end of the step.
     std::vector<double> modal(order_), old(order_);
     for (PetscInt i = 0; i < order_; ++i)
       if (theta_[i] < 1) modal[i] = h_ * 0.5 * 0.5 * v_[i];
@@ -141,7 +141,7 @@ class Moreau : public Scheme {
     return load;
   }
 
-  /// Returns the nodes that may be in contact, [node]: with mass, those whose gap closes.
+  /// Returns the nodes that may be in contact, [node]: with mass, nodes whose gap closes.
   std::vector<unsigned char> activeNodes() const {
     std::vector<unsigned char> active(model_.nodes.size(), 1);
     for (std::size_t node = 0; node < active.size(); ++node) {
@@ -207,7 +207,7 @@ class Moreau : public Scheme {
     }
   }
 
-  /// Makes the motion at the end of the step that of the last one.
+  /// Stores the motion at the end of the step.
   void finish(std::vector<double> v) {
     const PetscInt k = model_.modes();
     // A node that was not active has the defect of its gap.
@@ -222,7 +222,7 @@ class Moreau : public Scheme {
     addProduct(whole_.mass, v_, momentum);
     state_.kinetic = dot(momentum, v_) / 2;
     if (!std::isfinite(state_.kinetic))
-      throw Error("the motion is not finite: the time step is too long");
+      throw Error("the motion is not finite: reduce the time step (-regime_step)");
     state_.time += h_;
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The onset of nonlinearity: a growing mode is linear until the first contact node separates or
-/// comes to rest, or a sticking one begins to slide [M.75].
+/// sticks, or a sticking node slides [M.75].
 #include <span>
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ struct NodeMotion {
 enum class OnsetEvent { none, opens, rests, slides };
 const char* text(OnsetEvent event);
 
-/// The first event of a mode u e^{st} that grows.
+/// The first event of a growing mode u e^{st}.
 struct Onset {
   OnsetEvent event = OnsetEvent::none;
   double factor = 0;     ///< on the given mode at the event
@@ -29,8 +29,8 @@ struct Onset {
   double turning = 0;    ///< largest |w*_⊥| / |w| of the sliding nodes, at this factor
 };
 
-/// Not collective. Returns the first event: at a pressed node that slides |R_N*| = R_N, or
-/// |τ·w*| = |w|; at one that sticks |R_N*| = R_N or |R_T + R_T*| = f (R_N + R_N*) at some phase.
+/// Not collective. Returns the first event: at a closed sliding node, |R_N*| = R_N or |τ·w*| = |w|;
+/// at a sticking node, |R_N*| = R_N or |R_T + R_T*| = f (R_N + R_N*) at some phase.
 Onset firstEvent(std::span<const Node> nodes, std::span<const NodeMotion> motion);
 
 /// Not collective. Returns the amplitudes of a mode of the reduced model.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Products of small dense matrices with vectors, by BLAS. None of these functions is collective.
+/// Products of small dense matrices with vectors, by BLAS. Not collective.
 #include <petscblaslapack.h>
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace squeal::march {
 
-/// y += factor · A x, or factor · Aᵀ x.
+/// Computes y += factor · A x, or factor · Aᵀ x if `transposed`.
 inline void addProduct(const linalg::DenseView& a, const std::vector<double>& x,
                        std::vector<double>& y, double factor = 1, bool transposed = false) {
   if (a.empty()) return;

@@ -32,8 +32,8 @@ Scheme::Scheme(const ReducedModel& model, double sweptChange)
   state_.rate = steadyVelocity_;
 }
 
-/// Sets the coefficients of friction by the sliding velocities of the step before: the error is of
-/// the order of the step. A node at rest has φ(0).
+/// Sets the coefficients of friction from the sliding velocities of the preceding step; the error
+/// is of the order of the time step. A node at rest has φ(0).
 void Scheme::updateFriction() {
   if (!model_.law) return;
   for (std::size_t i = 0; i < model_.nodes.size(); ++i) {

@@ -15,8 +15,8 @@ struct State {
   double time = 0;            ///< s
   std::vector<double> q, v;   ///< modal coordinates and velocities
   std::vector<double> jump;   ///< y, [row]
-  std::vector<double> rate;   ///< relative velocity of the contact w, steady part included in the
-                              ///< slips; rates of the gaps, [row]
+  std::vector<double> rate;   ///< relative velocity w of the contact, including the steady part, in
+                              ///< the slips; rates of the gaps, [row]
   std::vector<double> force;  ///< R, [row], N
   double kinetic = 0;         ///< kinetic energy, J
 };
@@ -25,18 +25,18 @@ struct State {
 struct MechanicalWork {
   double contact = 0;   ///< of R* on the jump
   double friction = 0;  ///< heat of friction, −Σ R_T·w
-  double damping = 0;   ///< dissipated in the material and in dashpots
+  double damping = 0;   ///< dissipated in materials and dashpots
   double moved = 0;     ///< sum of |R*·dy|, the scale of the other figures
 };
 
-/// A Scheme is a rule of time integration.
+/// A time integration scheme.
 class Scheme {
  public:
   virtual ~Scheme() = default;
   /// Takes one step. Throws Error if the contact forces do not converge or the motion is not
   /// finite. Throws Interrupted, only on this rank, once the function of setStop() returns true.
   virtual void step() = 0;
-  /// Sets the function that requests the end of a step.
+  /// Sets the function that requests a stop during a step.
   void setStop(StopAsked asked) { stopAsked_ = std::move(asked); }
   const State& state() const { return state_; }
   const MechanicalWork& work() const { return work_; }
@@ -51,10 +51,10 @@ class Scheme {
   double lastDefect() const;
 
  protected:
-  /// The accuracy of the contact forces of a step, relative to the mean steady force. All sweeps of
-  /// the solver cost the same. The documents promise ten times this.
+  /// The accuracy of the contact forces of a step, relative to the mean steady force. The
+  /// documentation states ten times this value.
   static constexpr double accuracy = 1e-6;
-  /// The swept coefficient of friction exceeds that of the model by `sweptChange`.
+  /// The swept coefficient of friction is that of the model plus `sweptChange`.
   explicit Scheme(const ReducedModel& model, double sweptChange = 0);
   void updateFriction();
   bool isNormal(PetscInt row) const { return row % model_.dimension == 0; }
@@ -71,17 +71,19 @@ class Scheme {
   StopAsked stopAsked_;            // empty: never
 };
 
-/// The start of a march: q, z and their rates at one instant, and the accelerations of q; none: 0.
+/// The start of a march: q, z and their rates at one instant, and the accelerations of q (empty:
+/// zero).
 struct Start {
   std::vector<double> q, v, z, zRate, acceleration = {};
 };
-/// Returns the motion of a linear mode at its phase 0, with this factor.
+/// Returns the motion of a linear mode, times this factor, at phase 0.
 Start startOn(const LinearMode& mode, double factor);
 
-/// Returns the scheme of the massless boundary (Massless). The model is borrowed; h is the step, s.
+/// Returns the scheme of the massless boundary (Massless). It borrows the model; h is the time
+/// step, s.
 std::unique_ptr<Scheme> masslessScheme(const ReducedModel& model, const Start& start, double h);
 /// Returns the scheme of Moreau and Jean with θ = 1/2 and with the mass of the boundary [M.73]:
-/// contact conditions on velocities, no restitution. In rows without mass the conditions are on
+/// contact conditions on velocities, no restitution. Rows without mass have conditions on
 /// positions.
 std::unique_ptr<Scheme> moreauScheme(const ReducedModel& model, const Start& start, double h);
 

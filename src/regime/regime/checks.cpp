@@ -19,19 +19,19 @@ void checkOptions(const Settings& settings, const pencil::Settings& pencil,
   if (!terms)
     throw Error(
         "option -regime_friction: matrices from files do not define where bodies separate and "
-        "stick; the motion after flutter is followed only for meshes");
+        "stick; the motion after flutter is computed only for meshes");
   if (pencil.method == pencil::Method::direct)
     throw Error(
         "option -regime_friction: the motion after flutter needs the free modes and the estimates "
         "of -flutter_method reduced");
   if (pencil.isModallyDamped())
     throw Error(
-        "option -regime_friction: -flutter_modal_damping is not followed in time; give the damping "
-        "to the materials");
+        "option -regime_friction: the time integration does not support -flutter_modal_damping; "
+        "give the materials damping");
   if (!terms->frictionDamping)
     throw Error(
-        "option -regime_friction: in time the friction force turns with the relative velocity, so "
-        "that -flutter_friction_damping must be on");
+        "option -regime_friction: in the time integration the friction force turns with the "
+        "relative velocity, so -flutter_friction_damping must be on");
 }
 
 void requireSupported(const Settings& settings, const elasticity::Bodies& bodies,
@@ -41,13 +41,15 @@ void requireSupported(const Settings& settings, const elasticity::Bodies& bodies
   };
   if (contact.interfaces.totalNodes == 0) refuse("there is no contact");
   if (bodies.gyroscopic || bodies.rotationStiffness || contact.sliding.convected)
-    refuse("convective terms (-motion_convective) are not followed in time; leave them out");
+    refuse("the time integration does not support convective terms; remove -motion_convective");
   if (bodies.settings.prestress)
-    refuse("the geometric stiffness of the steady stress is not followed in time; leave it out");
+    refuse(
+        "the time integration does not support the geometric stiffness of the steady stress; "
+        "remove -elasticity_prestress");
   if (settings.cycles.wanted && !contact.law.constant())
     refuse(
-        "the derivative of a step leaves out -friction_law, so that no periodic motions are found "
-        "under it; leave out -regime_cycle");
+        "the derivative of a step omits -friction_law, so periodic motions are not computed with "
+        "it; remove -regime_cycle");
 }
 
 void warnAboutSteps(MPI_Comm comm, const Settings& settings, std::span<const Task> tasks,
@@ -59,10 +61,9 @@ void warnAboutSteps(MPI_Comm comm, const Settings& settings, std::span<const Tas
     step = std::max(step, task.step);
     if (const int frames = settings.sound.framesOfPeriod(task.shortestPeriod, task.step);
         frames < wanted)
-      printWarning(comm,
-                   formatted("warning: -regime_frames %d: a period of %.5g Hz has %d steps, and "
-                             "as many frames are written",
-                             wanted, 1 / task.shortestPeriod, frames));
+      printWarning(comm, formatted("warning: -regime_frames %d: a period of %.5g Hz has %d steps, "
+                                   "so only this number of frames is written",
+                                   wanted, 1 / task.shortestPeriod, frames));
   }
   if (settings.march.massless && step > stableStep)
     printWarning(comm,
@@ -76,31 +77,30 @@ void warnAboutDamping(const FullModel& full) {
   PetscReal size = 0;
   if (full.bodies.damping) check(MatNorm(full.bodies.damping, NORM_FROBENIUS, &size));
   if (size * full.damping == 0)
-    printWarning(
-        comm,
-        "warning: the bodies are undamped, so that a motion that never separates or sticks "
-        "grows without bound; give -material_<group>_loss_factor");
+    printWarning(comm,
+                 "warning: the bodies are undamped, so a motion that never separates or sticks "
+                 "grows without bound; give -material_<group>_loss_factor");
 }
 
 void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks) {
   if (!model.law) return;
-  double step = INFINITY;  // the shortest: its slips follow least
+  double step = INFINITY;  // the shortest: the strictest condition
   for (const Task& task : tasks)
     if (task.failure.empty()) step = std::min(step, task.step);
   if (!std::isfinite(step)) return;
   const auto slopes = march::steadySlopes(model);
   if (const double gain = march::lawGain(model, step, slopes); !(gain < 1))
-    throw Error(
-        formatted("option -regime_friction: the coefficient of friction changes with the speed "
-                  "%.3g times faster than slips of the massless boundary follow at the time step "
-                  "%g s (-friction_law); give -regime_boundary mass",
-                  gain, step));
+    throw Error(formatted(
+        "option -regime_friction: the coefficient of friction changes with the speed "
+        "%.3g times faster than the slips of the massless boundary can follow with the time step "
+        "%g s (-friction_law); give -regime_boundary mass",
+        gain, step));
   if (!(march::lawGain(model, 0, slopes) < 1))
     printWarning(
         comm,
-        "warning: the coefficient of friction falls with the speed faster than the damping of "
-        "the massless boundary holds its slips, so that the motion does not converge with "
-        "-regime_step; give the materials at the contact damping, or -regime_boundary mass");
+        "warning: the coefficient of friction falls with the speed faster than the damping of the "
+        "massless boundary allows, so the motion does not converge with -regime_step; give the "
+        "materials at the contact damping, or use -regime_boundary mass");
   for (const bool lowest : {true, false})
     if (!(march::lawGain(model, step, march::steepestSlopes(model, lowest)) < 1))
       printWarning(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Checks of the settings and of the marches of a regime.
+/// Checks of the settings and marches of the regime stage.
 #include <mpi.h>
 
 #include <span>
@@ -13,8 +13,8 @@
 
 namespace squeal::regime {
 
-/// Throws Error for settings of the stage that no march can satisfy, and for settings of other
-/// stages that it does not support. `terms` is null for matrices from files.
+/// Throws Error for impossible settings of the stage, and for settings of other stages that it does
+/// not support. `terms` is null for matrices from files.
 void checkOptions(const Settings& settings, const pencil::Settings& pencil,
                   const terms::Settings* terms);
 
@@ -23,14 +23,14 @@ void checkOptions(const Settings& settings, const pencil::Settings& pencil,
 void requireSupported(const Settings& settings, const elasticity::Bodies& bodies,
                       const contact::Contact& contact);
 
-/// Collective. Warns if steps are longer than is safe, and if a period has few of them.
+/// Collective. Warns if the time steps exceed the stable one, and if a period has few steps.
 void warnAboutSteps(MPI_Comm comm, const Settings& settings, std::span<const Task> tasks,
                     double stableStep);
 
 /// Collective. Warns if the bodies are undamped.
 void warnAboutDamping(const FullModel& full);
 
-/// Collective. Throws Error for a friction law that slips of a massless boundary do not follow.
+/// Collective. Throws Error for a friction law that the slips of a massless boundary cannot follow.
 /// Warns if the law may make them alternate.
 void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks);
 

@@ -11,7 +11,7 @@
 
 namespace squeal::regime {
 
-/// The number of columns whose products are in memory at once.
+/// The number of columns whose products are in memory together.
 inline constexpr PetscInt blockColumns = 64;
 
 /// Collective. Returns a vector that borrows the entries of one column.

@@ -19,12 +19,12 @@ using march::Node;
 std::vector<Node> ownNodes(const contact::Contact& contact, const steady::Solution& solution);
 
 /// Collective. Returns the jumps of nodal displacements, node by node, this rank's nodes. Throws
-/// Interrupted once the run has been asked to stop.
+/// Interrupted once a stop of the run has been requested.
 linalg::DenseMatrix ownJumps(const contact::Contact& contact, const std::vector<Node>& nodes,
                              const linalg::DenseView& u);
 
-/// The contact nodes of all ranks in an order that does not depend on the ranks: by interface, then
-/// by position.
+/// The contact nodes of all ranks in an order independent of the ranks: by interface, then by
+/// position.
 class Order {
  public:
   /// Collective.

@@ -30,7 +30,8 @@ PeriodicMotion motionOf(const cycles::ShootingResult& found) {
 std::string describe(const PeriodicMotion& motion) {
   const Complex largest = motion.largestMultiplier();
   return formatted(
-      "friction %.6g: periodic at %.6g Hz, %.4g W, %d nodes open and %d stick in turn, trivial "
+      "friction %.6g: periodic at %.6g Hz, %.4g W, %d nodes open and %d stick intermittently, "
+      "trivial "
       "multiplier %.5f, largest of the others %.4f at %.4g Hz: %s",
       motion.friction, 1 / motion.period, motion.measures.frictionPower, motion.measures.opening,
       motion.measures.sticking, motion.trivialMultiplier().real(), std::abs(largest),
@@ -38,7 +39,7 @@ std::string describe(const PeriodicMotion& motion) {
       motion.stable() ? "stable" : "unstable");
 }
 
-/// Returns the bound that the steps of a period break; empty: none.
+/// Returns the bound that the steps of a period violate; empty if there is none.
 std::string stepBroken(const march::ReducedModel& model, double period, int steps) {
   const double longest = march::longestStep(model);
   if (period / steps <= longest) return "";
@@ -49,26 +50,26 @@ std::string stepBroken(const march::ReducedModel& model, double period, int step
 }
 
 /// Collective. Returns the first periodic motion found from the orbits, otherwise the last attempt;
-/// its period is 0 if no march over a period came to its end. Sets the failure of the last one that
-/// did not.
+/// its period is 0 if no march over a period succeeded. Sets the failure of the last one that
+/// failed.
 cycles::ShootingResult shootFrom(const cycles::Period& period,
                                  const std::vector<cycles::Orbit>& orbits,
                                  const cycles::ShootingRequest& request, std::string& failure) {
   cycles::ShootingResult found;
   for (cycles::Orbit guess : orbits) {
     try {
-      // Slips that stick at the start are additional unknowns: start with the fewest of them.
+      // Slips that stick at the start are additional unknowns: start with as few as possible.
       guess.start = period.pass(guess, period.pass(guess).quietest).end;
       found = cycles::shoot(period, guess, request);
     } catch (const Error& error) {
-      failure = std::string(error.what()) + "; give more -regime_cycle_steps";
+      failure = std::string(error.what()) + "; increase -regime_cycle_steps";
     }
     if (found.converged) break;
   }
   return found;
 }
 
-/// Collective. Adds the motions of the branch through the first one.
+/// Collective. Adds the motions of the branch through the first motion.
 void followBranch(const cycles::Period& period, const cycles::ShootingResult& first,
                   const CycleSettings& settings, const cycles::Progress& progress, Stage& stage,
                   Cycles& cycles) {
@@ -135,18 +136,19 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSe
   };
   const cycles::ShootingResult first =
       shootFrom(period, orbits, {settings.tolerance, progress}, cycles.failure);
-  if (first.orbit.period == 0) return cycles;  // no march over a period came to its end
+  if (first.orbit.period == 0) return cycles;  // no march over a period succeeded
   cycles.failure.clear();                      // it belongs to another orbit
   try {
     cycles.motions.push_back(motionOf(first));
     if (first.converged)
       stage.printLine(describe(cycles.motions.back()));
     else
-      printWarning(comm,
-                   formatted("warning: -regime_cycle: no periodic motion is found near the march: "
-                             "Newton's method ends with a change of %.1e over a period, more than "
-                             "the %.1e of -regime_cycle_tolerance",
-                             first.change, settings.tolerance));
+      printWarning(
+          comm,
+          formatted(
+              "warning: -regime_cycle: no periodic motion found near the march: Newton's method "
+              "ends with a change of %.1e over a period, above the %.1e of -regime_cycle_tolerance",
+              first.change, settings.tolerance));
     if (first.converged && settings.range)
       followBranch(period, first, settings, progress, stage, cycles);
   } catch (const Error& error) {

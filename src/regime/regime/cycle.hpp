@@ -20,10 +20,10 @@ struct PeriodicMotion {
   bool converged = false;
   double change = 0;  ///< over a period, at the end of Newton's method
   cycles::Measures measures;
-  /// By descending modulus, none below a tenth; empty unless it has converged.
+  /// By descending modulus, all above a tenth; empty unless it has converged.
   cycles::Multipliers multipliers;
   Complex trivialMultiplier() const { return multipliers.values[multipliers.trivial]; }
-  /// Returns the largest one except the trivial one; 0 if there is none.
+  /// Returns the largest multiplier except the trivial one; 0 if there is none.
   Complex largestMultiplier() const;
   bool stable() const { return std::abs(largestMultiplier()) < 1; }
 };
@@ -40,9 +40,9 @@ struct Cycles {
 /// Stores the passes of a march through a section, window by window.
 class SectionRecord {
  public:
-  /// The model is borrowed.
+  /// Borrows the model.
   SectionRecord(const march::ReducedModel& model, const march::LinearMode& mode);
-  /// Does nothing for a scheme that is not massless.
+  /// Has no effect unless the scheme is massless.
   void inspect(const march::Scheme& scheme);
   void endWindow() { windows_.push_back(section_.take()); }
   /// Returns the passes of the last `windows` windows.

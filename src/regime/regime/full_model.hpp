@@ -7,7 +7,7 @@
 
 namespace squeal::regime {
 
-/// The finite element model that is reduced; all of it is borrowed.
+/// The finite element model to reduce; all members are borrowed.
 struct FullModel {
   const elasticity::Bodies& bodies;
   const contact::Contact& contact;

@@ -58,7 +58,7 @@ void takeFirst(MPI_Comm comm, ModeOnset& mode) {
     int rank;
   } own{mode.onset.factor, mpi::rank(comm)}, first{};
   check(MPI_Allreduce(&own, &first, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm));
-  // The turning is that at the factor of this rank's event.
+  // `turning` is computed at the factor of this rank's event.
   const double turning =
       mpi::max(comm, std::isfinite(own.factor) ? mode.onset.turning / own.factor : 0.0);
   mpi::broadcast(comm, mode.onset, first.rank);

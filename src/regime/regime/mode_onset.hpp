@@ -19,13 +19,13 @@ struct ModeOnset {
   sweep::Parameters at;
   std::size_t mode = 0;  ///< index into ComplexModes::eigenvalues
   Complex s;             ///< 1/s
-  Onset onset = {};      ///< its factor is that of pencil::Shape, its node 0
+  Onset onset = {};      ///< its factor applies to pencil::Shape; its node is 0
   Point position{};      ///< of the node, m
   int interface = -1;    ///< of the node
   double kinetic = 0;    ///< largest kinetic energy over a cycle at the event, J
 };
 
-/// Collective. Returns the first events of the unstable modes whose shapes the point has [M.75].
+/// Collective. Returns the first events of the unstable modes with stored shapes [M.75].
 /// `prestress` is K_σ of the steady state; it may be null.
 std::vector<ModeOnset> onsets(const elasticity::Bodies& bodies, const contact::Contact& contact,
                               const steady::Solution& solution, const pencil::ComplexModes& point,

@@ -11,7 +11,7 @@
 namespace squeal::regime {
 namespace {
 
-/// Returns the peaks without their mean and their straight line: a slow drift is not a modulation.
+/// Returns the peaks without mean and linear trend: a slow drift is not a modulation.
 std::vector<double> withoutDrift(std::span<const double> peaks) {
   const std::size_t count = peaks.size();
   const double level = mean(peaks);
@@ -26,7 +26,7 @@ std::vector<double> withoutDrift(std::span<const double> peaks) {
   return swing;
 }
 
-/// Returns the largest autocorrelation after its first negative value: the part of the variance
+/// Returns the largest autocorrelation after its first negative value: the fraction of the variance
 /// that repeats later, also for modulations by several frequencies. Throws Interrupted, only on
 /// this rank, once asked() is true.
 double repetition(const std::vector<double>& swing, const StopAsked& asked) {
@@ -54,7 +54,7 @@ const char* text(Kind kind) {
   return texts[static_cast<int>(kind)];
 }
 
-// All members are named, so that a new one does not compile until it is in the stream too.
+// This lists all members: a new one does not compile until it is added here.
 void fields(Stream& stream, Regime& regime) {
   auto& [kind, settled, duration, carrier, modulation, growth, peakDeviation, largestKinetic,
          largestVelocity, largestJump, largestDefect, imbalance, means, nodes, cyclePeaks,
@@ -144,7 +144,7 @@ bool Recorder::settled() const {
   // Once the mode has saturated, its amplitude changes no faster than its initial growth rate.
   const std::size_t third = nonlinearWindows() / 3;
   if (third < 3 || third * windowCycles * period_ < growthTime_) return false;
-  // The last third is like the one before.
+  // The last third must agree with the one before.
   const auto near = [&](double Means::*value, double tolerance) {
     const auto& windows = recorder_.windows();
     double before = 0, after = 0;
@@ -154,8 +154,8 @@ bool Recorder::settled() const {
     }
     return std::abs(after - before) <= tolerance * std::max(std::abs(after), std::abs(before));
   };
-  // The peaks of an irregular regime scatter. The error of their mean falls with the root of the
-  // number of independent cycles, taken as one in eight.
+  // The peaks of an irregular regime scatter. The error of their mean falls with the square root of
+  // the number of independent cycles, assumed to be every eighth.
   const auto last = std::span(peaks_.values()).last(third * windowCycles);
   const double error = 3 * deviation(last) / mean(last) / std::sqrt(last.size() / 8.0);
   return near(&Means::peakKinetic, std::max(0.02, std::min(0.1, error))) &&
@@ -176,7 +176,7 @@ Kind Recorder::classify(Regime& regime, const StopAsked& asked) const {
   if (nonlinearWindows() == 0)
     return windows.back().means.peakKinetic < windows.front().means.peakKinetic ? Kind::steady
                                                                                 : Kind::growing;
-  // A swing has at least 16 samples, which cause a scatter of the peaks of 1e-3.
+  // A cycle has at least 16 samples, so the sampling scatters the peaks by 1e-3.
   if (regime.peakDeviation < 0.01) return Kind::periodic;
   const auto swing = withoutDrift(peaks);
   std::vector<double> power;
@@ -187,7 +187,7 @@ Kind Recorder::classify(Regime& regime, const StopAsked& asked) const {
   return Kind::modulated;
 }
 
-/// Sets the means over the windows that are used, at least one.
+/// Sets the means over the windows in use, at least one.
 void Recorder::addMeans(Regime& regime) const {
   const std::size_t used = windowsUsed();
   const auto span = std::span(recorder_.windows()).last(used);
@@ -219,7 +219,7 @@ Regime Recorder::result(const Scheme& scheme, const StopAsked& asked) const {
   regime.carrier = signals_.carrier(samplesUsed());
   regime.kind = classify(regime, asked);
   regime.cyclePeaks = peaks_.values();
-  // The linear range ends before a cycle comes near the first event.
+  // The linear range ends before a cycle approaches the first event.
   regime.growth = peaks_.growthBelow(0.9 * linearTo_);
   addMeans(regime);
   regime.largestDefect = largestDefect_;

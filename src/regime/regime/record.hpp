@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The record of a march: averages over windows of cycles, the spectrum, and the kind of regime
-/// that follows from them [M.74].
+/// The record of a march: averages over windows of cycles, the spectrum, and the resulting kind of
+/// regime [M.74].
 #include <span>
 #include <vector>
 
@@ -16,16 +16,16 @@ namespace squeal::regime {
 
 /// The kind of the motion at the end of a march.
 enum class Kind {
-  unmeasured,  ///< the march has ended before its first window
-  growing,     ///< it still grows linearly: no node has separated or stuck
+  unmeasured,  ///< the march ended before its first window
+  growing,     ///< linear growth: no node has separated or stuck
   steady,      ///< it has decayed
-  periodic,    ///< all cycles are alike
+  periodic,    ///< all cycles are equal
   modulated,   ///< cycles differ, and their differences repeat
   irregular    ///< cycles differ without repetition
 };
 const char* text(Kind kind);
 
-/// The result of a march; only the duration if it has measured nothing.
+/// The result of a march; without measurements, only the duration is set.
 struct Regime {
   Kind kind = Kind::unmeasured;
   bool measured() const { return kind != Kind::unmeasured; }
@@ -34,7 +34,7 @@ struct Regime {
   double carrier = 0;          ///< Hz
   double modulation = 0;       ///< Hz; 0: none
   double growth = 0;           ///< measured in the linear range, 1/s; NaN: too short
-  double peakDeviation = 0;    ///< standard deviation of the cycles' peaks over their mean
+  double peakDeviation = 0;    ///< standard deviation of the peaks of the cycles over their mean
   double largestKinetic = 0;   ///< J
   double largestVelocity = 0;  ///< of a slip, about steady sliding, m/s
   double largestJump = 0;      ///< change of a gap, m
@@ -46,7 +46,7 @@ struct Regime {
   std::vector<SpectralLine> spectrum;
 };
 
-/// Writes the regime to a stream, or reads it.
+/// Writes or reads the regime.
 void fields(Stream& stream, Regime& regime);
 
 /// The largest kinetic energies of the cycles of a march, J.
@@ -59,8 +59,7 @@ class CyclePeaks {
   void add(double kinetic);
   void endCycle();
   const std::vector<double>& values() const { return values_; }
-  /// Returns the growth rate of the cycles from the first one on that are below a level, J; NaN for
-  /// fewer than four.
+  /// Returns the growth rate of the first cycles, up to a level, J; NaN for fewer than four.
   double growthBelow(double level) const;
 
  private:
@@ -68,11 +67,11 @@ class CyclePeaks {
   std::vector<double> values_, times_;
 };
 
-/// Records a march. It inspects each step.
+/// The record of a march, step by step.
 class Recorder {
  public:
-  /// The motion starts on a mode u e^{st}, whose period is that of the cycles and whose first event
-  /// comes at the kinetic energy `linearTo`, J.
+  /// The motion starts on a mode u e^{st}, whose period defines the cycles. Its first event is at
+  /// the kinetic energy `linearTo`, J.
   Recorder(const ReducedModel& model, Complex s, double step, double linearTo);
   void inspect(const Scheme& scheme);
   /// Returns true once a window has ended since the last call.
@@ -80,8 +79,8 @@ class Recorder {
   /// Returns true if the regime has settled, or the motion has decayed.
   bool settled() const;
   int cycles() const { return std::ssize(peaks_.values()); }
-  /// Returns the number of windows, the last ones, over which averages are taken: two thirds of
-  /// those since the last linear one.
+  /// Returns the number of latest windows for the averages: two thirds of the windows since the
+  /// last linear one.
   std::size_t windowsUsed() const;
   /// Throws Interrupted, only on this rank, once asked() is true.
   Regime result(const Scheme& scheme, const StopAsked& asked = {}) const;

@@ -57,7 +57,7 @@ std::vector<double> largestOfColumns(MPI_Comm comm, const DenseMatrix& own) {
   return largest;
 }
 
-/// The static responses Ψ̃ to all gaps and slips, without the part that the modes carry.
+/// The static responses Ψ̃ to all gaps and slips, without their modal part.
 struct ContactResponses {
   Block columns;             // nodal displacements, kind by kind
   DenseMatrix jumps;         // J Ψ̃ of all nodes, node by node
@@ -84,7 +84,7 @@ ContactResponses contactResponses(const FullModel& full, const std::vector<Node>
   return result;
 }
 
-/// Returns false for slips that supports hold or that have no friction, [row].
+/// Returns false for slips that supports hold or without friction, [row].
 std::vector<unsigned char> movingRows(const std::vector<Node>& nodes,
                                       const ContactResponses& responses) {
   const DenseMatrix& jumps = responses.jumps;
@@ -106,8 +106,8 @@ std::vector<unsigned char> movingRows(const std::vector<Node>& nodes,
 /// Returns (J Ψ̃)⁻¹ in the rows that move. Throws Error if it is singular.
 DenseMatrix inverseJumps(const ContactResponses& responses, const std::vector<PetscInt>& rows) {
   const PetscInt n = std::ssize(rows);
-  // Each column has the unit of its response with the part of the modes. The round-off of a column
-  // that has only this part then stays small.
+  // Each column is scaled by its response including the modal part, so the round-off of a column
+  // with only a modal part stays small.
   DenseMatrix scaled(n, n), inverse(n, n);
   for (PetscInt j = 0; j < n; ++j) {
     const PetscInt column = responses.columnOf(rows[j]);
@@ -118,8 +118,8 @@ DenseMatrix inverseJumps(const ContactResponses& responses, const std::vector<Pe
   const linalg::Lu<double> lu(std::move(scaled));
   if (!(lu.pivotRatio() > 1e-12))
     throw Error(
-        "stage regime: the free modes carry all of the motion of the contact, and no flexibility "
-        "is left for the contact forces; give fewer -modes_count");
+        "stage regime: the free modes contain the whole motion of the contact, which leaves no "
+        "flexibility for the contact forces; reduce -modes_count");
   lu.solve(inverse);
   for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < n; ++i) inverse(i, j) *= responses.unit[responses.columnOf(rows[i])];

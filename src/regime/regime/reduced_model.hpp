@@ -17,14 +17,14 @@ struct Reduction {
   ReducedModel model;
   linalg::Block modes;      ///< V, nodal displacements, this rank's rows
   linalg::Block responses;  ///< Ψ, as V
-  /// [node of the model] its place among the contact nodes of this rank; −1 on other ranks
+  /// [node of the model] its index among the contact nodes of this rank; −1 on other ranks
   std::vector<PetscInt> contactNode;
 };
 
 /// Collective. Returns the reduced model. `free` are the free modes, `unstable` are the real and
 /// imaginary parts of the unstable modes, nodal displacements, this rank's rows. Throws Error if
-/// the modes carry all of the motion of the contact, so that nothing is massless. Throws
-/// Interrupted once the run has been asked to stop.
+/// the modes contain the whole motion of the contact, which leaves no massless part. Throws
+/// Interrupted once a stop of the run has been requested.
 Reduction reduce(const FullModel& full, linalg::Block free, const linalg::Block& unstable);
 
 }  // namespace squeal::regime

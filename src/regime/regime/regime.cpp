@@ -45,7 +45,7 @@ linalg::Block columnsOf(PetscInt rows, std::span<const pencil::Shape* const> sha
   return columns;
 }
 
-/// A point of the sweep that is studied; all of it is borrowed.
+/// The studied point of the sweep; all members are borrowed.
 struct StudiedPoint {
   const FullModel& full;
   const Settings& settings;
@@ -57,11 +57,11 @@ struct StudiedPoint {
   std::string nameOf(const std::string& start) const {
     return name() + (start == "all" ? ", start on all modes" : ", start on mode " + start);
   }
-  /// Returns the name of a run, without its start if there is only one.
+  /// Returns the name of a run, without its start if there is only one start.
   std::string nameOf(const Run& run) const {
     return starts().size() > 1 ? nameOf(run.start) : name();
   }
-  /// Returns the starts with the certified eigenvalue of the mode of each.
+  /// Returns the starts, each with the certified eigenvalue of its mode.
   std::vector<std::pair<std::string, Complex>> starts() const {
     std::vector<std::size_t> numbers;
     for (const auto* shape : shapes) numbers.push_back(shape->index + 1);
@@ -102,16 +102,15 @@ UnstableModes unstableModes(const StudiedPoint& point, const ReducedModel& model
       });
     } catch (const Error& error) {
       result.failure =
-          name + ": " + error.what() + "; give more -modes_count, or a smaller -flutter_tolerance";
+          name + ": " + error.what() + "; increase -modes_count or reduce -flutter_tolerance";
       return result;
     }
     const double relative = std::abs(one.mode.s - certified) / std::abs(certified);
     result.error = std::max(result.error, relative);
     if (!(relative <= tolerance)) {
       result.failure = formatted(
-          "%s: the reduced model has this unstable eigenvalue only to %.1e, not to the "
-          "%.1e of -flutter_tolerance; give more -modes_count, or a smaller "
-          "-flutter_tolerance",
+          "%s: the reduced model reproduces this unstable eigenvalue only to %.1e, not to the %.1e "
+          "of -flutter_tolerance; increase -modes_count or reduce -flutter_tolerance",
           name.c_str(), relative, tolerance);
       return result;
     }
@@ -159,19 +158,19 @@ sound::VisibleSurface surfaceOf(const sound::Observer& observer, int root,
   return surface;
 }
 
-/// Collective. Warns if the march does not grow as the mode does.
+/// Collective. Warns if the growth of the march differs from that of the mode.
 void checkGrowth(MPI_Comm comm, const Run& run) {
   const double growth = run.s.real();
   if (run.start == "all") return;  // several modes grow, each at its own rate
   if (std::abs(run.regime.growth - growth) > 0.2 * growth)
-    printWarning(comm,
-                 formatted("warning: in the linear range the march grows by %.4g 1/s, the mode by "
-                           "%.4g 1/s: the error of the step, which a shorter -regime_step makes "
-                           "smaller in proportion",
-                           run.regime.growth, growth));
+    printWarning(
+        comm,
+        formatted("warning: in the linear range the march grows by %.4g 1/s, the mode by "
+                  "%.4g 1/s: the error of the time step, which is proportional to -regime_step",
+                  run.regime.growth, growth));
 }
 
-/// Collective. Returns the periodic motions of a run. Their failure leaves the march as it is.
+/// Collective. Returns the periodic motions of a run. Their failure does not affect the march.
 Cycles cyclesOf(const StudiedPoint& point, const ReducedModel& model, const Trajectory& trajectory,
                 const Run& run, Stage& stage, Study& study) {
   const CycleSettings& settings = point.settings.cycles;
@@ -183,7 +182,7 @@ Cycles cyclesOf(const StudiedPoint& point, const ReducedModel& model, const Traj
   return cycles;
 }
 
-/// Collective. Makes the reduced model, sets its data in the study, and returns it.
+/// Collective. Returns the reduced model, and sets its data in the study.
 Reduction reductionOf(const StudiedPoint& point, linalg::Block free, Study& study) {
   linalg::Block unstable = columnsOf(free.rows(), point.shapes);
   Reduction reduction = reduce(point.full, std::move(free), unstable);
@@ -210,8 +209,8 @@ std::vector<Task> tasksOf(const StudiedPoint& point, const ReducedModel& model, 
   return tasks;
 }
 
-/// Collective. Adds the runs of a point to the study. An Error here is a failure of the whole
-/// point.
+/// Collective. Adds the runs of a point to the study. An Error here means that the whole point
+/// fails.
 void addRuns(const StudiedPoint& point, linalg::Block free, Study& study) {
   const MPI_Comm comm = point.comm();
   if (point.shapes.empty())
@@ -256,15 +255,14 @@ Study study(const FullModel& full, const Settings& settings, linalg::Block free,
   result.unstable = modes.unstableCount();
   if (result.unstable == 0) {
     printLine(point.comm(),
-              point.name() + ": no mode is unstable, and none is followed after flutter");
+              point.name() + ": no mode is unstable, so there is no motion after flutter");
     return result;
   }
   if (!point.shapes.empty() && std::ssize(point.shapes) < result.unstable)
-    printLine(
-        point.comm(),
-        formatted("%s: the shapes of %zu of %d unstable modes are stored (-flutter_shapes); the "
-                  "reduced model of the regime contains only these exactly",
-                  point.name().c_str(), point.shapes.size(), result.unstable));
+    printLine(point.comm(),
+              formatted("%s: the shapes of %zu of %d unstable modes are stored (-flutter_shapes); "
+                        "the reduced model of the regime is exact only for these",
+                        point.name().c_str(), point.shapes.size(), result.unstable));
   try {
     addRuns(point, std::move(free), result);
   } catch (const Error& error) {

@@ -22,7 +22,7 @@ namespace squeal::regime {
 struct Run {
   std::string start;    ///< the number of the unstable mode, or "all"
   Complex s;            ///< of the mode, or of the fastest growing one
-  std::string failure;  ///< the reason that nothing was measured; empty: none
+  std::string failure;  ///< the reason if nothing was measured; empty: none
   Onset onset;
   Point onsetPosition{};      ///< m
   double onsetKinetic = NAN;  ///< largest over a cycle at the onset, J; NaN: not known
@@ -41,18 +41,18 @@ struct Study {
   double stableStep = 0;     ///< with all contact nodes held, s
   double steadyPower = NAN;  ///< heat of friction of steady sliding, W
   std::vector<Node> nodes;
-  /// [node] its place among the contact nodes of this rank; −1 on other ranks
+  /// [node] its index among the contact nodes of this rank; −1 on other ranks
   std::vector<PetscInt> contactNode;
   std::vector<Run> runs;  ///< of all starts
-  /// Failures at the point, each with its name, that of its start and the remedy. They have been
-  /// printed.
+  /// Failures at the point, already printed, each with the names of point and start and the remedy.
   std::vector<std::string> failures;
 };
 
 /// Collective. Returns the regime at one point. `free` are the free modes, nodal displacements,
-/// this rank's rows; the shapes of the unstable modes are those of the point. An Error, such as a
-/// reduced model without the certified eigenvalues, is a failure of the point, or of one start: it
-/// is printed and returned, not thrown. Throws Interrupted within a second of a request to stop.
+/// this rank's rows; the shapes of the unstable modes are those of `modes`. An Error, such as a
+/// reduced model without the certified eigenvalues, counts as a failure of the point or of one
+/// start: it is printed and returned, not thrown. Throws Interrupted within a second of a request
+/// to stop.
 Study study(const FullModel& full, const Settings& settings, linalg::Block free,
             const pencil::ComplexModes& modes);
 

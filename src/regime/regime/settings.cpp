@@ -51,10 +51,10 @@ const IntegerOption mostOption("regime", "regime_cycle_motions", 20, 1, 10'000,
 
 [[noreturn]] void rejectIdle(const Option& option) {
   throw Error("option -" + option.name +
-              ": nothing is followed after flutter without -regime_friction");
+              ": no motion after flutter is computed without -regime_friction");
 }
 
-/// Throws Error for options of periodic motions that are idle.
+/// Throws Error for unused options of periodic motions.
 void rejectIdleCycleOptions(bool followed, bool wanted) {
   for (const Option* option : std::initializer_list<const Option*>{
            &cycleOption, &stepsOption, &toleranceOption, &rangeOption, &mostOption}) {
@@ -70,7 +70,7 @@ CycleSettings cyclesGiven(bool massless) {
   CycleSettings settings{.wanted = true};
   if (!massless)
     throw Error(
-        "option -regime_cycle: periodic motions are found only with -regime_boundary massless");
+        "option -regime_cycle: periodic motions are computed only with -regime_boundary massless");
   const auto range = rangeOption.get();
   if (range.empty()) {
     if (mostOption.given())
@@ -99,7 +99,7 @@ MarchSettings marchGiven(bool massless) {
           .massless = massless};
 }
 
-/// Throws Error for options of a march, of which there is none.
+/// Throws Error for options of a march if there is none.
 void rejectIdleMarchOptions() {
   auto idle = sound::Settings::options();
   for (const Option* option : std::initializer_list<const Option*>{

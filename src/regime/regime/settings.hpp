@@ -11,8 +11,8 @@
 
 namespace squeal::regime {
 
-/// The modes on which marches start: the fastest growing unstable one, each of them, or each and
-/// their sum.
+/// The modes on which marches start: the fastest growing unstable mode, each unstable mode, or each
+/// and their sum.
 enum class Starts { fastest, each, all };
 
 /// The settings of the time integration.
@@ -29,22 +29,22 @@ struct CycleSettings {
   bool wanted = false;
   int steps = 256;          ///< time steps of a period
   double tolerance = 1e-6;  ///< relative change over a period
-  /// The frictions between which the branch is followed; none: it is not followed.
+  /// The range of frictions of the branch; none: the branch is not computed.
   std::optional<std::array<double, 2>> range = {};
   int motions = 20;  ///< largest number of motions of the branch in each direction
 };
 
 struct Settings {
-  /// The frictions of the points that are followed after flutter, ascending. They belong to the
-  /// sweep. Empty: no point is followed, and the other members have their defaults.
+  /// The frictions of the points with a motion after flutter, ascending. They belong to the sweep.
+  /// If empty, no motion is computed, and the other members have their defaults.
   std::vector<double> frictions;
   MarchSettings march = {};
   CycleSettings cycles = {};
   sound::Settings sound = {};
   bool followed() const { return !frictions.empty(); }
 
-  /// Returns the settings that the options give. Throws Error for options that are idle or that
-  /// exclude each other.
+  /// Returns the settings that the options give. Throws Error for unused options and for options
+  /// that exclude each other.
   static Settings given();
 };
 

@@ -18,13 +18,13 @@ struct SpectralLine {
 /// Stores the latest samples of the modal velocities.
 class ModalSignals {
  public:
-  /// The period is that of a mode, s, and the step that of the march, s.
+  /// `period` is the period of a mode, s, and `step` the time step of the march, s.
   ModalSignals(PetscInt modes, double period, double step);
-  /// Is called with the modal velocities after each step.
+  /// Call it with the modal velocities after each step.
   void add(const std::vector<double>& velocities);
   /// Returns the interval of the samples, s.
   double sampleTime() const { return stride_ * step_; }
-  /// Returns the number of the latest samples in a time, s; 0 if they are too few for a spectrum.
+  /// Returns the number of samples in the latest `time`, s; 0 if they are too few for a spectrum.
   std::size_t count(double time) const;
   /// Returns the latest `count` samples, samples × modes.
   DenseMatrix latest(std::size_t count) const;

@@ -32,7 +32,7 @@ Block StaticResponses::all(const std::vector<PetscInt>& order) const {
   check(MatGetLocalSize(open_.trial, &nodal, nullptr));
   Block result(nodal);
   result.reserve(std::ssize(order) * dimension);
-  // Responses of one kind go together, since they share an operator.
+  // Responses of one kind are computed together, since they share an operator.
   for (int c = 0; c < dimension; ++c) {
     const auto& impedance = *impedances_[std::max(0, c - 1)];
     for (std::size_t begin = 0; begin < order.size(); begin += blockColumns) {

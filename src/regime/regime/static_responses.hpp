@@ -15,10 +15,10 @@ namespace squeal::regime {
 
 class StaticResponses {
  public:
-  /// Collective. The model is borrowed; `own` are the contact nodes of this rank.
+  /// Collective. Borrows the model; `own` are the contact nodes of this rank.
   StaticResponses(const FullModel& full, const std::vector<Node>& own);
   /// Collective. Returns the responses of the nodes in the given order, nodal displacements: to a
-  /// unit gap, and along each tangent to a unit force or, where the node is held, a unit slip.
+  /// unit gap, and along each tangent to a unit force or, for a held node, to a unit slip.
   linalg::Block all(const std::vector<PetscInt>& order) const;
 
  private:

@@ -15,12 +15,12 @@ using march::OnsetEvent;
 
 /// A march of the largest default time, 4000 cycles of 128 steps, takes 5e5 steps.
 constexpr double mostSteps = 1e8;
-/// Peaks of cycles and spectra need as many steps in a period.
+/// Peaks of cycles and spectra need at least this number of steps in a period.
 constexpr int fewestSteps = 16;
 
 double frequencyOf(const Task& task) { return task.mode.s.imag() / (2 * M_PI); }
 
-/// Returns the bound that the number of steps breaks; empty: none.
+/// Returns the bound that the number of steps violates; empty if there is none.
 std::string stepsBroken(double step, double time) {
   const double steps = time / step;
   if (steps <= mostSteps) return "";
@@ -32,14 +32,14 @@ std::string stepsBroken(double step, double time) {
       step, number.c_str(), time, mostSteps);
 }
 
-/// Returns the bound that the step or the time of a task breaks; empty: none.
+/// Returns the bound that the step or the time of a task violates; empty if there is none.
 std::string boundBroken(const ReducedModel& model, const MarchSettings& settings, const Task& task,
                         double stableStep) {
   if (const auto broken = stepsBroken(task.step, task.time); !broken.empty())
     return broken + (settings.step > 0 || task.step > 0.01 * task.shortestPeriod / 128
                          ? ""
-                         : "; the stable step of the reduced model is short, and fewer "
-                           "-modes_count make it longer");
+                         : "; the stable step of the reduced model is short; a smaller "
+                           "-modes_count makes it longer");
   if (settings.massless && task.step > stableStep)
     if (const double longest = march::longestStep(model); task.step > longest)
       return formatted(
@@ -83,17 +83,17 @@ Task taskOn(const ReducedModel& model, const NumberedMode& one) {
   task.shortestPeriod = 1 / frequencyOf(task);
   task.onset = firstEvent(model.nodes, motionAt(model, task.mode));
   if (task.onset.event == OnsetEvent::none)
-    task.failure = "the mode moves no node that is in contact, so that nothing bounds its growth";
+    task.failure = "the mode moves no node in contact, so its growth has no bound";
   else if (!(task.onset.factor > 0))
     task.failure =
-        "a node that sticks is at its limit of friction in steady sliding, so that the motion has "
-        "no linear range to start in (-contact_<interface>_release)";
+        "a sticking node is at its limit of friction in steady sliding, so the motion has no "
+        "linear range to start from (-contact_<interface>_release)";
   else
     scale(task.mode, task.onset.factor);
   return task;
 }
 
-/// Sets step and time, and the failure where these break a bound.
+/// Sets step and time, and the failure if these violate a bound.
 void setStepAndTime(const ReducedModel& model, const MarchSettings& settings, double stableStep,
                     Task& task) {
   const double period = 1 / frequencyOf(task);
@@ -105,7 +105,7 @@ void setStepAndTime(const ReducedModel& model, const MarchSettings& settings, do
   task.failure = boundBroken(model, settings, task, stableStep);
 }
 
-/// Returns the march that starts on the sum of the modes of others that can be done.
+/// Returns the march that starts on the sum of the modes of the feasible tasks.
 Task sumOf(const std::vector<Task>& tasks) {
   Task sum;
   int count = 0;
@@ -122,7 +122,7 @@ Task sumOf(const std::vector<Task>& tasks) {
   if (count > 0)
     scale(sum.mode, 1.0 / count);
   else
-    sum = tasks.front(), sum.failure = "none of its modes can be followed";
+    sum = tasks.front(), sum.failure = "none of its modes is feasible";
   sum.start = "all";
   return sum;
 }

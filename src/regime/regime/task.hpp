@@ -22,7 +22,7 @@ struct Task {
   Onset onset = {};
   double shortestPeriod = 0;  ///< of its modes, s
   double step = 0, time = 0;  ///< s
-  std::string failure = {};   ///< the reason not to do it; empty: none
+  std::string failure = {};   ///< the reason to omit it; empty: none
 };
 
 /// An unstable mode of the reduced model.
@@ -31,16 +31,15 @@ struct NumberedMode {
   LinearMode mode;
 };
 
-/// Throws Error if step and time are given and take more steps than a march may have.
+/// Throws Error if step and time are given and need more steps than a march may have.
 void checkSteps(const MarchSettings& settings);
 
 /// Returns the names of the starts on modes of these numbers, the fastest growing one first.
 std::vector<std::string> startsOn(std::span<const std::size_t> numbers, Starts starts);
 
 /// Not collective. Returns the marches that start on these modes, the fastest growing one first.
-/// `stableStep` is that of the model with all nodes held, s. The failure of a march is set if its
-/// mode does not oscillate or reaches no limit of the contact, or if its step or time breaks a
-/// bound.
+/// `stableStep` is that of the model with all nodes held, s. Sets the failure of a march whose mode
+/// does not oscillate or never separates or sticks, or whose step or time violates a bound.
 std::vector<Task> tasksOn(const ReducedModel& model, const MarchSettings& settings,
                           std::span<const NumberedMode> modes, double stableStep);
 

@@ -14,7 +14,7 @@
 namespace squeal::regime {
 namespace {
 
-/// Not collective. Does one march. Throws Interrupted, only on this rank, once asked() is true.
+/// Not collective. Computes one march. Throws Interrupted, only on this rank, once asked() is true.
 Trajectory trajectoryOf(const ReducedModel& model, const Settings& settings, const Task& task,
                         const StopAsked& asked, Stage& stage) {
   const auto start = march::startOn(task.mode, settings.march.startFactor);

@@ -24,9 +24,9 @@ struct Trajectory {
 /// Returns the rank that marches the task of this index.
 int rankOf(MPI_Comm comm, std::size_t task);
 
-/// Collective. Does the marches of the tasks without a failure. Returns the results on all ranks,
-/// [task], those of failed ones empty; a trace is on the rank that marched. Sets the failures of
-/// marches that end with an Error or measure nothing.
+/// Collective. Computes the marches of the tasks without a failure. Returns the results on all
+/// ranks, [task], empty for failed tasks; a trace is on the rank that marched. Sets the failures of
+/// marches that end with an Error or without a measurement.
 std::vector<Trajectory> trajectories(MPI_Comm comm, const ReducedModel& model,
                                      const Settings& settings, std::vector<Task>& tasks,
                                      Stage& stage);

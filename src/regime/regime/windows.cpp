@@ -37,7 +37,7 @@ void WindowRecorder::inspectNode(std::size_t i, const Scheme& scheme) {
     heat -= t * w;
     shear += t * t, change += (w - w0) * (w - w0);
   }
-  // The friction force of a sliding node is on the cone, to the accuracy of the forces.
+  // The friction force of a sliding node is on the cone, within the accuracy of the forces.
   const bool open = normal == 0,
              sticks = !open && node.rubs() &&
                       std::sqrt(shear) < scheme.friction()[i] * (normal - 1e-5 * meanForce_);

@@ -41,15 +41,15 @@ struct Window {
 /// Accumulates the averages of a march, window by window.
 class WindowRecorder {
  public:
-  /// The model is borrowed.
+  /// Borrows the model.
   explicit WindowRecorder(const ReducedModel& model);
-  /// Is called after each step.
+  /// Call it after each step.
   void inspect(const Scheme& scheme);
   /// Ends a window at this time, s; `peakKinetic` is the mean of the peaks of its cycles, J.
   void end(double time, double peakKinetic);
   /// Returns the complete windows.
   const std::vector<Window>& windows() const { return windows_; }
-  /// Returns the mean normal force of the pressed nodes in steady sliding, N.
+  /// Returns the mean normal force of the closed nodes in steady sliding, N.
   double meanForce() const { return meanForce_; }
 
  private:

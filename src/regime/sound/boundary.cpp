@@ -20,7 +20,7 @@ using elasticity::ShapeTable;
 using elasticity::shapeTable;
 using mesh::Point;
 using Corners = std::vector<int>;
-/// The global numbers of the corners of a face, ascending; −1 in front where there are fewer.
+/// The global numbers of the corners of a face, ascending; padded with −1 at the front.
 using Key = std::array<PetscInt, 4>;
 
 /// Returns the corners of the faces of a cell, in gmsh's numbers.
@@ -40,8 +40,8 @@ struct LocalFace {
   std::size_t corners = 0;
 };
 
-/// Returns the face whose corners are given. A node of the cell lies on it if the linear shape
-/// functions of the other corners vanish there, and is the node of the face that has the same
+/// Returns the face with these corners. A node of the cell lies on it if the linear shape functions
+/// of the other corners are zero there; it corresponds to the node of the face with the same
 /// values.
 LocalFace faceOf(const ShapeTable& cell, const Corners& corners) {
   const auto value = [](const ShapeTable& table, int node, int corner) {
@@ -68,7 +68,7 @@ LocalFace faceOf(const ShapeTable& cell, const Corners& corners) {
       }
     if (result.nodes.size() == there.size()) return result;
   }
-  throw Error("stage regime: the faces of cells of the type " + cell.name + " are not known");
+  throw Error("stage regime: the faces of cells of the type " + cell.name + " are not supported");
 }
 
 std::vector<LocalFace> facesOf(const ShapeTable& cell) {
@@ -101,7 +101,7 @@ BoundaryFace boundaryFace(const mesh::Mesh& mesh, std::span<const PetscInt> cell
   return face;
 }
 
-/// The faces that one cell of this rank has, by their key.
+/// The faces of exactly one cell of this rank, by key.
 using Single = std::map<Key, BoundaryFace>;
 
 Single singleFaces(const mesh::Mesh& mesh) {
@@ -126,8 +126,8 @@ Single singleFaces(const mesh::Mesh& mesh) {
   return faces;
 }
 
-/// Collective. Removes the faces that a cell of another rank has too. At least one of the two ranks
-/// has a ghost among their nodes, so that the ranks exchange only such faces.
+/// Collective. Removes the faces that belong also to a cell of another rank. At least one of the
+/// two ranks has a ghost among their nodes, so the ranks exchange only such faces.
 void removeShared(const mesh::Mesh& mesh, Single& faces) {
   std::vector<Key> sent;
   for (const auto& [key, face] : faces)

@@ -51,7 +51,7 @@ std::vector<Sample> RecentHistory::samples() const {
 }
 
 void fields(Stream& stream, Sample& sample) {
-  // All members are named, so that a new one does not compile until it is broadcast too.
+  // This lists all members: a new one does not compile until it is added here.
   auto& [time, q, z, gap, force] = sample;
   stream(time, q, z, gap, force);
 }

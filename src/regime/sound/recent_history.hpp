@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The recent history of a march, from which displacements are computed at its end.
+/// The recent history of a march, for displacements at its end.
 #include <deque>
 #include <vector>
 
@@ -19,35 +19,36 @@ using march::Scheme;
 struct Sample {
   double time = 0;            ///< s
   std::vector<double> q, z;   ///< of modes and of static responses
-  std::vector<double> gap;    ///< [node], with the steady one, m
+  std::vector<double> gap;    ///< [node], including the steady gap, m
   std::vector<double> force;  ///< R_N, [node], N
 };
 
-/// The history of a march, on the rank that has marched.
+/// The history of a march, on the rank that computed it.
 struct Trace {
   DenseMatrix velocities;       ///< of the modes, samples × modes
   double sampleTime = 0;        ///< interval of these samples, s
   std::vector<Sample> samples;  ///< of the latest cycles
 };
 
-/// Not collective. Writes a sample, or sets it.
+/// Not collective. Writes or reads a sample.
 void fields(Stream& stream, Sample& sample);
 
 /// Stores the samples of the latest `-regime_cycles_kept` periods.
 class RecentHistory {
  public:
-  /// The period is that of a mode, s, and the step that of the march. The model is borrowed.
+  /// `period` is the period of a mode, s, and `step` the time step of the march, s. Borrows the
+  /// model.
   RecentHistory(const ReducedModel& model, const Settings& settings, double period, double step);
   void inspect(const Scheme& scheme);
-  /// Returns the samples in the order of time. From the first to the last it is a whole number of
-  /// periods, to a time step; fewer periods if the march was shorter.
+  /// Returns the samples in the order of time. They span a whole number of periods, within a time
+  /// step; fewer periods if the march was shorter.
   std::vector<Sample> samples() const;
 
  private:
   const ReducedModel& model_;
   int frames_;  // of a period
   long most_;
-  double interval_, next_;  // from frame to frame, and the time of the next one, s
+  double interval_, next_;  // between frames, and the time of the next frame, s
   std::deque<march::State> states_;
 };
 

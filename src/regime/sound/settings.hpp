@@ -16,11 +16,11 @@ struct Settings {
   double airImpedance = 415;               ///< density times speed of sound, N s/m³
   std::vector<Point> spectrumPoints = {};  ///< m; empty: the node with the largest motion
 
-  /// Returns the number of frames of a period, s, that a march with this step, s, can give.
+  /// Returns the number of frames per period, s, that a march with this step, s, allows.
   int framesOfPeriod(double period, double step) const;
 
-  /// Returns the settings that the options give. Throws Error for frames without a period, and for
-  /// words that are not points.
+  /// Returns the settings that the options give. Throws Error for frames without a stored period,
+  /// and for texts that are not points.
   static Settings given();
   /// Returns the options of this room.
   static std::vector<const Option*> options();

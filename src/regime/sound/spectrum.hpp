@@ -6,11 +6,11 @@
 
 namespace squeal::sound {
 
-/// Adds the squared amplitudes, 0 to peak, of a signal by a Hann window to `power`, [line]. Line i
-/// has the frequency i over the duration of the signal.
+/// Adds the squared amplitudes, 0 to peak, of a signal with a Hann window to `power`, [line]. The
+/// frequency of line i is i over the duration of the signal.
 void addPower(std::span<const double> signal, std::vector<double>& power);
 
-/// Returns the amplitudes, 0 to peak, of a signal by a Hann window, [line].
+/// Returns the amplitudes, 0 to peak, of a signal with a Hann window, [line].
 std::vector<double> amplitudes(std::span<const double> signal);
 
 }  // namespace squeal::sound

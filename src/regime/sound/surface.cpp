@@ -18,8 +18,8 @@ namespace {
 using elasticity::shapeTable;
 using Marks = std::vector<unsigned char>;  // [local node]
 
-/// Collective. Returns nodal values, [local node][component], with those of primaries at their
-/// images too.
+/// Collective. Returns nodal values, [local node][component]; images get the values of their
+/// primaries.
 std::vector<double> withImages(const contact::Contact& contact, Vec values) {
   if (!contact.periodic) return elasticity::localValues(*contact.mesh, values);
   const OwnedVec copied = elasticity::nodalVector(*contact.mesh);
@@ -27,7 +27,7 @@ std::vector<double> withImages(const contact::Contact& contact, Vec values) {
   return elasticity::localValues(*contact.mesh, copied);
 }
 
-/// Collective. Returns marks at the nodes whose global numbers any rank has given and, of a
+/// Collective. Returns marks at the nodes whose global numbers any rank has given and, with a
 /// contact, at their images.
 Marks marked(const mesh::Mesh& mesh, const std::vector<PetscInt>& globalNodes,
              const contact::Contact* contact = nullptr) {
@@ -58,7 +58,7 @@ Marks nodesOf(const mesh::Mesh& mesh, const contact::Contact& contact, int inter
   return marked(mesh, nodes, &contact);
 }
 
-/// Collective. Returns lists of marks: a face whose nodes all have those of one list is hidden.
+/// Collective. Returns lists of marks: a face is hidden if all its nodes are marked in one list.
 std::vector<Marks> hiddenNodes(const mesh::Mesh& mesh, const contact::Contact& contact) {
   std::vector<Marks> lists;
   for (std::size_t i = 0; i < contact.interfaces.options.size(); ++i)
@@ -72,7 +72,7 @@ std::vector<Marks> hiddenNodes(const mesh::Mesh& mesh, const contact::Contact& c
   return lists;
 }
 
-/// Collective. Returns [local node · dimension + component] 1 where a support holds the component.
+/// Collective. Returns 1 for components that a support holds, [local node · dimension + component].
 std::vector<double> heldComponents(const mesh::Mesh& mesh, const contact::Contact& contact) {
   const OwnedVec held = elasticity::nodalVector(mesh);
   {
@@ -119,7 +119,7 @@ std::vector<Point> unitNormals(const mesh::Mesh& mesh, Vec sums) {
   return normals;
 }
 
-/// Returns true if all nodes of the face have the marks of one of the lists.
+/// Returns true if all nodes of the face are marked in one list.
 bool isHidden(const std::vector<Marks>& lists, const BoundaryFace& face) {
   return std::ranges::any_of(lists, [&](const Marks& marks) {
     return std::ranges::all_of(face.nodes, [&](PetscInt node) { return marks[node]; });
@@ -141,7 +141,7 @@ RadiatingSurface radiatingSurface(const mesh::Mesh& mesh, const contact::Contact
     for (const double weight : elasticity::areaWeights(table, points)) surface.area += weight;
     elasticity::append(triples, mesh, face.nodes,
                        elasticity::normalMass(table, points, mesh.dimension));
-    // Directions are summed, not ∫ φ n dA, which vanishes at the corners of quadratic faces.
+    // Sums directions instead of ∫ φ n dA, which is zero at the corners of quadratic faces.
     for (std::size_t i = 0; i < face.nodes.size(); ++i)
       for (int d = 0; d < mesh.dimension; ++d)
         check(VecSetValue(sums, mesh.dimension * mesh.globalNode[face.nodes[i]] + d, normals[i][d],

@@ -71,7 +71,7 @@ DenseMatrix Observer::rowsOf(std::span<const PetscInt> nodes) const {
   return rows;
 }
 
-/// Returns the nodes of the surface on this rank with minus their mean square velocities.
+/// Returns the surface nodes of this rank with their negative mean square velocities.
 std::vector<Observer::Candidate> Observer::byVelocity(const DenseMatrix& meanSquares) const {
   constexpr std::size_t atOnce = 512;
   const auto& mesh = *contact_.mesh;
@@ -92,7 +92,7 @@ std::vector<Observer::Candidate> Observer::byVelocity(const DenseMatrix& meanSqu
   return result;
 }
 
-/// Returns the nodes of the surface on this rank with their distances from a place.
+/// Returns the surface nodes of this rank with their distances from a place.
 std::vector<Observer::Candidate> Observer::byDistance(const Point& place) const {
   const auto& mesh = *contact_.mesh;
   std::vector<Candidate> result;
@@ -104,9 +104,9 @@ std::vector<Observer::Candidate> Observer::byDistance(const Point& place) const 
   return result;
 }
 
-/// Collective. Returns the node of the smallest measure of all ranks, with its rows of V. Of nodes
-/// that are equal to round-off, it is the first by its coordinates, so that the number of ranks
-/// does not matter.
+/// Collective. Returns the node with the smallest measure of all ranks, with its rows of V. Of
+/// nodes that are equal within round-off, it returns the first by coordinates, independent of the
+/// number of ranks.
 Observer::Observed Observer::observed(const std::vector<Candidate>& own, double tolerance) const {
   const auto& mesh = *contact_.mesh;
   double least = INFINITY;
@@ -129,7 +129,6 @@ Observer::Observed Observer::observed(const std::vector<Candidate>& own, double 
     result.point.normal = surface_.normals[best[0].node];
     result.shape = rowsOf(std::span(&best[0].node, 1));
   }
-  // The other ranks have zeros.
   mpi::reduce<double>(mesh.comm, result.point.normal, MPI_SUM);
   mpi::reduce<double>(mesh.comm, result.shape.entries(), MPI_SUM);
   return result;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The visible surface of the bodies in a regime [M.76]: the sound that it radiates, velocity
-/// spectra at its points, and displacements of the latest cycles.
+/// The visible surface of the bodies in a regime [M.76]: its radiated sound, velocity spectra at
+/// its points, and displacements of the latest cycles.
 #include <array>
 #include <cmath>
 #include <span>
@@ -27,12 +27,12 @@ struct Sound {
 /// The amplitudes of one line: components x, y, z and the one along the normal, 0 to peak, m/s.
 using Amplitudes = std::array<double, 4>;
 
-/// A node of the visible surface, as a laser vibrometer measures it.
+/// A node of the visible surface with a velocity spectrum, as from a laser vibrometer.
 struct SpectrumPoint {
   std::string name = {};  ///< "largest", or "1", "2", … of -regime_spectrum_points
   Point position{}, normal{};
   double meanSquareVelocity = 0;           ///< of all components, m²/s²
-  std::vector<Amplitudes> amplitude = {};  ///< [line] by frequency, as amplitudes() has them
+  std::vector<Amplitudes> amplitude = {};  ///< [line] by frequency, as in amplitudes()
 };
 
 /// The motion of the latest cycles about steady sliding.
@@ -49,11 +49,11 @@ struct VisibleSurface {
   Frames frames = {};
 };
 
-/// The displacements of the mesh in a reduced model; all of them are borrowed.
+/// The displacements of the mesh in a reduced model; all members are borrowed.
 struct Shapes {
   const linalg::Block& modes;      ///< V, nodal displacements, this rank's rows
   const linalg::Block& responses;  ///< Ψ, as V
-  /// [node of the model] its place among the contact nodes of this rank; −1 on other ranks
+  /// [node of the model] its index among the contact nodes of this rank; −1 on other ranks
   const std::vector<PetscInt>& contactNode;
 };
 
@@ -61,13 +61,13 @@ struct Shapes {
 /// collective.
 class Observer {
  public:
-  /// The contact is borrowed.
+  /// Borrows the contact.
   Observer(const contact::Contact& contact, const Shapes& shapes, const Settings& settings);
-  /// Returns the results of a march whose trace is on the rank `root`.
+  /// Returns the results of a march with its trace on the rank `root`.
   VisibleSurface of(int root, const Trace& trace) const;
 
  private:
-  /// A node of the surface, of which that with the smallest measure on all ranks is chosen.
+  /// A node of the surface; the candidate with the smallest measure on all ranks is chosen.
   struct Candidate {
     double measure;
     Point position{};

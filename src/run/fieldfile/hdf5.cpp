@@ -25,7 +25,7 @@ hid_t typeOf() {
   return sizeof(Number) == 4 ? H5T_NATIVE_INT32 : H5T_NATIVE_INT64;
 }
 
-/// Returns the object of this name, a group made if there is none; negative if that fails.
+/// Returns the object of this name, or a new group if there is none; negative if that fails.
 hid_t openOrMake(hid_t file, const std::string& object) {
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
     const std::string path = object.substr(0, end);
@@ -39,15 +39,15 @@ hid_t openOrMake(hid_t file, const std::string& object) {
   }
 }
 
-/// Throws output::WriteError, on rank 0, if the call of the library before was not `done`, or if
-/// the driver has kept an error. It has refused to open something else than a regular file.
+/// Throws output::WriteError, on rank 0, if the preceding call of the library was not `done`, or if
+/// the driver has recorded an error or refused to open the file.
 void require(bool done, const std::filesystem::path& path) {
   if (!done && !keptRefusal().empty()) throw output::WriteError(keptRefusal());
   if (!done || keptError() != 0) throw output::WriteError(output::cannotWrite(path, keptError()));
 }
 
-/// A table [row][column] is written some rows at a time, on one rank. The constructor and write()
-/// throw output::WriteError.
+/// Writes a table [row][column] in blocks of rows, on one rank. The constructor and write() throw
+/// output::WriteError.
 class Rows {
  public:
   Rows(hid_t file, const std::filesystem::path& path, const std::string& name, hid_t type,
@@ -80,7 +80,7 @@ class Rows {
   hdf5::DatasetId dataset_;
 };
 
-/// Collective. Hands the rows of all ranks, in their order and in pieces, to `take(values,
+/// Collective. Passes the rows of all ranks, in rank order and in pieces, to `take(values,
 /// entries)` on rank 0.
 template <class Number, class Take>
 void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, const Take& take) {
@@ -129,8 +129,8 @@ std::vector<int> elementTypes(const mesh::Mesh& mesh) {
 
 }  // namespace
 
-/// Collective. Calls `action` on rank 0 without a word of the library's own. Throws Error on all
-/// ranks if it returns false or a write has failed.
+/// Collective. Calls `action` on rank 0 without messages of the library. Throws Error on all ranks
+/// if it returns false or a write has failed.
 template <class Action>
 void Hdf5File::onFirst(const Action& action) {
   onFirstRank(comm_, head_, [&] {
@@ -259,7 +259,7 @@ void Hdf5File::writeRows(const std::string& group, const std::string& name, int 
   onFirstRank(comm_, head_, [&] {
     rows.emplace(file_, path_, group + "/" + name, typeOf<Number>(), total / width, width);
   });
-  std::string failure;  // the other ranks send all the same
+  std::string failure;  // the other ranks send in any case
   inTurn(comm_, values, width, [&](const Number* piece, std::size_t entries) {
     if (failure.empty()) try {
         rows->write(piece, entries / width);

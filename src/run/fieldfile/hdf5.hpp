@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The results file holds mesh, fields and tables in one HDF5 file.
+/// The results file: mesh, fields and tables in one HDF5 file.
 #include <hdf5.h>
 #include <petscvec.h>
 
@@ -14,22 +14,21 @@
 namespace squeal::fieldfile {
 
 /// An HDF5 file is open for writing until close(). All methods are collective, and throw Error on
-/// all ranks, naming an option, for what cannot be written. Groups are absolute ("/modes") and made
-/// when first written to.
+/// all ranks, naming an option, if writing fails. Groups are absolute ("/modes") and created on
+/// first use.
 ///
-/// Rank 0 alone writes; the others send it their parts, a piece at a time, so that it never holds
-/// more than its own part and a piece. Were each to write its part, a disc that is full for one of
-/// them would leave the others waiting inside the library.
+/// Only rank 0 writes. The others send it their parts in pieces, so it never stores more than its
+/// own part and a piece. If each rank wrote its own part, a full disk on one rank would leave the
+/// others waiting inside the library.
 class Hdf5File {
  public:
-  /// Replaces the file if there is one; the folder must exist. `option`, with its dash, is the one
-  /// that names the folder.
+  /// Replaces an existing file; the folder must exist. `option`, with its dash, names the folder.
   Hdf5File(MPI_Comm comm, const std::filesystem::path& path, const std::string& option);
-  /// Closes the file if close() has not, whether or not all of it could be written.
+  /// Closes the file if it is still open, even if it is incomplete.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
-  /// Writes what the library still keeps in memory, and closes the file.
+  /// Flushes the buffers of the library and closes the file.
   void close();
 
   /// Writes to /mesh `coordinates` [global node][3], `node_tag` and `node_part` [global node], and
@@ -42,12 +41,12 @@ class Hdf5File {
   /// is the number of components.
   void writeNodeVector(const std::string& group, const std::string& name, Vec values);
   /// Writes a small table of reals as a dataset [row][column] with the attribute `columns` (names
-  /// joined by commas). The rows of rank 0 count.
+  /// joined by commas). Uses the rows of rank 0.
   void writeTable(const std::string& group, const std::string& name,
                   const std::vector<std::string>& columns,
                   const std::vector<std::vector<double>>& rows);
-  /// Writes an attribute of the group or dataset `object`, with the same value on all ranks. A
-  /// group is made if there is none.
+  /// Writes an attribute of the group or dataset `object`, with the same value on all ranks.
+  /// Creates the group if it does not exist.
   void writeAttribute(const std::string& object, const std::string& name, double value);
   void writeAttribute(const std::string& object, const std::string& name, const std::string& text);
   void writeAttribute(const std::string& object, const std::string& name, PetscInt value);

@@ -21,7 +21,7 @@ struct File {
   H5FD_t base;  // the library's own part comes first
   int descriptor = -1;
   haddr_t allocated = 0;
-  haddr_t end = 0;  ///< end of what was written
+  haddr_t end = 0;  ///< end of the written bytes
 };
 
 File* own(H5FD_t* file) { return reinterpret_cast<File*>(file); }
@@ -32,13 +32,13 @@ void note(int error) {
 }
 
 H5FD_t* openFile(const char* name, unsigned flags, hid_t, haddr_t) {
-  if (!(flags & H5F_ACC_CREAT)) return nullptr;  // it only writes new files
+  if (!(flags & H5F_ACC_CREAT)) return nullptr;  // the driver only writes new files
   firstError = 0;
   refusal.clear();
   int descriptor = -1;
   try {
     descriptor = output::openToWrite(name, O_RDWR);
-  } catch (const output::WriteError& error) {  // it may not pass through the library
+  } catch (const output::WriteError& error) {  // an exception must not pass through the library
     refusal = error.what();
     return nullptr;
   }

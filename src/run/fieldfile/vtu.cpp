@@ -43,12 +43,11 @@ std::vector<int> sameOrder(int nodes) {
   return order;
 }
 
-// Corners and, in the plane, mid-side nodes have the same order in gmsh and VTK. In solids gmsh
-// sorts the mid-edge nodes by the corners of their edge, VTK walks round the base, then round the
-// top, then up the edges between (tetrahedra and
-// pyramids: base, then up). VTK has no pyramid of 14 nodes: the one in the middle of the base is
-// left out. The mid-face nodes of bricks: gmsh −z
-// −y −x +x +y +z, VTK −x +x −y +y −z +z.
+// Corners and, in the plane, mid-side nodes have the same order in gmsh and VTK. In solids, gmsh
+// sorts the mid-edge nodes by the corners of their edge. VTK goes around the base, then around the
+// top, then along the edges in between (tetrahedra and pyramids: base, then the other edges). VTK
+// has no pyramid of 14 nodes: the node in the middle of the base is omitted. The mid-face nodes of
+// bricks: gmsh −z −y −x +x +y +z, VTK −x +x −y +y −z +z.
 const std::map<int, VtkCell>& cellsByGmshType() {
   static const std::map<int, VtkCell> cells{
       {2, {VTK_TRIANGLE, sameOrder(3)}},
@@ -103,8 +102,8 @@ Piece ownPiece(const mesh::Mesh& mesh, const std::vector<Field>& fields, int ran
   return piece;
 }
 
-/// Collective. Puts the lists of all ranks together on rank 0, in the order of the ranks; those of
-/// the others are left empty.
+/// Collective. Concatenates the lists of all ranks on rank 0, in the order of the ranks, and
+/// empties the other lists.
 template <class Entry>
 void gatherOnFirst(MPI_Comm comm, std::vector<Entry>& list) {
   static_assert(std::is_trivially_copyable_v<Entry>);
@@ -125,7 +124,7 @@ void gatherOnFirst(MPI_Comm comm, std::vector<Entry>& list) {
   list = std::move(all);
 }
 
-/// Collective. Puts the pieces of all ranks together on rank 0.
+/// Collective. Merges the pieces of all ranks on rank 0.
 void gatherOnFirst(MPI_Comm comm, Piece& piece) {
   const PetscInt own = piece.nodeTag.size();
   PetscInt before = 0;
@@ -180,7 +179,7 @@ vtkNew<vtkUnstructuredGrid> gridOf(const Piece& piece, const std::vector<Field>&
   return grid;
 }
 
-/// Collective. Rank 0 makes the folder; the others wait for it.
+/// Collective. Rank 0 creates the folder; the others wait for it.
 void makeFolder(MPI_Comm comm, const fs::path& folder, const std::string& head) {
   onFirstRank(comm, head, [&] {
     const SignalsBlocked whole;
@@ -205,7 +204,7 @@ void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
   failTogether(mesh.comm, message);
 }
 
-/// Not collective. Writes a piece. Returns what went wrong, empty if nothing did.
+/// Not collective. Writes a piece. Returns the error message; empty on success.
 std::string writePiece(vtkUnstructuredGrid* grid, const fs::path& path) {
   const SignalsBlocked whole;
   try {
@@ -250,8 +249,8 @@ std::string arrayTag(const std::string& type, const std::string& name, int compo
                    type.c_str(), xmlText(name).c_str(), components);
 }
 
-/// Returns the text of the file that names the pieces. VTK's own writer of it cuts the stem at its
-/// last dot: steady_0.2 and steady_0.4 would share, and overwrite, the pieces of steady_0.
+/// Returns the text of the file that lists the pieces. VTK's own writer truncates the stem at its
+/// last dot: steady_0.2 and steady_0.4 would both use, and overwrite, the pieces of steady_0.
 template <class Path>
 std::string summaryText(const std::vector<Field>& fields, const fs::path& folder, const Path& path,
                         int pieces) {
@@ -284,7 +283,7 @@ void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Fi
   const auto path = [&stem](int index) {
     return stem / (stem.filename().string() + "_" + std::to_string(index) + ".vtu");
   };
-  // Neighbouring ranks share a file, which the first of them writes.
+  // Neighbouring ranks share a file, which the first rank writes.
   const int pieces = std::min(size, mostPieces),
             index = static_cast<std::int64_t>(rank) * pieces / size;
   Piece piece = ownPiece(mesh, pointFields, rank);
@@ -295,7 +294,7 @@ void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Fi
   check(MPI_Comm_rank(sharing, &place));
   check(MPI_Comm_free(&sharing));
 
-  // not replace_extension: a stem such as steady_0.4 has a dot that begins no extension
+  // not replace_extension(): the dot of a stem such as steady_0.4 does not start an extension
   const fs::path summary = stem.string() + ".pvtu";
   makeFolder(mesh.comm, stem, head);
   const std::string failure = place == 0 ? writePiece(gridOf(piece, pointFields), path(index)) : "";

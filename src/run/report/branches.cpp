@@ -23,7 +23,7 @@ const char* kindName(tracking::Event::Kind kind) {
   return "";
 }
 
-/// Calls `action` with all that was followed.
+/// Calls `action` for each tracked line.
 template <class Action>
 void forAllFollowed(const analysis::Analysis& analysis, const Action& action) {
   for (const auto& segment : analysis.flutter.segments)
@@ -100,7 +100,7 @@ std::string followedText(const analysis::Analysis& analysis) {
         },
         ", and at %d more in critical.csv");
     list(
-        false, "\nStability also changes, at a friction not solved for, ",
+        false, "\nStability also changes, at a friction not computed, ",
         [](const stability::Critical& c) {
           return formatted("between %.6g and %.6g (%s near %.4g Hz%s)",
                            c.friction - c.errorEstimate, c.friction + c.errorEstimate,

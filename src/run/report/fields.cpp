@@ -82,8 +82,7 @@ std::string shapeName(const pencil::ComplexModes& point, const pencil::Shape& sh
 
 /// Collective. Writes
 ///   Re(d e^{iφ})
-/// over one period: pressing play in ParaView shows the squeal. The growth is left out, since it
-/// would hide the shape.
+/// over one period, for playback in ParaView. The growth is omitted, since it would hide the shape.
 void animate(const analysis::Analysis& analysis, const Settings& settings, const Ghosts& ghosts,
              const Animated& item, const std::filesystem::path& folder) {
   const int frames = settings.frames;
@@ -111,7 +110,7 @@ void writeParameters(Hdf5File& file, const std::string& group, const sweep::Para
     file.writeAttribute(group, parameter.name, at.*parameter.value);
 }
 
-/// Collective. Writes the branches followed and the path of the contact, as far as there are any.
+/// Collective. Writes the tracked branches and the path of the contact, if there are any.
 void writePath(const analysis::Analysis& analysis, Hdf5File& file) {
   if (auto rows = branchRows(analysis); !rows.empty())
     file.writeTable(
@@ -152,8 +151,8 @@ void writeFields(const analysis::Analysis& analysis, const Settings& settings,
              {ghosts.vector("displacement", solution.displacement),
               ghosts.scalar("contact_pressure", contactField(analysis, solution))},
              settings.pieces);
-    // ParaView's time is the friction; where more is swept, several states would share it, and the
-    // file's place in the list is the time.
+    // ParaView's time is the friction or, if several states have the same friction, the index of
+    // the file.
     const bool frictionAlone = analysis.sweep.frictions.size() == analysis.steady.solutions.size();
     steadyFiles.emplace_back(frictionAlone ? solution.at.friction : steadyFiles.size(),
                              stem.string() + ".pvtu");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions write fields for ParaView and for other programs: steady displacement and
-/// pressure, free modes, complex modes and the squeal in motion.
+/// Fields for ParaView and other programs: steady displacement and pressure, free modes, complex
+/// modes and their animation.
 #include <filesystem>
 
 #include "run/analysis/analysis.hpp"

@@ -33,8 +33,8 @@ bool isNumber(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Returns true for NAME.pvtu, the folder NAME beside it, and the pieces NAME_RANK.vtu in that
-/// folder. `parts` are the names of the path from there on.
+/// Returns true for NAME.pvtu, the folder NAME next to it, and the pieces NAME_RANK.vtu in that
+/// folder. `parts` are the components of the path from there on.
 bool isGrid(const std::string& name, const std::vector<std::string>& parts) {
   if (parts.size() == 1) return parts[0] == name || parts[0] == name + ".pvtu";
   const auto rank = between(parts[1], name + "_", ".vtu");
@@ -71,7 +71,7 @@ bool ResultNames::contains(const fs::path& path) const {
   return false;
 }
 
-/// Returns true for a field of these points; `parts` are the names of its path below vtk.
+/// Returns true for a field of these points; `parts` are the components of its path below vtk.
 bool ResultNames::isField(const std::vector<std::string>& parts) const {
   if (parts == std::vector<std::string>{"steady.pvd"}) return true;
   const std::string stem = parts.size() > 1 || !parts[0].ends_with(".pvtu")

@@ -11,18 +11,17 @@
 
 namespace squeal::report {
 
-/// The option that names the folder of the results.
+/// The option for the results folder.
 inline constexpr char folderOption[] = "-report_dir";
 
 /// Returns the name of a point of the sweep as part of file and group names: FRICTION, then
 /// _speed_SPEED, _pressure_… for the factors that are not 1.
 std::string pointName(const sweep::Parameters& at);
 
-/// The names of the files and folders of a run over some points, relative to the folder of the
-/// results.
+/// The names of the files and folders of a run over some points, relative to the results folder.
 class ResultNames {
  public:
-  /// Notes the names of these points, and of their steady states.
+  /// Stores the names of these points, and of their steady states.
   explicit ResultNames(const std::vector<sweep::Parameters>& points);
   /// Returns true if a run over these points may write this path, a file or a folder.
   bool contains(const std::filesystem::path& path) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Nodal vectors become fields for VTK files.
+/// Nodal vectors as fields for VTK files.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,17 +11,17 @@
 
 namespace squeal::report {
 
-/// Collective. Writes the VTK files of some fields in as many pieces as `-report_pieces` allows.
+/// Collective. Writes the VTK files of some fields, in at most `pieces` pieces (`-report_pieces`).
 void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
               const std::vector<fieldfile::Field>& fields, int pieces);
 
-/// Brings nodal values from their owners to all ranks whose cells need them. Its methods are
+/// Sends nodal values from their owners to all ranks whose cells need them. The methods are
 /// collective.
 class Ghosts {
  public:
   explicit Ghosts(const mesh::Mesh& mesh);
   fieldfile::Field vector(const std::string& name, Vec u) const;
-  /// Returns the field of only one component.
+  /// Returns the field of a single component.
   fieldfile::Field scalar(const std::string& name, Vec u, std::size_t component = 0) const;
 
  private:

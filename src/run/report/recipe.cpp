@@ -13,7 +13,6 @@
 namespace squeal::report {
 namespace {
 
-/// Returns the text of options.txt.
 std::string recipe(MPI_Comm comm) {
   std::string text =
       formatted("# squeal %s, %d ranks: the options of this run; defaults in comments\n", version(),

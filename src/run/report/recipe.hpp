@@ -7,9 +7,8 @@
 
 namespace squeal::report {
 
-/// Collective. Writes options.txt into `folder`: the options that are given, and the defaults of
-/// the others as comments. Call it once all settings have been read. Throws Error as writeText()
-/// does.
+/// Collective. Writes options.txt into `folder`: the given options, and the defaults of the others
+/// as comments. Call it once all settings have been read. Throws Error as writeText() does.
 void writeRecipe(MPI_Comm comm, const std::filesystem::path& folder);
 
 }  // namespace squeal::report

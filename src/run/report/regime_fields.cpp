@@ -52,7 +52,7 @@ OwnedVec meansOf(const analysis::Analysis& analysis, const Study& study, const R
   return atContactNodes(analysis, [&](std::size_t i) { return own[i]; });
 }
 
-/// Calls action(study, run, name) for each run; the name is that of point and start.
+/// Calls action(study, run, name) for each run; the name contains point and start.
 template <class Action>
 void forEachRun(const analysis::Analysis& analysis, const Action& action) {
   for (const auto& study : analysis.flutter.regimes)
@@ -107,7 +107,7 @@ void writeRegimeFields(const analysis::Analysis& analysis, const Ghosts& ghosts,
 void writeRegimeFields(const analysis::Analysis& analysis, fieldfile::Hdf5File& file) {
   for (const auto& study : analysis.flutter.regimes) {
     const std::string point = "/regime/friction_" + pointName(study.at);
-    bool named = false;  // once: starts share the point
+    bool named = false;  // once per point, which the starts share
     for (const auto& run : study.runs) {
       if (!run.regime.measured()) continue;
       const std::string group = point + "/start_" + run.start;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions write the fields of the motion after flutter: means at the contact nodes, and
-/// the latest cycles in motion.
+/// Fields of the motion after flutter: means at the contact nodes, and the animation of the latest
+/// cycles.
 #include <filesystem>
 
 #include "run/analysis/analysis.hpp"

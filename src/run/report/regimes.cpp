@@ -59,7 +59,7 @@ std::string regimeTable(const analysis::Analysis& analysis) {
       "area_m2,sound_power_estimate_w,sound_power_level_db");
   forEachRun(analysis, [&](const auto& study, const auto& run, const std::string& first) {
     const regime::Regime& regime = run.regime;
-    // A march that has measured nothing has no figures.
+    // A march without measurements has no figures.
     const auto measured = [&](double value) { return cell(regime.measured() ? value : NAN); };
     const auto size =
         study.nodes.empty() ? std::string(",") : formatted(",%zu", study.nodes.size());
@@ -106,7 +106,7 @@ std::string cycleTable(const analysis::Analysis& analysis) {
   return table;
 }
 
-/// Returns the names of the columns of the points; all runs have as many.
+/// Returns the names of the columns of the points, the same number for all runs.
 std::string pointColumns(const analysis::Analysis& analysis) {
   std::size_t count = 0;
   forEachRun(analysis, [&](const auto&, const auto& run, const std::string&) {
@@ -171,7 +171,7 @@ std::string periodicTable(const analysis::Analysis& analysis) {
   return table;
 }
 
-/// Returns a row for each fold of the branch, and one where there is none.
+/// Returns a row for each fold of a branch, and one row for a branch without folds.
 std::string branchTable(const analysis::Analysis& analysis) {
   std::string table = head(",towards,fold_friction,end_friction,reason");
   forEachRun(analysis, [&](const auto&, const auto& run, const std::string& first) {

@@ -24,7 +24,7 @@ output::Naming naming(const std::vector<sweep::Parameters>& points) {
           .marks = {part / output::Manifest::name, part / "checkpoint" / "identity.json"}};
 }
 
-/// Returns the naming of the folder that the option names.
+/// Returns the naming of the results folder.
 output::Naming namingOfOption(const Settings& settings,
                               const std::vector<sweep::Parameters>& points) {
   output::Naming naming = report::naming(points);
@@ -33,14 +33,14 @@ output::Naming namingOfOption(const Settings& settings,
   return naming;
 }
 
-/// Returns the naming of a folder inside it.
+/// Returns the naming of a subfolder of the results folder.
 output::Naming namingOfPart(const std::vector<sweep::Parameters>& points) {
   output::Naming naming = report::naming(points);
   naming.inside = true;
   return naming;
 }
 
-/// Collective. Writes all reports into the folder, which has been staged and has the recipe.
+/// Collective. Writes all reports into the folder, which must be staged and contain the recipe.
 void writeInto(const analysis::Analysis& analysis, const Settings& settings,
                output::Folder& folder) {
   {
@@ -52,7 +52,7 @@ void writeInto(const analysis::Analysis& analysis, const Settings& settings,
     }
     stage.finish("results in " + folder.path().string());
   }
-  writeSummary(analysis, folder.staging());  // after the last stage: it holds the times
+  writeSummary(analysis, folder.staging());  // after the last stage, since it contains the times
   folder.commit();
 }
 
@@ -79,7 +79,7 @@ void write(const analysis::Analysis& analysis, const Settings& settings, Directo
   const std::string how = analysis.checkpoint.exists() ? "; -resume continues it" : "";
   if (analysis.flutter.segments.empty()) {
     removeInterrupted(comm,
-                      directory);  // tables of an earlier run, beside a checkpoint of this one
+                      directory);  // tables of an earlier run, next to a checkpoint of this one
     return printWarning(comm, "interrupted before the first eigenvalues" + how);
   }
   try {
@@ -88,12 +88,12 @@ void write(const analysis::Analysis& analysis, const Settings& settings, Directo
     writeRecipe(comm, part.staging());
     writeInto(analysis, settings, part);
   } catch (const Error& error) {
-    return printWarning(comm, std::string("interrupted; what was found so far is not written: ") +
+    return printWarning(comm, std::string("interrupted; the results so far cannot be written: ") +
                                   error.what() + how);
   }
   printLine(comm, stabilityTable(analysis));
-  printWarning(
-      comm, "interrupted: what was found so far is in " + directory.interrupted().string() + how);
+  printWarning(comm,
+               "interrupted: the results so far are in " + directory.interrupted().string() + how);
 }
 
 void removeInterrupted(MPI_Comm comm, const Directory& directory) {
@@ -105,8 +105,8 @@ void removeInterrupted(MPI_Comm comm, const Directory& directory) {
   if (there) try {
       output::Folder(comm, namingOfPart(directory.points()), directory.interrupted()).discard();
     } catch (const Error& error) {  // the results are complete
-      printWarning(comm,
-                   std::string("warning: results of an interrupted run stay: ") + error.what());
+      printWarning(comm, std::string("warning: cannot remove the results of an interrupted run: ") +
+                             error.what());
     }
 }
 

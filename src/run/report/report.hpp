@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// These functions write the output of a run: tables, fields, the summary and the stability table
-/// on the terminal.
+/// The output of a run: tables, fields, the summary and the stability table on the terminal.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,17 +11,17 @@
 
 namespace squeal::report {
 
-/// The folder of a run (`-report_dir`), where new results replace those of an earlier run when all
-/// are complete.
+/// The folder of a run (`-report_dir`), where the new results replace those of an earlier run once
+/// they are complete.
 class Directory : public output::Folder {
  public:
-  /// Collective. `points` are those of the sweep. Call it when all settings have been read: it
-  /// writes them to options.txt in staging(), so that a run that is killed leaves them. Throws
-  /// Error as output::Folder does.
+  /// Collective. `points` are the points of the sweep. Call it after all settings have been read:
+  /// it writes them to options.txt in staging(), so even a killed run leaves them. Throws Error as
+  /// output::Folder does.
   Directory(MPI_Comm comm, const Settings& settings, std::vector<sweep::Parameters> points);
   /// Returns the points of the sweep, borrowed.
   const std::vector<sweep::Parameters>& points() const { return points_; }
-  /// Returns the folder inside it for what a run leaves that has been asked to stop.
+  /// Returns the subfolder for the results of an interrupted run.
   std::filesystem::path interrupted() const { return path() / "interrupted"; }
 
  private:
@@ -30,9 +29,9 @@ class Directory : public output::Folder {
 };
 
 /// Collective. Writes all reports, which then replace those of an earlier run, and prints the
-/// stability table. Those of a run that has been asked to stop go to interrupted() instead, and the
-/// results of an earlier run stay; there are none if no eigenvalue has been found. Throws Error,
-/// naming -report_dir, if a file cannot be written; the earlier results then stay.
+/// stability table. The reports of an interrupted run go to interrupted() instead, if it has
+/// eigenvalues, and the results of an earlier run stay. Throws Error, naming -report_dir, if a file
+/// cannot be written; the earlier results then stay.
 void write(const analysis::Analysis& analysis, const Settings& settings, Directory& directory);
 
 /// Collective. Removes the results of an interrupted run in interrupted(), except its checkpoint. A

@@ -25,8 +25,8 @@ const IntegerOption piecesOption(
     "share a file");
 const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames of one period");
 
-/// Returns true if a case names the folder: in an options file, or, as scripts/run does it, by its
-/// own name: results/NAME for the case NAME.yaml.
+/// Returns true if the folder belongs to the case: an options file names it, or it is results/NAME
+/// for the case NAME.yaml, as with scripts/run.
 bool isOfCase(const std::filesystem::path& folder) {
   if (!origin("report_dir", folder.string()).file.empty()) return true;
   const auto place = (std::filesystem::absolute(folder) / "").lexically_normal().parent_path();

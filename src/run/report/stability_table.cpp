@@ -14,7 +14,7 @@
 namespace squeal::report {
 namespace {
 
-/// Returns friction, and the parameters that are not 1 all over the sweep.
+/// Returns friction, and the parameters that are not 1 throughout the sweep.
 std::vector<sweep::Parameter> shownParameters(const analysis::Analysis& analysis) {
   const auto points = analysis.sweep.points();
   std::vector<sweep::Parameter> shown;
@@ -28,14 +28,14 @@ std::vector<sweep::Parameter> shownParameters(const analysis::Analysis& analysis
   return shown;
 }
 
-/// Returns the head of a line of a sweep.
+/// Returns the beginning of a line of a sweep.
 std::string rowHead(const sweep::Parameters& at, const std::vector<sweep::Parameter>& shown) {
   std::string head = "\n";
   for (const auto& parameter : shown) head += formatted("%8g  ", at.*parameter.value);
   return head;
 }
 
-/// Returns what is to be said of eigenvalues whose growth is not certain; empty if there are none.
+/// Returns a remark on eigenvalues of uncertain growth; empty if there are none.
 std::string uncertaintyText(const pencil::ComplexModes& point) {
   const int undecided = point.count(pencil::Verdict::undecided);
   std::string text = point.verdict() == pencil::Verdict::uncertified ? " (uncertified)" : "";
@@ -43,11 +43,11 @@ std::string uncertaintyText(const pencil::ComplexModes& point) {
   return text;
 }
 
-/// Returns the text for a point where no mode is unstable.
+/// Returns the text for a point without unstable modes.
 std::string stableText(const analysis::Analysis& analysis,
                        const sweep_solver::ModalSegment& segment,
                        const pencil::ComplexModes& point) {
-  if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";
+  if (point.eigenvalues.empty()) return "no eigenvalue was found, so stability is unknown";
   if (segment.openNodes > 0 && segment.openNodes == analysis.model.contact.interfaces.totalNodes)
     return "none: no contact is closed, nothing slides";
   if (point.verdict() == pencil::Verdict::undecided) return "none" + uncertaintyText(point);
@@ -72,7 +72,7 @@ std::string sweepRow(const analysis::Analysis& analysis, const sweep_solver::Mod
          uncertaintyText(point);
 }
 
-/// Returns the unstable modes of a single point, a line each; modes are numbered by frequency.
+/// Returns the unstable modes of a single point, one per line; modes are numbered by frequency.
 std::string modeRows(const analysis::Analysis& analysis, const sweep_solver::ModalSegment& segment,
                      const pencil::ComplexModes& point) {
   if (point.unstableCount() == 0)
@@ -87,8 +87,8 @@ std::string modeRows(const analysis::Analysis& analysis, const sweep_solver::Mod
   return uncertainty.empty() ? rows : rows + "\n     " + uncertainty;
 }
 
-/// Returns a text on the point where strong damping has taken most free modes of the band from the
-/// eigenvalues listed; empty if there is none.
+/// Returns a remark on the point with the largest number of free modes in the band without a listed
+/// eigenvalue, because of strong damping; empty if there is none.
 std::string strongDampingText(const analysis::Analysis& analysis) {
   const pencil::ComplexModes* most = nullptr;
   for (const auto& segment : analysis.flutter.segments)
@@ -98,9 +98,8 @@ std::string strongDampingText(const analysis::Analysis& analysis) {
   if (!most) return "";
   return formatted(
       "\n%s: %d of the %d free modes in the band have no eigenvalue there: their damping ratio "
-      "exceeds -flutter_band_damping, or "
-      "damping has moved them. Modes that such damping changes much may take a larger "
-      "-modes_count; check with -flutter_method direct.",
+      "exceeds -flutter_band_damping, or damping has moved them out of the band. Such strong "
+      "damping may need a larger -modes_count; check with -flutter_method direct.",
       sweep::parameterText(most->at).c_str(), most->modesWithoutEigenvalue(),
       most->freeModesInBand);
 }
@@ -112,7 +111,7 @@ std::string coverageText(const analysis::Analysis& analysis) {
     for (const auto& point : segment.points)
       if (point.coveredTo < point.askedTo)
         text +=
-            formatted("\n%s: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
+            formatted("\n%s: the band is covered only up to %.5g Hz; raise -flutter_direct_limit",
                       sweep::parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
   return text;
 }

@@ -36,7 +36,7 @@ Json steadyEntry(const steady::Solution& solution) {
   entry["converged"] = solution.converged;
   entry["iterations"] = solution.iterations;
   if (solution.existsTo) entry["exists_up_to"] = parametersEntry(*solution.existsTo);
-  if (!solution.converged) return entry;  // where SNES stopped means nothing
+  if (!solution.converged) return entry;  // the point where SNES stopped has no meaning
   entry["open_nodes"] = solution.openNodes;
   entry["smallest_pressure_pa"] = solution.smallestPressure;
   entry["relative_residual"] = solution.residual;
@@ -64,7 +64,7 @@ Json steadyEntry(const steady::Solution& solution) {
   return entry;
 }
 
-/// Returns what was found at the interfaces of a mesh, by name.
+/// Returns the reports on the interfaces of a mesh, by name.
 Json interfaceEntries(const contact::Contact& contact) {
   Json entries;
   for (std::size_t i = 0; i < contact.interfaces.options.size(); ++i) {
@@ -95,7 +95,7 @@ Json interfaceEntries(const contact::Contact& contact) {
   return entries;
 }
 
-/// Returns the number, or null for NaN and infinity, which have no place in JSON.
+/// Returns the number, or null for NaN and infinity, which JSON does not support.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json uniquenessEntry(double speed, const uniqueness::Uniqueness& found) {
@@ -138,7 +138,7 @@ Json followedEntry(const stability::Followed& followed) {
                                   {"to_friction", gap.to},
                                   {"what", gap.what},
                                   {"identity_only", gap.identityOnly}});
-  entry["active_sets"] = followed.activeSet;  // on the way; 0: that of no point
+  entry["active_sets"] = followed.activeSet;  // along the path; 0: not that of a point
   entry["critical_frictions"] = Json::array();
   for (const auto& critical : followed.criticals) {
     if (critical.converged)
@@ -152,7 +152,7 @@ Json followedEntry(const stability::Followed& followed) {
 
 Json regimeEntry(const regime::Study& study, const regime::Run& run) {
   const regime::Regime& regime = run.regime;
-  // A march that has measured nothing has no figures.
+  // A march without measurements has no figures.
   const auto measured = [&](double value) { return regime.measured() ? finite(value) : Json(); };
   Json entry = parametersEntry(study.at);
   entry["start"] = run.start;
@@ -255,7 +255,7 @@ Json contactEventEntry(const contact::Contact& contact, const analysis::PathEven
           {"change", event.opens ? "opens" : "closes"}};
 }
 
-/// Adds the cost of each stage, and the time of all.
+/// Adds the cost of each stage, and the total time.
 void addStages(Json& summary) {
   double total = 0;
   for (const auto& record : stageRecords()) {
@@ -281,7 +281,7 @@ Json verdictEntry(const RunVerdict& verdict) {
       {"critical_friction", verdict.criticalFriction ? Json(*verdict.criticalFriction) : Json()}};
 }
 
-/// Returns the head of the summary: the run and its problem.
+/// Returns the beginning of the summary: the run and its problem.
 Json runEntry(const analysis::Analysis& analysis) {
   const auto& options = resolvedOptions();
   Json entry;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// This function writes the summary of a run.
+/// The summary of a run.
 #include <filesystem>
 
 #include "run/analysis/analysis.hpp"
 
 namespace squeal::report {
 
-/// Collective. Writes summary.json into `folder`, after the last stage, since it holds the times.
-/// Throws Error as writeText() does.
+/// Collective. Writes summary.json into `folder`, after the last stage, since it contains the
+/// times. Throws Error as writeText() does.
 void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 
 }  // namespace squeal::report

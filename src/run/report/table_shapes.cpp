@@ -15,7 +15,8 @@ namespace squeal::report {
 nlohmann::ordered_json tableShapes(MPI_Comm comm, const std::filesystem::path& folder) {
   nlohmann::ordered_json shapes = nlohmann::ordered_json::object();
   onFirstRank(comm, std::string("option ") + folderOption + ": ", [&] {
-    std::map<std::string, nlohmann::ordered_json> byName;  // folders are in no order
+    std::map<std::string, nlohmann::ordered_json>
+        byName;  // the order of files in a folder is undefined
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() != ".csv") continue;
       const std::string text = contentOfRegular(entry.path()).value_or("");

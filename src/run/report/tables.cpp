@@ -98,7 +98,7 @@ std::string gathered(MPI_Comm comm, const std::string& text) {
   return all;
 }
 
-/// Returns the rows of this rank: surface data, gathered on rank 0.
+/// Returns the rows of this rank, which rank 0 gathers.
 std::string steadyRows(const analysis::Analysis& analysis, const steady::Solution& solution) {
   std::string rows;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
@@ -114,7 +114,7 @@ std::string steadyRows(const analysis::Analysis& analysis, const steady::Solutio
   return rows;
 }
 
-/// Collective. Returns the table of the nodes that open and close.
+/// Collective. Returns the table of opening and closing nodes.
 std::string contactPathTable(const analysis::Analysis& analysis) {
   std::string table = "friction,speed,pressure,x_m,y_m,z_m,interface,change\n";
   for (const auto& [order, at, x, interface, opens] : analysis::contactPath(analysis))

@@ -30,7 +30,7 @@ std::vector<sweep::Parameter> sweptParameters(const std::vector<sweep::Parameter
   return swept;
 }
 
-/// Counts what the points hold.
+/// Counts points and eigenvalues by verdict.
 UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
   UnstableModes modes;
   for (const auto& segment : analysis.flutter.segments)
@@ -51,7 +51,7 @@ UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
   return modes;
 }
 
-/// Returns the lowest friction at which stability is lost, solved for.
+/// Returns the lowest critical friction at which stability is lost.
 std::optional<double> firstLoss(const analysis::Analysis& analysis) {
   std::optional<double> lowest;
   for (const auto& segment : analysis.flutter.segments)

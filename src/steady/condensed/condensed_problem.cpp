@@ -32,30 +32,29 @@ OwnedMat unitSlipRows(const contact::Contact& contact,
                           0);
 }
 
-/// The largest number of corrections by the residual of all equations. Each has to halve it.
+/// The largest number of corrections by the residual of all equations. Each must halve it.
 constexpr int mostCorrections = 30;
 
-/// The active sets of the start are looked for with friction balanced to this part, in as many
-/// steps.
+/// The initial active sets are determined with friction balanced to this relative accuracy.
 constexpr double roughly = 1e-4;
 constexpr int mostSteps = 12;
 
 }  // namespace
 
-/// A point with the holds and the gaps from which its solution is looked for.
+/// A point with the initial holds and gaps of its solution.
 struct CondensedProblem::Start {
   sweep::Parameters at;
   Sticking sticking;
-  std::vector<double> gaps;  // [contact node], m; those of the solution in the end
-  bool withPivots = false;   // where SNES finds no gaps
+  std::vector<double> gaps;  // [contact node], m; finally those of the solution
+  bool withPivots = false;   // if SNES finds no gaps
 };
 
-/// A point on the way to its solution.
+/// The state of the solution at a point.
 struct CondensedProblem::Trial {
   Start& start;
-  std::unique_ptr<Problem> own;  // with the holds, where something sticks
-  const Problem& held;           // that, or the problem of all points
-  OwnedMat direct;               // borrowed by the conditions
+  std::unique_ptr<Problem> own;  // with the holds, if any node sticks
+  const Problem& held;           // *own, or the problem of all points
+  OwnedMat direct;               // the conditions borrow it
   OwnedVec x;                    // in the unknowns of the open contact
   ContactCase asked;             // with all gaps closed
   double gapUnit = 0;
@@ -63,7 +62,7 @@ struct CondensedProblem::Trial {
   ContactVector causes = {};
   Solution solution = {};
   double left = 0;      // natural residual, N
-  bool isBest = false;  // a correction would not make that smaller
+  bool isBest = false;  // a correction would not reduce it
 
   bool isAccurate() const { return left <= accuracy.asked * accuracy.forceUnit; }
 };
@@ -108,7 +107,8 @@ ContactConditions CondensedProblem::conditions(const sweep::Parameters& at,
   return result;
 }
 
-/// Collective. Returns what the friction of released nodes does to them; null if there are none.
+/// Collective. Returns the direct effect of the friction of released nodes on them; null if there
+/// are none.
 OwnedMat CondensedProblem::directFriction(const Sticking& sticking) {
   const bool any = mpi::any(comm(), std::ranges::count(sticking.holds, Hold::released) > 0);
   const bool known = mpi::all(
@@ -127,7 +127,7 @@ std::vector<impedance::ContactSolution> CondensedProblem::onSets(
     const std::vector<ChosenSet>& sets) {
   const auto& nodeOf = impedance_->nodeOf();
   std::vector<ContactCase> cases;
-  std::vector<OwnedMat> direct;  // borrowed by the cases
+  std::vector<OwnedMat> direct;  // the cases borrow them
   for (const ChosenSet& set : sets) {
     cases.push_back({conditions(set.at, set.sticking), loads().forces(set.at)});
     cases.back().conditions.direct = direct.emplace_back(directFriction(set.sticking));
@@ -137,7 +137,7 @@ std::vector<impedance::ContactSolution> CondensedProblem::onSets(
   return solver_->solve(cases);
 }
 
-/// Solves for the gaps of a trial, with these forces given, and returns (t, w).
+/// Solves for the gaps of a trial with these given forces, and returns (t, w).
 ContactVector CondensedProblem::complementarity(Trial& trial, const ContactVector& given) {
   if (impedance_->size() == 0) return ContactVector(impedance_->length(), 0.0);
   ContactCase asked = trial.asked;
@@ -156,10 +156,10 @@ ContactVector CondensedProblem::complementarity(Trial& trial, const ContactVecto
   return solver_->withGaps(gaps, asked).causes;
 }
 
-/// Moves the gaps from which the trials start to those of the active sets to which the primal-dual
-/// active set method leads (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13, 2003), with friction
-/// balanced to the part `accuracy`. All trials move at once, so that what the solver has to learn
-/// is learned in blocks. Returns the trials whose sets hold.
+/// Sets the initial gaps of the trials by the primal-dual active set method (Hintermüller, Ito and
+/// Kunisch, SIAM J. Optim. 13, 2003), with friction balanced to the relative `accuracy`. All trials
+/// move together, so the solver extends its space in blocks. Returns the trials with consistent
+/// active sets.
 std::vector<CondensedProblem::Trial*> CondensedProblem::approach(std::vector<Trial*> moving,
                                                                  double accuracy) {
   const std::size_t n = impedance_->nodes();
@@ -179,7 +179,7 @@ std::vector<CondensedProblem::Trial*> CondensedProblem::approach(std::vector<Tri
         const double gap = found[k].causes[n + i], force = found[k].effects[n + i];
         const bool isOpen = cases[k].conditions.free[i], opens = isOpen ? gap > 0 : force < 0;
         if (opens != isOpen) changes[k] = 1;
-        // The size of a gap that is new is not known yet, and only its sign is looked at.
+        // The size of a new gap is still unknown; only its sign matters.
         gaps[i] = !opens ? 0 : isOpen ? gap : moving[k]->gapUnit;
       }
     }
@@ -192,7 +192,7 @@ std::vector<CondensedProblem::Trial*> CondensedProblem::approach(std::vector<Tri
   return settled;
 }
 
-/// Returns the unknowns x of the open contact that the holds of a trial leave.
+/// Returns the unknowns x of the open contact that remain with the holds of a trial.
 OwnedVec CondensedProblem::unknowns(const Trial& trial, Vec x) const {
   const OwnedVec z = elasticity::nodalVector(problem_.mesh());
   OwnedVec result = rightVector(trial.held.transformation().trial);
@@ -241,7 +241,7 @@ std::vector<Solution> CondensedProblem::solveFrom(std::vector<Start>& starts) {
   }
   impedance_->addUnknowns(causes, x);
   for (Trial& trial : trials) {
-    // Friction may move a weakly held body far, which is known only now.
+    // Friction may move a weakly supported body far, which is known only now.
     trial.accuracy = accuracyNear(trial.held, trial.start.at, unknowns(trial, trial.x));
     trial.left = naturalResidual(trial.held, trial.start.at, unknowns(trial, trial.x));
   }
@@ -257,8 +257,8 @@ std::vector<Solution> CondensedProblem::solveFrom(std::vector<Start>& starts) {
   return solutions;
 }
 
-/// Corrects the trials that are not accurate by the residual of all equations. Returns false if
-/// there is nothing to correct.
+/// Corrects the inaccurate trials by the residual of all equations. Returns false if there are
+/// none.
 bool CondensedProblem::correct(std::vector<Trial>& trials) {
   std::vector<Trial*> some;
   std::vector<OwnedVec> residuals, corrected;
@@ -267,8 +267,8 @@ bool CondensedProblem::correct(std::vector<Trial>& trials) {
   DenseMatrix causes(impedance_->length());
   for (Trial& trial : trials) {
     if (trial.isBest || trial.isAccurate()) continue;
-    // With t = c R and w as they are, y is corrected. What the contact then feels without t and w
-    // is the new start.
+    // With t = c R and w unchanged, y is corrected. The forces at the contact without t and w are
+    // the new start.
     const auto& at = trial.start.at;
     some.push_back(&trial);
     residuals.push_back(rightVector(open().transformation().trial));
@@ -315,7 +315,7 @@ std::vector<Solution> CondensedProblem::solveTogether(const std::vector<sweep::P
     starts.push_back({at, sticking_, gaps_, withPivots});
   }
   auto solutions = solveFrom(starts);
-  // Points whose holds are to be revised are solved again, together.
+  // Points whose holds change are solved again, together.
   std::vector<std::size_t> unsettled(points.size());
   std::iota(unsettled.begin(), unsettled.end(), 0);
   while (true) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady sliding is solved in the unknowns of the contact, since everything else is linear or
-/// nearly so [3.10–3.13, M.59].
+/// Solution of steady sliding in the unknowns of the contact, since all other equations are linear
+/// or nearly so [3.10–3.13, M.59].
 #include <memory>
 #include <vector>
 
@@ -16,58 +16,58 @@ using steady::Problem;
 using steady::Solution;
 using steady::Sticking;
 
-/// A point of the sweep with a choice of closed nodes.
+/// A point of the sweep with a given set of closed nodes.
 struct ChosenSet {
   sweep::Parameters at;
-  /// [contact node of this rank] 1 where it is closed; the others are open
+  /// [contact node of this rank] 1 if it is closed; the others are open
   contact::Mask closed;
-  /// Nodes that stick are held where they are closed, unless this says otherwise.
+  /// The holds of sticking nodes; by default, closed ones are held.
   Sticking sticking;
 };
 
-/// The complementarity problem in only the gaps,
+/// The complementarity problem in the gaps only,
 ///   0 ≤ g ⟂ F(g) ≥ 0,
-/// where F(g) holds the forces at the gaps with the friction f R in balance. The one factorisation
-/// of the closed contact serves all frictions, pressures and sets of open nodes. Points that are
-/// solved for together share what they find out about the contact, and what they ask of the
-/// factorisation is asked in blocks, which costs a fraction of as many single solves. What
-/// convective terms add to forces and slip comes with the corrections by the residual of all
-/// equations, a modified Newton method.
+/// where F(g) are the forces at the gaps with balanced friction f R. One factorisation of the
+/// closed contact serves all frictions, pressures and sets of open nodes. Points that are solved
+/// together share the computed responses of the contact and use block solves, which take a fraction
+/// of the time of single solves. Corrections by the residual of all equations, a modified Newton
+/// method, add the forces and slip of convective terms.
 class CondensedProblem {
  public:
-  /// Returns true if everything but the contact is linear at each point: solutions then need no
-  /// corrections except for round-off, and onSets() gives them.
+  /// Returns true if the problem is linear at each point except for the contact. Solutions then
+  /// need no corrections except for round-off, and onSets() returns them.
   static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
-  /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and
-  /// all that stick held, during the life of the object.
+  /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and all
+  /// sticking nodes held, during the lifetime of the object.
   CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed);
   ~CondensedProblem();
-  /// Collective. Solves at all points as Problem::solve() does, from the gaps and holds of the last
-  /// solution of the last call. Some vectors of all unknowns are held for each point meanwhile.
+  /// Collective. Solves at all points as Problem::solve() does, starting from the gaps and holds of
+  /// the last solution of the last call. During the call, memory holds some vectors of all unknowns
+  /// per point.
   std::vector<Solution> solveTogether(const std::vector<sweep::Parameters>& points) {
     return solveTogether(points, false);
   }
   /// Collective. The same at one point.
   Solution solve(const sweep::Parameters& at) { return std::move(solveTogether({at}).front()); }
-  /// Collective. The same at one point, with complementary pivots where SNES finds no gaps.
+  /// Collective. The same at one point, with complementary pivoting if SNES finds no gaps.
   Solution solveWithPivots(const sweep::Parameters& at) {
     return std::move(solveTogether({at}, true).front());
   }
-  /// Collective. Returns causes and effects where these nodes are closed and the others open,
-  /// whatever signs that gives, without convective terms. Sets that are asked for together are
-  /// solved for in blocks.
+  /// Collective. Returns causes and effects with these nodes closed and the others open, regardless
+  /// of the signs of forces and gaps, without convective terms. Sets of one call share block
+  /// solves.
   std::vector<impedance::ContactSolution> onSets(const std::vector<ChosenSet>& sets);
   /// Collective. The same of one set.
   impedance::ContactSolution onSet(const ChosenSet& set) {
     return std::move(onSets({set}).front());
   }
-  /// Lets the next solve() begin with these gaps, [contact node] coefficient of the gap, m, and
+  /// Makes the next solve() start from these gaps, [contact node] coefficient of the gap, m, and
   /// holds.
   void beginWith(std::vector<double> gaps, Sticking sticking) {
     gaps_ = std::move(gaps);
     sticking_ = std::move(sticking);
   }
-  /// Lets the next solve() begin with the contact of a solution, with what it has released held
+  /// Makes the next solve() start from the contact of a solution, with its released nodes held
   /// again.
   void continueFrom(const Solution& solution);
   const contact::Contact& contact() const { return contact_; }
@@ -75,7 +75,7 @@ class CondensedProblem {
   /// has never been open.
   double gapStiffness(std::size_t node) const { return solver_->gapStiffness(node); }
   MPI_Comm comm() const { return impedance_->comm(); }
-  /// Returns the number of right-hand sides solved for so far.
+  /// Returns the total number of right-hand sides of all solves so far.
   long solves() const { return impedance_->solves(); }
 
  private:
@@ -98,14 +98,14 @@ class CondensedProblem {
 
   const Problem& problem_;
   const contact::Contact& contact_;
-  std::unique_ptr<Problem> free_;  // nothing sticks; null where no interface does
+  std::unique_ptr<Problem> free_;  // all nodes free; null if no interface sticks
   std::unique_ptr<impedance::Impedance> impedance_;
   std::unique_ptr<impedance::ContactSolver> solver_;
   std::vector<double> gaps_;      // of the last solution, [contact node], m
-  Sticking sticking_;             // of the last solution, with what has been released held again
-  OwnedMat direct_;               // what the friction of released nodes does to them; null: nothing
-  Sticking directOf_;             // the holds that `direct_` belongs to
-  std::unique_ptr<Loads> loads_;  // of the problem without holds, made when first needed
+  Sticking sticking_;             // of the last solution, with released nodes held again
+  OwnedMat direct_;               // effect of the friction of released nodes on them; null: none
+  Sticking directOf_;             // the holds of `direct_`
+  std::unique_ptr<Loads> loads_;  // of the problem without holds, created on first use
 };
 
 }  // namespace squeal::condensed

@@ -17,22 +17,22 @@
 namespace squeal::condensed {
 namespace {
 
-/// A force below minus this part of the largest one pulls, and a gap overlaps likewise with the
-/// force that would open it so far; what lies between is rounding.
+/// A force below minus this fraction of the largest force is tensile. A gap overlaps if the force
+/// that would open it as far is below the same bound. Smaller values are round-off.
 constexpr double rounding = 1e-9;
-/// The length of the line behind an event where the new active set must hold.
+/// The length of the line after an event on which the new active set must be consistent.
 constexpr double behind = 1e-7;
-/// The largest number of nodes that may change together, beyond which SNES finds the new set.
+/// The largest number of nodes that may change together; for more, SNES finds the new set.
 constexpr int mostTogether = 8;
 
-/// Where a force or a gap changes its sign.
+/// The point where a force or a gap changes its sign.
 struct SignChange {
-  double at;                   ///< if it does so through infinity, a place shortly below
-  std::optional<double> pole;  ///< where it is infinite
+  double at;                   ///< a point shortly below, if the sign changes through infinity
+  std::optional<double> pole;  ///< place of the pole
 };
 
-/// Returns the pole of a function through four places near it: that of y = 0 on the polynomial
-/// through the places as a function of the reciprocals y.
+/// Returns the pole of a function from four points near it: the value at y = 0 of the polynomial
+/// through the points as a function of the reciprocals y.
 double poleNear(const std::array<double, 4>& places, const std::array<double, 4>& reciprocals) {
   double sum = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -52,7 +52,7 @@ sweep::Parameters between(const sweep::Parameters& from, const sweep::Parameters
   return point;
 }
 
-/// A contact node that differs between two solutions, and where it is expected to change.
+/// A contact node that differs between two solutions, and the expected point of its change.
 struct ExpectedChange {
   double at;
   int rank, node;
@@ -61,8 +61,8 @@ struct ExpectedChange {
   }
 };
 
-/// Collective. Returns the changes of all ranks between two solutions in the order that is expected
-/// from the states on the set of the first one at both ends.
+/// Collective. Returns the changes of all ranks between two solutions in the expected order, from
+/// the states on the set of the first solution at both ends.
 std::vector<ExpectedChange> expectedChanges(MPI_Comm comm, const ContactWay& way,
                                             const impedance::ContactSolution& begin,
                                             const impedance::ContactSolution& end) {
@@ -82,14 +82,14 @@ std::vector<ExpectedChange> expectedChanges(MPI_Comm comm, const ContactWay& way
   return all;
 }
 
-/// A PlaceName holds what a message says of a contact node.
+/// The data of a contact node for a message.
 struct PlaceName {
   mesh::Point position;
   int interface;
   bool isClosed;
 };
 
-/// The contact node where a condition is violated most, of all ranks.
+/// The contact node of all ranks with the largest violation of a condition.
 struct Place {
   double margin = INFINITY;  ///< force or gap, relative
   int rank = 0;
@@ -103,7 +103,7 @@ class Follower {
     check(MPI_Comm_rank(comm(), &rank_));
     for (const auto& state : from.contact) forceUnit_ = std::max(forceUnit_, state.normalForce);
     forceUnit_ = mpi::max(comm(), forceUnit_);
-    if (forceUnit_ == 0) forceUnit_ = 1;  // nothing touches
+    if (forceUnit_ == 0) forceUnit_ = 1;  // no contact forces
   }
 
   ContactPath follow() {
@@ -114,7 +114,7 @@ class Follower {
       Place worst = worstAt(1);
       if (worst.margin >= -rounding) break;
       double event = 1;
-      // This is the first one of the nodes that violate a condition ahead.
+      // The first of the nodes that violate a condition ahead.
       Place first;
       std::optional<double> pole;
       while (worst.margin < -rounding && event > s) {
@@ -125,8 +125,7 @@ class Follower {
       }
       if (pole) {
         path.obstacle =
-            "the equations of its active set are singular there: forces and gaps grow "
-            "beyond all bounds";
+            "the equations of its active set are singular there: forces and gaps become infinite";
         path.end = at(*pole);
         break;
       }
@@ -162,7 +161,7 @@ class Follower {
           forceUnit_);
     return margins_;
   }
-  /// Returns the worst place, `but` for one.
+  /// Returns the worst place, except `but`.
   Place worstAt(double s, const Place* but = nullptr) {
     const auto& values = margins(s);
     Place worst{INFINITY, rank_, 0};
@@ -184,7 +183,7 @@ class Follower {
     check(MPI_Bcast(&value, 1, MPI_DOUBLE, place.rank, comm()));
     return value;
   }
-  /// Collective. Says that a solution cannot be continued where this node changes.
+  /// Collective. Returns the message that a solution cannot be continued where this node changes.
   std::string turningPoint(const Place& place) const {
     PlaceName name{};
     if (rank_ == place.rank) {
@@ -193,17 +192,18 @@ class Follower {
     }
     check(MPI_Bcast(&name, sizeof name, MPI_BYTE, place.rank, comm()));
     return formatted(
-        "the contact node at %s of interface '%s' %s there, and behind that no active set holds",
+        "the contact node at %s of interface '%s' %s there, and no active set is consistent after "
+        "it",
         interfaces::text(name.position).c_str(),
         problem_.contact().interfaces.names[name.interface].c_str(),
         name.isClosed ? "opens" : "closes");
   }
-  /// Returns where the force or the gap of a node changes its sign, between `low` and `high`, where
-  /// it is negative.
+  /// Returns the point between `low` and `high` where the force or the gap of a node changes its
+  /// sign; it is negative at `high`.
   SignChange signChange(const Place& place, double low, double high) {
     const double atHigh = marginOf(place, high);
     double from = low, atLow = marginOf(place, low);
-    if (!(atLow > 0)) {  // rounding, where the node has changed right there
+    if (!(atLow > 0)) {  // round-off: the node has just changed here
       from = std::min(low + behind, high);
       atLow = marginOf(place, from);
     }
@@ -214,16 +214,16 @@ class Follower {
         [&](double s) { return marginOf(place, s); }, from, high, atLow, atHigh,
         [](double x, double y) { return std::abs(x - y) <= 1e-11; }, steps);
     const double found = (a + b) / 2, near = 1e-3 * std::min(found - from, high - found);
-    // Towards a zero a function becomes small, towards a pole large. In the singular equations
-    // right at a pole rounding decides, hence the distance.
+    // A function becomes small towards a zero and large towards a pole. At the pole the equations
+    // are singular and round-off dominates, so test at some distance.
     if (!(marginOf(place, found - near) > std::max(atLow, -atHigh))) return {found, {}};
     const std::array places{found - 2 * near, found - near, found + near, found + 2 * near};
     std::array<double, 4> reciprocals;
     for (std::size_t i = 0; i < places.size(); ++i) reciprocals[i] = 1 / marginOf(place, places[i]);
     return {found - near, poleNear(places, reciprocals)};
   }
-  /// Opens or closes a node, and what changes together with it. Returns false if no active set
-  /// holds behind the event.
+  /// Opens or closes a node, and the nodes that change with it. Returns false if no active set is
+  /// consistent after the event.
   bool change(Place place, double s, ContactPath& path) {
     const auto before = closed_;
     const Sticking heldBefore = sticking_;
@@ -258,7 +258,7 @@ class Follower {
   sweep::Parameters from_, to_;
   contact::Mask closed_;
   Sticking sticking_;
-  impedance::ContactSolution state_;  // the last one asked for
+  impedance::ContactSolution state_;  // the last one computed
   std::vector<double> margins_;
   double forceUnit_ = 0;
   int rank_ = 0;
@@ -280,7 +280,7 @@ void anticipateContact(CondensedProblem& problem, const std::vector<ContactWay>&
         expectedChanges(problem.comm(), ways[k], states[2 * k], states[2 * k + 1]);
     for (const ExpectedChange& change : expected) {
       if (change.rank == rank) set.closed[change.node] = !set.closed[change.node];
-      // A set is asked where it begins, and at the end to see which node changes next.
+      // Compute a set at its start, and at the end to find the node that changes next.
       for (double s : {change.at, 1.0}) {
         set.at = between(ways[k].from->at, ways[k].to->at, s);
         sets.push_back(set);

@@ -8,42 +8,42 @@
 
 namespace squeal::condensed {
 
-/// A contact node that opens or closes where the parameters vary along a line.
+/// The opening or closing of a contact node along a line of parameters.
 struct ContactEvent {
   sweep::Parameters at;
   std::size_t node = 0;  ///< contact node of this rank
   bool opens = false;
-  int order = 0;  ///< place among the events of all ranks on the path
+  int order = 0;  ///< index among the events of all ranks on the path
 };
 
 struct ContactPath {
   std::vector<ContactEvent> events;  ///< of this rank, in their order
   int count = 0;                     ///< events of all ranks
-  /// Why the path does not lead to the last point; empty if it does.
+  /// Why the path does not reach the last point; empty if it does.
   std::string obstacle;
-  sweep::Parameters end;  ///< point up to which it has been followed
-  /// The state there, if it is the last point.
-  contact::Mask closed;      ///< [contact node] 1 where it is closed
+  sweep::Parameters end;  ///< last point of the path
+  /// The state at `end`, if it is the last point.
+  contact::Mask closed;      ///< [contact node] 1 if it is closed
   std::vector<double> gaps;  ///< [contact node] coefficient h of g = E h, m
   Sticking sticking;
 };
 
-/// Two solutions between which the contact is to be followed; borrowed.
+/// Two solutions at the ends of a path of the contact; borrowed.
 struct ContactWay {
   const Solution *from, *to;
 };
 
-/// Collective. Lets the problem learn in blocks what followContact() will ask for on all these
-/// ways: the states on the sets between their ends, at the changes and in the order that linear
-/// interpolation gives. That decides on nothing but costs.
+/// Collective. Precomputes in blocks the states that followContact() will probably need on these
+/// paths: on the sets between their ends, at the changes and in the order by linear interpolation.
+/// This affects only the run time.
 void anticipateContact(CondensedProblem& problem, const std::vector<ContactWay>& ways);
 
-/// Collective. Follows the steady state from a solution along the line to `to`, where the friction,
-/// the pressure or the speed differ. On each active set the state is a smooth function of them, and
-/// the next change is its first zero of a normal force or gap, solved for to 1e-8 of the line. The
-/// path ends where the equations of an active set are singular, a pole of forces and gaps, and
-/// where no active set holds behind a change. Two zeros of one node between the ends of what is
-/// followed at once are not seen.
+/// Collective. Follows the steady state from a solution along the line to `to`, which differs in
+/// friction, pressure or speed. On each active set the state is a smooth function of these
+/// parameters, and the next change is the first zero of a normal force or gap, with an accuracy of
+/// 1e-8 of the line. The path ends if the equations of an active set are singular (a pole of forces
+/// and gaps), or if no active set is consistent after a change. Two zeros of one node within a
+/// single step may be missed.
 ContactPath followContact(CondensedProblem& problem, const Solution& from,
                           const sweep::Parameters& to);
 

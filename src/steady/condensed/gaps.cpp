@@ -20,7 +20,7 @@ namespace {
 /// The context of SNES, of the Jacobian and of its parts.
 struct GapProblem {
   impedance::ContactSolver& solver;
-  ContactCase asked;          // `free` says of gaps which of them SNES lets open
+  ContactCase asked;          // `free` marks the gaps that SNES lets open
   double gapUnit, forceUnit;  // m, N
   MPI_Comm comm;
   PetscInt first;  // number of the first contact node of this rank
@@ -28,8 +28,8 @@ struct GapProblem {
   std::vector<unsigned char> before = {};  // `free` of the Newton step before the last
 };
 
-/// Collective. Names the nodes that the last two Newton steps disagree about; empty if there are
-/// none.
+/// Collective. Names the nodes whose state alternates in the last two Newton steps; empty if there
+/// are none.
 std::string alternating(const GapProblem& problem, const contact::Contact& contact) {
   const int rank = mpi::rank(problem.comm);
   int count = 0;
@@ -61,7 +61,7 @@ void forces(GapProblem& problem, const ContactCase& asked, Vec gaps, Vec f) {
     values[i] = found.effects[values.size() + i] / problem.forceUnit;
 }
 
-/// The case with other forces given, zero so far.
+/// The case without given forces.
 ContactCase unloaded(const GapProblem& problem) {
   ContactCase result = problem.asked;
   std::ranges::fill(result.given, 0);
@@ -105,7 +105,6 @@ PetscErrorCode openPart(Mat jacobian, IS rows, IS, MatReuse, Mat* part) {
   PetscFunctionReturn(0);
 }
 
-/// Solves with the part of the Jacobian in use.
 PetscErrorCode solvePart(PC pc, Vec right, Vec gaps) {
   GapProblem* problem = nullptr;
   PetscFunctionBegin;
@@ -136,7 +135,7 @@ OwnedMat jacobianOf(GapProblem& problem) {
   return jacobian;
 }
 
-/// Makes the solver of the parts of the Jacobian exact.
+/// Sets an exact solver for the parts of the Jacobian.
 void setPartSolver(SNES snes, GapProblem& problem) {
   KSP ksp = nullptr;
   PC pc = nullptr;
@@ -162,7 +161,7 @@ bool solveGaps(const GapTask& task, std::vector<double>& gaps, steady::Solution&
                      .comm = comm,
                      .first = end - n,
                      .nodes = gaps.size()};
-  std::fill_n(problem.asked.conditions.free.begin(), n, 1);  // where SNES asks for no part
+  std::fill_n(problem.asked.conditions.free.begin(), n, 1);  // while SNES uses the whole Jacobian
   const OwnedMat jacobian = jacobianOf(problem);
   const OwnedVec x = rightVector(jacobian), low = rightVector(jacobian),
                  high = rightVector(jacobian), f = rightVector(jacobian);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The closed contact without friction under the loads of a point.
+/// The closed frictionless contact under the loads of a point.
 #include <array>
 #include <vector>
 
@@ -9,11 +9,12 @@
 
 namespace squeal::condensed {
 
-/// States are sums of three: one without loads, and what p = 1 and v = 1 add.
+/// The state at a point is a sum of three states: without loads, and the contributions of p = 1 and
+/// of v = 1.
 class Loads {
  public:
-  /// Collective. Finds the three states, with the residual of each balanced by one solve. `open` is
-  /// the problem without holds, and is borrowed during the life of the object.
+  /// Collective. Computes the three states, each by one solve for its residual. `open` is the
+  /// problem without holds, borrowed during the lifetime of the object.
   Loads(const steady::Problem& open, const impedance::Impedance& impedance);
   /// Returns (R, F) at a point.
   impedance::ContactVector forces(const sweep::Parameters& at) const;

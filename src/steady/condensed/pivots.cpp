@@ -13,10 +13,10 @@ namespace {
 using impedance::ContactCase;
 using impedance::ContactSolution;
 
-/// A slope below this part of the terms that it is the sum of is rounding.
+/// A slope below this fraction of its terms is round-off.
 constexpr double rounding = 1e-9;
-/// The largest number of pivots for each contact node, and besides. Problems of contact take about
-/// one for each node that opens or closes in the end.
+/// The largest number of pivots per contact node, and in addition. Contact problems take about one
+/// pivot per node that finally opens or closes.
 constexpr PetscInt mostPerNode = 4, mostBesides = 100;
 
 /// A contact node of one of the ranks.
@@ -25,12 +25,12 @@ struct Place {
   PetscInt node = 0;
 };
 
-/// What the state is on the present set while a parameter ν grows from 0, linear in it.
+/// The state on the present set as a linear function of a parameter ν that grows from 0.
 struct Line {
   double value, slope;
 
-  /// Returns the ν at which this becomes negative, or infinity; `size` is that of the terms of the
-  /// slope.
+  /// Returns the ν at which this becomes negative, or infinity; `size` is the magnitude of the
+  /// terms of the slope.
   double end(double size) const {
     return slope < -rounding * size ? std::max(value, 0.0) / -slope : INFINITY;
   }
@@ -44,8 +44,8 @@ class Lemke {
     PetscInt own = n, end = 0;
     check(MPI_Scan(&own, &end, 1, MPIU_INT, MPI_SUM, comm));
     check(MPI_Allreduce(&own, &total_, 1, MPIU_INT, MPI_SUM, comm));
-    // No two nodes should reach zero at once, as those of a symmetric brake would under equal
-    // forces: the fractions of the multiples of the golden ratio all differ.
+    // No two nodes should reach zero together, as they would in a symmetric brake under equal
+    // forces. The fractional parts of the multiples of the golden ratio all differ.
     for (std::size_t i = 0; i < n; ++i) {
       const double multiple = 0.6180339887498949 * (end - own + i);
       cover_[i] = 1 + multiple - std::floor(multiple);
@@ -67,7 +67,7 @@ class Lemke {
         return true;
       }
       if (!(nu < INFINITY)) return false;
-      // The pivot node has left zero for good, and the next one has come there.
+      // The pivot node has left zero permanently, and the next one has reached it.
       if (rank_ == pivot_.rank && opens_) open_[pivot_.node] = 1;
       int wasOpen = rank_ == place.rank && open_[place.node];
       check(MPI_Bcast(&wasOpen, 1, MPI_INT, place.rank, comm_));
@@ -96,8 +96,7 @@ class Lemke {
     for (std::size_t i = 0; i < cover_.size(); ++i) forces[cover_.size() + i] = cover_[i];
     return forces;
   }
-  /// Returns what a unit gap at the pivot node causes while all others are closed, without
-  /// friction.
+  /// Returns the effects of a unit gap at the pivot node with all others closed, without friction.
   std::vector<double> unitGap() const {
     std::vector<double> unit(open_.size(), 0.0);
     if (rank_ == pivot_.rank) unit[pivot_.node] = 1;
@@ -106,8 +105,8 @@ class Lemke {
     std::ranges::fill(bare.conditions.coefficient, 0);
     return solver_.withGaps(unit, bare).effects;
   }
-  /// Finds the node that opens first when λ decreases from where all are closed. Returns false if
-  /// they are closed at λ = 0.
+  /// Finds the node that opens first as λ decreases. Returns false if all nodes are still closed at
+  /// λ = 0.
   bool start() {
     const auto found = solver_.solve(onSet(asked_.given));
     double worst = 0;
@@ -121,8 +120,8 @@ class Lemke {
     pivot_ = where, opens_ = true;
     return largest < 0;
   }
-  /// Collective. Finds how λ and the forces and gaps depend on ν, the gap or the force of the pivot
-  /// node. Returns false if the set has no such state.
+  /// Collective. Computes λ, the forces and the gaps as functions of ν, the gap or the force of the
+  /// pivot node. Returns false if the set has no such state.
   bool findLines() {
     std::vector<ContactCase> cases{onSet(asked_.given), onSet(coverForces())};
     std::vector<double> unit(asked_.given.size(), 0.0);
@@ -134,7 +133,7 @@ class Lemke {
       if (k >= found.size()) return 0.0;
       return open_[i] ? found[k].causes[n + i] : found[k].effects[n + i];
     };
-    // F of the pivot node is a + λ b + ν c, which is 0 while it opens and ν while it closes.
+    // F of the pivot node, a + λ b + ν c, is 0 while it opens and ν while it closes.
     std::array<double, 4> atPivot{};
     if (rank_ == pivot_.rank) {
       for (std::size_t k = 0; k < 3; ++k) atPivot[k] = margin(k, pivot_.node);
@@ -166,7 +165,7 @@ class Lemke {
     }
     return leastOf(first, place);
   }
-  /// Collective. Returns the least value of all ranks with its place.
+  /// Collective. Returns the least value of all ranks and its place.
   std::pair<double, Place> leastOf(double value, Place place) const {
     struct {
       double value;
@@ -185,11 +184,11 @@ class Lemke {
   PetscInt total_ = 0;         // contact nodes of all ranks
   contact::Mask open_;         // [contact node]
   std::vector<double> cover_;  // [contact node] d, N
-  Place pivot_;                // where gap and force are zero and one of them is to grow
-  bool opens_ = true;          // it is the gap
+  Place pivot_;                // the node with zero gap and force, one of which grows
+  bool opens_ = true;          // true if the gap grows
   Line lambda_{};
   double lambdaSize_ = 0;
-  std::vector<Line> lines_;    // [contact node] gap where it is open, force where it is closed
+  std::vector<Line> lines_;    // [contact node] gap if it is open, force if it is closed
   std::vector<double> sizes_;  // [contact node] of the terms of the slope
 };
 

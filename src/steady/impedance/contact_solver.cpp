@@ -20,23 +20,24 @@ using linalg::DenseView;
 
 namespace {
 
-/// Friction that is left unbalanced by more than this part of what causes it has no solution.
+/// A problem has no solution if its friction stays unbalanced by more than this fraction of its
+/// causes.
 constexpr double accepted = 1e-8;
-/// Forces on free unknowns above this part of the largest given one are left by a loose body.
+/// Remaining forces on free unknowns above this fraction of the largest given one show a rigid-body
+/// mode.
 constexpr double balancedForces = 1e-6;
-/// Directions of the stiffness of the open gaps that are softer than this part of the stiffest are
-/// those of a loose body.
+/// Directions of the stiffness of the open gaps that are softer than this fraction of the stiffest
+/// one are rigid-body modes.
 constexpr double loose = 1e-12;
-/// The largest number of directions that one call adds.
+/// The largest number of directions per call.
 constexpr PetscInt mostDirections = 500;
-/// What remains of a direction, a unit vector, must be longer: outside the space of friction
-/// magnitudes, and besides the others of its block. What is left out there comes with the next
-/// block.
+/// The remainder of a direction, a unit vector, must be longer than this after orthogonalisation
+/// against the space of friction magnitudes, and against its block. The next block contains the
+/// directions omitted here.
 constexpr double newInSpace = 1e-10, newInBlock = 0.3;
-/// The largest number of bytes that stiffnesses of free unknowns may take, unless a single one
-/// does.
+/// The largest number of bytes for stiffnesses of free unknowns, unless a single one needs more.
 constexpr double keptBytes = 256e6;
-/// The largest number of active sets that are kept.
+/// The largest number of active sets in memory.
 constexpr std::size_t mostBlocks = 32;
 
 /// Collective. Returns the rows of all ranks, on every rank.
@@ -58,7 +59,7 @@ class SymmetricInverse {
     factor_ = whole;
     values_ = linalg::symmetricEigen(factor_);
   }
-  /// Replaces the columns of x by A⁻¹ x, without the directions in which A has no stiffness.
+  /// Replaces the columns of x by A⁻¹ x, without the directions of zero stiffness.
   void apply(DenseMatrix& x) const {
     PetscBLASInt order = factor_.rows(), columns = x.columns(), info = 0;
     if (order == 0 || columns == 0) return;
@@ -78,8 +79,8 @@ class SymmetricInverse {
   std::vector<double> values_;  // eigenvalues, if the matrix is not positive definite
 };
 
-/// Collective. Returns the coefficients a for which |b − G a| is least. The normal equations are
-/// refined, which gives all digits as long as the condition of G is below some 1e7.
+/// Collective. Returns the coefficients a that minimise |b − G a|. It refines the normal equations,
+/// which gives all digits if the condition number of G is below some 1e7.
 DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseView& b) {
   const SymmetricInverse inverse(linalg::transposedProduct(comm, g, g));
   DenseMatrix sum(g.columns(), 1), rest(b);
@@ -94,11 +95,11 @@ DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseView& b) 
 
 }  // namespace
 
-/// A FreeBlock holds what the conditions decide: the stiffness of the free unknowns, and what
-/// friction does while they are free.
+/// The quantities that depend on the free unknowns: their stiffness, and the effects of friction
+/// while they are free.
 struct ContactSolver::FreeBlock {
   std::vector<unsigned char> free;  // [released unknown]
-  OwnedMat direct;                  // kept, so that its address stays its own
+  OwnedMat direct;                  // stored, so its address stays unique
   std::vector<PetscInt> local;      // free unknowns of this rank
   std::vector<PetscInt> places;     // [free unknown of any rank] its column
   Concatenation ranks;              // of `local`
@@ -108,14 +109,14 @@ struct ContactSolver::FreeBlock {
   double bytes() const { return 8.0 * ranks.size() * ranks.size(); }
 };
 
-/// A Search looks for the friction of one case in the space of friction magnitudes.
+/// The search for the friction of one case in the space of friction magnitudes.
 struct ContactSolver::Search {
   const ContactCase& asked;
   std::shared_ptr<FreeBlock> block;
   DenseMatrix wanted;         // t without its own effects, [contact node]
-  double unit = 0;            // what the part that stays unbalanced refers to, N
+  double unit = 0;            // reference of the unbalanced part, N
   DenseMatrix weights{0, 1};  // [direction]
-  double left = 0;            // 2-norm of what is unbalanced, N
+  double left = 0;            // 2-norm of the unbalanced part, N
 };
 
 ContactSolver::ContactSolver(const Impedance& impedance)
@@ -130,7 +131,7 @@ ContactSolver::ContactSolver(const Impedance& impedance)
 
 ContactSolver::~ContactSolver() = default;
 
-/// Finds the columns of unknowns that have not been free before.
+/// Computes the columns of unknowns that have not been free before.
 void ContactSolver::learn(std::span<const unsigned char> free) {
   std::vector<PetscInt> wanted;
   for (std::size_t i = 0; i < free.size(); ++i)
@@ -194,8 +195,8 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
   return blocks_.front();
 }
 
-/// Releases the free unknowns until F = 0 there. Returns them, [free unknown of any rank], and adds
-/// what they do to the effects.
+/// Releases the free unknowns until F = 0 there. Returns their values, [free unknown of any rank],
+/// and adds their effects to `effects`.
 DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects) const {
   const PetscInt n = impedance_.nodes();
   DenseMatrix rows(block.local.size(), effects.columns());
@@ -211,7 +212,7 @@ DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects)
   return freed;
 }
 
-/// Adds what the friction t, which may have several columns, causes directly to the effects.
+/// Adds the direct effects of the friction t, which may have several columns, to `effects`.
 void ContactSolver::addDirect(const FreeBlock& block, const DenseView& t,
                               DenseMatrix& effects) const {
   if (!block.direct) return;
@@ -222,7 +223,7 @@ void ContactSolver::addDirect(const FreeBlock& block, const DenseView& t,
     for (PetscInt i = 0; i < forces.rows(); ++i) effects(n + i, j) += forces(i, j);
 }
 
-/// Brings a block up to the friction magnitudes that are known by now.
+/// Updates a block to the present space of friction magnitudes.
 void ContactSolver::update(FreeBlock& block) const {
   const PetscInt known = block.normal.columns(), all = magnitudes_.columns();
   if (known == all) return;
@@ -232,8 +233,8 @@ void ContactSolver::update(FreeBlock& block) const {
   block.normal.append(linalg::rowRange(fresh, 0, impedance_.nodes()));
 }
 
-/// Adds directions, [contact node]×[direction], to the space of friction magnitudes, without
-/// their parts that lie in it. Returns false if nothing remains.
+/// Adds directions, [contact node]×[direction], to the space of friction magnitudes, without their
+/// components in it. Returns false if nothing remains.
 bool ContactSolver::extend(const DenseMatrix& directions) {
   const PetscInt n = impedance_.nodes();
   const MPI_Comm comm = impedance_.comm();
@@ -261,7 +262,7 @@ bool ContactSolver::extend(const DenseMatrix& directions) {
   return true;
 }
 
-/// Looks for the friction of all cases until each is balanced or nothing new is found.
+/// Searches for the friction of all cases until each is balanced or the space no longer grows.
 void ContactSolver::balance(std::vector<Search>& searches, double accuracy) {
   const PetscInt n = impedance_.nodes(), most = magnitudes_.columns() + mostDirections;
   const MPI_Comm comm = impedance_.comm();
@@ -294,7 +295,7 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   const DenseMatrix freed = release(*search.block, effects);
   ContactSolution result;
   const auto& local = search.block->local;
-  // Nothing balances forces on a loose body.
+  // No reaction balances forces on a rigid-body mode.
   double largest[2] = {0, 0};  // of the forces on free unknowns, and of the given ones
   for (const PetscInt i : local) largest[0] = std::max(largest[0], std::abs(effects(n + i, 0)));
   for (const double force : search.asked.given) largest[1] = std::max(largest[1], std::abs(force));
@@ -310,8 +311,8 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   return result;
 }
 
-/// Returns the first case of each group whose stiffnesses are kept at once, and the number of
-/// cases.
+/// Returns the first case of each group of cases with stiffnesses in memory together, followed by
+/// the number of cases.
 std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> cases) const {
   std::vector<double> orders;
   for (const auto& one : cases) orders.push_back(std::ranges::count(one.conditions.free, 1));

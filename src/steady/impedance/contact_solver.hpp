@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The condensed contact problem is solved for a given choice of open and held nodes.
+/// Solution of the condensed contact problem for a given set of open and held nodes.
 #include <memory>
 #include <span>
 #include <unordered_map>
@@ -11,14 +11,14 @@
 
 namespace squeal::impedance {
 
-/// Which unknowns are free, and how much friction there is, is asked of the condensed problem.
+/// The free unknowns and the friction of a condensed problem.
 struct ContactConditions {
-  /// [released unknown] 1 where F = 0, as at open gaps and where nothing holds a node; w = 0 at the
+  /// [released unknown] 1 if F = 0, as at open gaps and at nodes that are not held; w = 0 at the
   /// others
   std::vector<unsigned char> free;
   std::vector<double> coefficient;  ///< [contact node] c
-  /// Forces on w, N, that friction magnitudes t cause directly, released unknowns × contact nodes:
-  /// the friction of nodes that stick no longer; borrowed; null: none.
+  /// Direct forces on w, N, per friction magnitude t, released unknowns × contact nodes: the
+  /// friction of released nodes; borrowed; null: none.
   Mat direct = nullptr;
 };
 
@@ -26,46 +26,46 @@ struct ContactConditions {
 struct ContactCase {
   ContactConditions conditions;
   ContactVector given;  ///< (R, F)0
-  /// The part of the friction that may stay unbalanced refers to this, N, if it is larger than what
-  /// the given forces cause: a correction needs fewer digits than what it corrects.
+  /// Reference of the relative accuracy of the friction, N, if it exceeds the effect of the given
+  /// forces: a correction needs fewer digits than the quantity that it corrects.
   double frictionUnit = 0;
 };
 
 /// A solution of the condensed problem.
 struct ContactSolution {
   ContactVector causes;   ///< (t, w)
-  ContactVector effects;  ///< (R, F), those given included
-  /// False where friction cannot be balanced, or where the free unknowns leave a body loose that
-  /// forces act on: F is not zero then.
+  ContactVector effects;  ///< (R, F), including the given ones
+  /// False if friction cannot be balanced, or if forces act on a rigid-body mode of the free
+  /// unknowns: F is not zero then.
   bool found = false;
 };
 
-/// A ContactSolver solves [M.59]
+/// Solves [M.59]
 ///   (R, F) = (R, F)0 + Z (t, w),   t = c R,   F = 0 or w = 0
-/// for any choice of the unknowns that are free, any coefficients c and any given forces (R, F)0.
-/// Z stands for the responses of an Impedance. What has been learnt of Z serves all later calls:
-/// the columns of unknowns that have once been free, and a space of friction magnitudes t that
-/// grows by each residual that it does not cover, as in GMRES without restart. Cases that are
-/// solved together let it grow in blocks.
+/// for any choice of the unknowns that are free, any coefficients c and any given forces (R, F)0. Z
+/// are the responses of an Impedance. All later calls reuse the computed parts of Z: the columns of
+/// unknowns that have been free, and a space of friction magnitudes t. As in GMRES without restart,
+/// this space grows by each residual that it does not contain. Cases that are solved together
+/// extend it in blocks.
 class ContactSolver {
  public:
-  /// Collective. Borrows the impedance during the life of the object.
+  /// Collective. Borrows the impedance during the lifetime of the object.
   explicit ContactSolver(const Impedance& impedance);
   ~ContactSolver();
-  /// Collective. Solves the problem to rounding.
+  /// Collective. Solves the problem within round-off.
   ContactSolution solve(const ContactCase& one) { return solve({&one, 1}).front(); }
-  /// Collective. Solves all cases. The friction may stay unbalanced by the part `accuracy` of what
-  /// causes it.
+  /// Collective. Solves all cases. The friction may stay unbalanced by the fraction `accuracy` of
+  /// its causes.
   std::vector<ContactSolution> solve(std::span<const ContactCase> cases,
                                      double accuracy = balanced);
-  /// Collective. Solves one case with all gaps given, [contact node], whatever `free` says of them.
+  /// Collective. Solves one case with all gaps given, [contact node], regardless of `free`.
   ContactSolution withGaps(const std::vector<double>& gaps, ContactCase one);
-  /// Returns the force on the gap of a contact node of this rank that opening it by a unit takes,
-  /// N/m, while all others are closed; 0 if it has never been open.
+  /// Returns the force that opens the gap of a contact node of this rank by a unit, N/m, with all
+  /// other gaps closed; 0 if the gap has never been open.
   double gapStiffness(std::size_t node) const;
 
-  /// The accuracy of the friction that is as good as rounding: the residual of all equations, which
-  /// is refined where that is not enough, is known to fewer digits.
+  /// An accuracy of the friction equivalent to round-off: the residual of all equations, which
+  /// refinement reduces if necessary, has fewer digits.
   static constexpr double balanced = 1e-12;
 
  private:

@@ -15,7 +15,7 @@ using linalg::DenseView;
 
 namespace {
 
-/// The number of causes whose unknowns are held at once.
+/// The number of causes whose unknowns are in memory together.
 constexpr PetscInt blockColumns = 64;
 
 OwnedMat transposed(Mat matrix) {
@@ -30,7 +30,7 @@ OwnedIS indices(MPI_Comm comm, const std::vector<PetscInt>& list) {
   return set;
 }
 
-/// Returns the rows of both, those of the second below.
+/// Returns the rows of both, the second below the first.
 DenseMatrix stacked(const DenseView& first, const DenseView& second) {
   DenseMatrix result(first.rows() + second.rows(), first.columns());
   for (PetscInt j = 0; j < first.columns(); ++j) {
@@ -57,8 +57,8 @@ Block sumOfProducts(Mat a, const DenseView& x, Mat b, const DenseView& y, PetscI
   return sum;
 }
 
-/// Returns the matrix that picks the indices of this rank: `local` × indices, with a 1 in the row
-/// of each index. MatCreateSubMatrix() asks for ascending columns, which gaps and tangents in a row
+/// Returns the matrix that selects the indices of this rank: `local` × indices, with a 1 in the row
+/// of each index. MatCreateSubMatrix() requires ascending columns, which gaps followed by tangents
 /// are not.
 OwnedMat picks(MPI_Comm comm, PetscInt local, IS indices) {
   OwnedMat matrix;
@@ -84,14 +84,13 @@ OwnedMat productOf(Mat a, Mat b) {
   return result;
 }
 
-/// Returns Aᵀ B. It costs no more than the rows of B in which A has entries.
+/// Returns Aᵀ B. It processes only the rows of B in which A has entries.
 OwnedMat transposedProductOf(Mat a, Mat b) {
   OwnedMat result;
   check(MatTransposeMatMult(a, b, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
 }
 
-/// Returns rows of a matrix, transposed.
 OwnedMat transposedRowsOf(Mat matrix, IS rows) {
   PetscInt local = 0;
   check(MatGetLocalSize(matrix, &local, nullptr));
@@ -126,7 +125,7 @@ Impedance::Impedance(const contact::Contact& contact, const contact::Transformat
   }
   released_ = indices(comm(), columns);
   nodeRows_ = indices(comm(), rows);
-  // Only the rows of K at the contact take part.
+  // Only the rows of K at the contact matter.
   const OwnedMat friction = transposedRowsOf(slipRows, nodeRows_);
   PetscInt unknowns = 0;
   check(MatGetLocalSize(open.trial, nullptr, &unknowns));
@@ -159,7 +158,7 @@ Block Impedance::solved(const DenseView& forces) const {
   return linalg::solved(closed_.solver(), forces);
 }
 
-/// Returns y of the causes t and w.
+/// Returns the response y to the causes t and w.
 Block Impedance::innerOf(const DenseView& t, const DenseView& w) const {
   PetscInt local = 0;
   check(VecGetLocalSize(work_, &local));

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The contact is condensed to its own unknowns with the factorised stiffness K0 of the closed,
+/// Condensation of the contact to its own unknowns with the factorised stiffness K0 of the closed,
 /// frictionless contact [M.58].
 ///
-/// The unknowns x of the contact that may open are y, those that the closed contact has, and w, the
-/// others: the gaps, and the tangential displacements of the nodes that stick. With the
-/// friction magnitudes t = f R and the blocks of K, S and N [M.10, M.11], the nodal forces r obey
+/// The unknowns x of the contact that may open are y, the unknowns of the closed contact, and w:
+/// the gaps, and the tangential displacements of sticking nodes. With the friction magnitudes t = f
+/// R and the blocks of K, S and N [M.10, M.11], the nodal forces r obey
 ///   K0 y + K_yw w + S_yᵀ t = q,   R = N r,   F = K_wy y + K_ww w + S_wᵀ t,
-/// so that causes (t, w) at the contact have the responses (R, F) there, by one solve with K0 each.
-/// They depend neither on the friction nor on which nodes are open or held.
+/// so one solve with K0 gives the responses (R, F) at the contact to causes (t, w). These depend
+/// neither on the friction nor on the set of open or held nodes.
 #include <vector>
 
 #include "algebra/linalg/block.hpp"
@@ -22,9 +22,9 @@ using ContactVector = std::vector<double>;
 
 class Impedance {
  public:
-  /// Collective. `open` is the transformation with all gaps unknown and nothing that sticks,
+  /// Collective. `open` is the transformation with all gaps unknown and no sticking nodes,
   /// `stiffness` is K, symmetric, `slipRows` is S, and `closed` is the system with all nodes closed
-  /// and held. That is borrowed during the life of the object, as is `contact`.
+  /// and held. Borrows `closed` and `contact` during the lifetime of the object.
   Impedance(const contact::Contact& contact, const contact::Transformation& open, Mat stiffness,
             Mat slipRows, const contact::CoupledSystem& closed);
 
@@ -38,19 +38,19 @@ class Impedance {
   const std::vector<PetscInt>& nodeOf() const { return nodeOf_; }
   /// Returns the number of entries of a ContactVector.
   PetscInt length() const { return nodes() + std::ssize(nodeOf_); }
-  /// Collective. Returns the responses, a column for each of the causes.
+  /// Collective. Returns the responses, one column per cause.
   linalg::DenseMatrix responses(const linalg::DenseView& causes) const;
-  /// Collective. Adds to each x, in the unknowns of the open contact, the y and w that a column of
-  /// the causes has.
+  /// Collective. Adds to each x, in the unknowns of the open contact, the y and w of a column of
+  /// the causes.
   void addUnknowns(const linalg::DenseView& causes, const std::vector<Vec>& x) const;
-  /// Collective. Balances the forces in the rows of y, given by residuals in all rows of x: adds
-  /// y = −K0⁻¹ residual to each x. Returns, a column for each, N K T_y y and, for w, the residual
-  /// with K_wy y added.
+  /// Collective. Balances the forces in the rows of y, given by residuals in all rows of x: adds y
+  /// = −K0⁻¹ residual to each x. Returns, one column per residual, N K T_y y and, for w, the
+  /// residual plus K_wy y.
   linalg::DenseMatrix relax(const std::vector<Vec>& residuals, const std::vector<Vec>& x) const;
   /// Collective. Returns S_wᵀ, released unknowns × contact nodes, of slip rows S without entries
-  /// for y: what friction does to the nodes that slide instead of sticking.
+  /// for y: the direct effect of friction on released nodes.
   OwnedMat directFriction(Mat slipRows) const;
-  long solves() const { return solves_; }  ///< right-hand sides solved for so far
+  long solves() const { return solves_; }  ///< total number of right-hand sides so far
 
  private:
   linalg::Block solved(const linalg::DenseView& forces) const;
@@ -60,8 +60,8 @@ class Impedance {
   const contact::Contact& contact_;
   const contact::CoupledSystem& closed_;
   std::vector<PetscInt> nodeOf_;
-  OwnedIS nodeRows_;  // rows of the gaps among all displacements, which are those of N and S
-  OwnedIS inner_, released_;                             // columns of x that hold y and w
+  OwnedIS nodeRows_;          // rows of the gaps among all displacements: the rows of N and S
+  OwnedIS inner_, released_;  // columns of y and w in x
   OwnedMat innerFriction_, innerReleased_;               // S_yᵀ and K_yw
   OwnedMat normalInner_, normalReleased_;                // N K T for y and for w
   OwnedMat forceInner_, forceReleased_, forceFriction_;  // K_wy, K_ww and S_wᵀ

@@ -17,7 +17,7 @@ namespace {
 /// with B of nodalResponse(), where f is the coefficient of the node and df its change.
 class Linearised {
  public:
-  /// Collective. Borrows the arguments during the life of the object.
+  /// Collective. Borrows the arguments during the lifetime of the object.
   Linearised(const Problem& problem, const Solution& solution, const contact::CoupledSystem& system,
              const Cause& cause);
   /// Collective. Returns dF/dy as a shell, whose context is this object.
@@ -28,7 +28,6 @@ class Linearised {
   void apply(Vec dy, Vec result) const;
   /// Collective. Returns du = T dy + p u0.
   OwnedVec displacement(Vec dy) const;
-  /// Collective. Returns dr.
   OwnedVec forces(Vec du) const;
 
  private:
@@ -152,8 +151,8 @@ Change change(const Problem& problem, const Solution& solution,
           innerSolver(matrix, system.solver()), [&](Vec dy) { return linearised.residual(dy); }, y);
       !refinement.solved())
     throw Error(
-        formatted("the change of the steady state with its data was not found at -flutter_friction "
-                  "%g: a relative residual of %.1e is left",
+        formatted("the change of the steady state with its data did not converge at "
+                  "-flutter_friction %g: the relative residual is %.1e",
                   solution.at.friction, refinement.relative()));
   Change result{linearised.displacement(y), {}};
   result.normalForce = problem.normalForces(linearised.forces(result.displacement));

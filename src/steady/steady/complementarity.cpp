@@ -20,8 +20,8 @@ bool isGiven(const std::string& option) {
   return given;
 }
 
-/// Gives an option a value while SNES reads its options, unless the user has given one: PETSc has
-/// no function that sets this value.
+/// Sets the default of an option while SNES reads its options, unless the user has given the
+/// option. PETSc has no function for this value.
 class DefaultOption {
  public:
   DefaultOption(std::string name, const char* value) : name_(std::move(name)) {
@@ -40,7 +40,7 @@ class DefaultOption {
   std::string name_;
 };
 
-/// The problem is scaled for SNES, so that tolerances do not depend on units:
+/// The problem scaled for SNES, so tolerances do not depend on units:
 ///   F̂(x̂) = F(x)/forceUnit,   x = xUnit x̂.
 struct Scaled {
   const Problem& problem;
@@ -97,7 +97,7 @@ Accuracy accuracyNear(const Problem& problem, const sweep::Parameters& at, Vec x
   problem.residual(at, zero, start);
   check(VecNorm(start, NORM_2, &accuracy.forceUnit));
   if (accuracy.forceUnit == 0) accuracy.forceUnit = 1;
-  // The residual cannot become smaller than rounding, which grows with the displacements and with
+  // The residual cannot become smaller than round-off, which grows with the displacements and with
   // the number of unknowns.
   const double rounding = problem.rounding(problem.displacement(at, x), problem.load(at));
   accuracy.asked = std::max(1e-11, 10 * rounding / accuracy.forceUnit);
@@ -117,7 +117,7 @@ OwnedSNES newSnes(MPI_Comm comm, double asked) {
 
 bool solveSnes(SNES snes, Vec x, Solution& solution) {
   {
-    // Even a tiny gap is open. The default, 1e-8 of the largest displacement, is too large where a
+    // Even a tiny gap is open. The default, 1e-8 of the largest displacement, is too large if a
     // body moves far as a whole.
     const DefaultOption exact("-" + solverPrefix.prefix + "snes_vi_zero_tolerance", "1e-14");
     applySolverOptions([&] { return SNESSetFromOptions(snes); });
@@ -125,8 +125,7 @@ bool solveSnes(SNES snes, Vec x, Solution& solution) {
   // SNES reads these options only while it solves.
   solverPrefix.rejectUnused(
       {"mat_mumps_", "uniqueness_", "snes_test_jacobian", "snes_converged_reason", "snes_view"});
-  applySolverOptions(
-      [&] { return SNESSolve(snes, nullptr, x); });  // its parts are set up as it begins
+  applySolverOptions([&] { return SNESSolve(snes, nullptr, x); });  // the solve sets up its parts
   SNESConvergedReason reason;
   PetscInt iterations = 0;
   check(SNESGetConvergedReason(snes, &reason));
@@ -141,16 +140,16 @@ void accept(Solution& solution, double left, const Accuracy& accuracy) {
   const double accepted = std::max(solution.tolerance, 10 * accuracy.asked);
   solution.residual = left / accuracy.forceUnit;
   solution.converged = solution.residual <= accepted;
-  // The reason of a solver that has converged for its own function would contradict the verdict.
+  // The reason of a solver that has converged for its own function would contradict the residual.
   if (!solution.converged && !solution.reason.starts_with("DIVERGED"))
     solution.reason = formatted(
-        "the relative residual of all equations is %.2g, more than the accepted %.2g, where the "
-        "solver of the contact stopped%s",
+        "the solver of the contact stopped at a relative residual of all equations of %.2g, above "
+        "the accepted %.2g%s",
         solution.residual, accepted,
         solution.reason.empty() ? "" : (" (" + solution.reason + ")").c_str());
 }
 
-/// Gives each Newton step to GMRES, with the Cholesky factor of the matrix without friction as
+/// Makes GMRES solve each Newton step, with the Cholesky factor of the frictionless matrix as
 /// preconditioner.
 static void setStepSolver(SNES snes) {
   KSP ksp = nullptr;
@@ -206,8 +205,8 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
   check(VecCopy(x, start));
   const std::string lineSearch = "-" + solverPrefix.prefix + "snes_linesearch_type";
   if (!solve() && !isGiven(lineSearch)) {
-    // Where only the contact holds a body, the first steps must pass through states of larger
-    // residuals, which the line search does not let through.
+    // If only the contact supports a body, the first steps must pass through states with larger
+    // residuals, which the line search rejects.
     const std::string searched = solution.reason;
     const DefaultOption fullSteps(lineSearch, "basic");
     check(VecCopy(start, x));

@@ -10,31 +10,31 @@ namespace squeal::steady {
 
 using OwnedSNES = Owned<SNES, SNESDestroy>;
 
-/// The accuracy that a steady state can be asked for.
+/// The attainable accuracy of a steady state.
 struct Accuracy {
   double forceUnit = 1;  ///< 2-norm of the residual without displacements, N
-  double asked = 0;      ///< η0 [M.16], part of forceUnit
+  double asked = 0;      ///< η0 [M.16], a fraction of forceUnit
 };
-/// Collective. Returns the accuracy to ask for near the unknowns x.
+/// Collective. Returns the attainable accuracy near the unknowns x.
 Accuracy accuracyNear(const Problem& problem, const sweep::Parameters& at, Vec x);
-/// Collective. Returns the 2-norm of the natural residual, N: F(x), but min(R_N, 0) in the rows of
+/// Collective. Returns the 2-norm of the natural residual, N: F(x), with min(R_N, 0) in the rows of
 /// gaps g ≤ 0.
 double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec x);
 
 /// Collective. Returns SNES VI with bounds g ≥ 0 (prefix -steady_), for forces and gaps in units of
-/// about 1. Its function, Jacobian and KSP are still to be set, then startSnes() to be called.
+/// about 1. The caller must set its function, Jacobian and KSP before solveSnes().
 OwnedSNES newSnes(MPI_Comm comm, double asked);
 /// Collective. Applies the options and solves from x, which becomes the solution. Sets reason and
-/// tolerance of `solution` and adds to its iterations. Returns true if SNES says that it has
-/// converged.
+/// tolerance of `solution` and adds to its iterations. Returns true if SNES reports convergence.
 bool solveSnes(SNES snes, Vec x, Solution& solution);
 /// Sets residual and convergence of `solution` from the 2-norm of its natural residual, N. SNES
-/// also stops where steps no longer change anything; only the residual decides on success. Where it
-/// refuses what SNES reports as converged, the reason gives the residual and the accepted one.
+/// also stops if steps have no effect; only the residual decides on success. If the residual of a
+/// state that SNES reports as converged is too large, the reason contains the residual and the
+/// accepted value.
 void accept(Solution& solution, double left, const Accuracy& accuracy);
 
 /// Collective. Solves by SNES VI (-steady_snes_*) from the start x, which becomes the solution, and
-/// fills residual, convergence, tolerance, reason and iterations of `solution` at its point of the
+/// sets residual, convergence, tolerance, reason and iterations of `solution` at its point of the
 /// sweep. All gaps are unknowns. Returns the 2-norm of the natural residual, N.
 double complementarity(const Problem& problem, OwnedVec& x, Solution& solution);
 

@@ -15,7 +15,7 @@ PetscErrorCode applySolver(PC pc, Vec in, Vec out) {
   PetscFunctionReturn(0);
 }
 
-/// Collective. Makes `inner` the preconditioner of `solver`, which borrows it: `inner` must outlive
+/// Collective. Sets `inner` as preconditioner of `solver`, which borrows it: `inner` must outlive
 /// the solves of `solver`.
 void preconditionBy(KSP solver, KSP inner) {
   PC pc = nullptr;
@@ -25,12 +25,12 @@ void preconditionBy(KSP solver, KSP inner) {
   check(PCShellSetApply(pc, applySolver));
 }
 
-/// A residual below this multiple of its estimated rounding counts as rounding.
+/// A residual below this multiple of its estimated round-off counts as round-off.
 constexpr double roundings = 10;
-/// A residual below this part of that of the start counts as that of a solution.
+/// A residual below this fraction of the initial one counts as zero.
 constexpr double small = 1e-9;
-/// The largest number of steps. With convective terms, which the inner solver leaves out in part,
-/// some ten are needed.
+/// The largest number of steps. With convective terms, which the inner solver omits in part, some
+/// ten are needed.
 constexpr int mostSteps = 20;
 
 PetscReal norm(Vec vector) {
@@ -51,7 +51,7 @@ Refinement refine(KSP inner, const std::function<Residual(Vec)>& residual, Vec y
   OwnedVec step;
   check(VecDuplicate(y, step.out()));
   while (result.steps < mostSteps && result.least > result.rounding) {
-    check(KSPSolve(inner, current.vector, step));  // judged by the residual below
+    check(KSPSolve(inner, current.vector, step));  // the residual below is the test
     ++result.steps;
     check(VecAXPY(y, -1, step));
     Residual next = residual(y);
@@ -73,11 +73,11 @@ OwnedKSP innerSolver(Mat matrix, KSP factorised) {
   check(KSPCreate(commOf(matrix), solver.out()));
   check(KSPSetOperators(solver, matrix, matrix));
   check(KSPSetType(solver, KSPGMRES));
-  // Eight digits per step: GMRES stagnates some digits above rounding, refinement does not.
+  // Eight digits per step: GMRES stagnates some digits above round-off, refinement does not.
   check(KSPSetTolerances(solver, 1e-8, PETSC_DEFAULT, PETSC_DEFAULT, 100));
   check(KSPGMRESSetRestart(solver, 100));
-  // With right preconditioning the tolerance applies to forces. Where a weakly held body moves far,
-  // a tolerance on displacements would hide all other errors.
+  // With right preconditioning the tolerance applies to forces. If a weakly supported body moves
+  // far, a tolerance on displacements would hide all other errors.
   check(KSPSetPCSide(solver, PC_RIGHT));
   preconditionBy(solver, factorised);
   return solver;

@@ -8,8 +8,8 @@
 
 namespace squeal::steady {
 
-/// Collective. Returns K_σ of the stress of the steady state [M.6], N×N; null unless it is part of
-/// the stiffness of vibrations (-elasticity_prestress).
+/// Collective. Returns K_σ of the stress of the steady state [M.6], N×N; null unless
+/// -elasticity_prestress adds it to the stiffness of vibrations.
 OwnedMat prestressOf(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                      const Solution& solution);
 

@@ -11,8 +11,8 @@
 namespace squeal::steady {
 namespace {
 
-/// Returns what of a nodal force belongs to the tangents of a contact node, from the row of its
-/// unknowns z: they are the columns of its block of A.
+/// Returns the tangential part of a nodal force at a contact node, from the rows of its unknowns z;
+/// the tangents are the columns of its block of A.
 Point alongSurface(const contact::Contact& contact, const contact::ContactNode& node,
                    const double* z) {
   const int dimension = contact.mesh->dimension;
@@ -27,7 +27,7 @@ Point alongSurface(const contact::Contact& contact, const contact::ContactNode& 
   return force;
 }
 
-/// Collective. Returns the position, m, that comes first in the order of coordinates, of all ranks.
+/// Collective. Returns the first position, m, in the order of coordinates, over all ranks.
 Point firstOf(MPI_Comm comm, std::vector<Point> positions) {
   Point first{};
   for (std::size_t d = 0; d < 3; ++d) {
@@ -41,7 +41,7 @@ Point firstOf(MPI_Comm comm, std::vector<Point> positions) {
   return std::isfinite(first[0]) ? first : Point{};
 }
 
-/// Collective. Fills what a resultant says of the nodes that stick.
+/// Collective. Sets the members of a resultant on sticking nodes.
 void addSticking(const contact::Contact& contact, int interface, const Solution& solution,
                  Resultant& resultant) {
   const MPI_Comm comm = contact.mesh->comm;

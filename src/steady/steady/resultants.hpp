@@ -9,30 +9,30 @@
 namespace squeal::steady {
 
 /// Collective. Returns the tangential forces on the pads at the contact nodes, [contact node], N:
-/// friction by the law, and what holds the nodes that stick. That is what the nodal forces r, N
-/// entries, N, and friction leave of equilibrium along the surface, in the rows of A that no
-/// unknown of T has. `slip` includes that of released nodes.
+/// friction by the law, and the reactions on sticking nodes. The latter balance the nodal forces r,
+/// N entries, N, and friction along the surface, in the rows of A without an unknown of T. `slip`
+/// includes the slip of released nodes.
 std::vector<Point> tangentialForces(const contact::Contact& contact, const Solution& solution,
                                     const std::vector<contact::Slip>& slip, Vec nodalForces);
 
-/// Collective. Sets the forces of the nodes that stick from these, in the basis of the gaps.
+/// Collective. Sets the forces of sticking nodes from `tangential`, in the basis of the gaps.
 void setStickingForces(const contact::Contact& contact, const std::vector<Point>& tangential,
                        Solution& solution);
 
 /// Collective. Returns the forces on the pads at the contact nodes, [contact node], N: the normal
-/// forces of the solution and the tangential ones given.
+/// forces of the solution plus `tangential`.
 std::vector<Point> forcesOnPads(const contact::Contact& contact, const Solution& solution,
                                 std::vector<Point> tangential);
 
-/// Collective. Returns the resultants of an interface. The forces on the nodes of the slave act on
-/// the master through J, which spreads them, and on nodes of the slave that carry no condition: the
-/// sums over the master are what is transmitted.
+/// Collective. Returns the resultants of an interface. J distributes the forces on the nodes of the
+/// slave over the master and over slave nodes without a condition. The sums over the master are the
+/// transmitted forces.
 Resultant resultantOf(const contact::Contact& contact, int interface, const Solution& solution,
                       const std::vector<Point>& onPads);
 
-/// Collective. Adds the forces of ties to `contactForces`, N entries: on the slaves those that keep
-/// them in equilibrium with the nodal forces of the bodies, and on the masters their opposites. The
-/// slaves of the highest level come first, as no other one rests on them.
+/// Collective. Adds the forces of ties to `contactForces`, N entries: on the slaves, the forces
+/// that balance the nodal forces of the bodies, and on the masters, their opposites. The slaves of
+/// the highest level come first, since no other slave depends on them.
 void addTieForces(const contact::Contact& contact, Vec nodalForces, Vec contactForces);
 
 }  // namespace squeal::steady

@@ -3,11 +3,11 @@
 
 namespace squeal::steady {
 
-/// The streams find these two by their arguments.
+/// The streams find both by argument-dependent lookup.
 void fields(Stream& stream, Resultant& resultant);
 void fields(Stream& stream, Sticking& sticking);
 
-// All members are named, so that a new one does not compile until it is kept too.
+// These list all members: a new one does not compile until it is added here.
 
 void fields(Stream& stream, Resultant& resultant) {
   auto& [interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,

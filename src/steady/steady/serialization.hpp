@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady states on their way to and from a checkpoint.
+/// Serialisation of steady states for checkpoints.
 #include "base/checkpoint/archive.hpp"
 #include "steady/steady/steady.hpp"
 
 namespace squeal::steady {
 
-/// Collective. Writes a steady state, or sets it.
+/// Collective. Writes or reads a steady state.
 void exchange(checkpoint::Archive& archive, Solution& solution);
 
 }  // namespace squeal::steady

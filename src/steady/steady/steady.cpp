@@ -18,9 +18,9 @@
 namespace squeal::steady {
 namespace {
 
-/// The largest relative residual with which a solution is accepted.
+/// The largest relative residual of an accepted solution.
 constexpr double meaningful = 1e-6;
-/// How often the nodes that stick are revised; a few times are usual.
+/// The largest number of revisions of sticking nodes; a few are usual.
 constexpr int mostRevisions = 50;
 
 }  // namespace
@@ -93,7 +93,7 @@ std::vector<double> Problem::normalForces(Vec forces) const {
   return normal;
 }
 
-/// Returns L(f)ᵀ r in the form
+/// Returns L(f)ᵀ r, computed as
 ///   Tᵀ (r + Jᵀ f φ E⁻ᵀ R_N τ).
 OwnedVec Problem::test(const contact::Transformation& transformation, const contact::Mask& slides,
                        const sweep::Parameters& at, Vec forces,
@@ -129,8 +129,8 @@ void Problem::residual(const sweep::Parameters& at, Vec x, Vec f) const {
 
 /// Returns [M.14]
 ///   Tᵀ (K + v² K^R) T + Sᵀ N (K + v² K^R) T − v (J T)ᵀ B (D T)
-/// with B of nodalResponse(). The last term, the turning of the slip, is there with convective
-/// terms only.
+/// with B of nodalResponse(). The last term, the rotation of the slip direction, exists only with
+/// convective terms.
 OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   const OwnedVec u = displacement(at, x);
   const auto slip = this->slip(at.speed, u);
@@ -169,17 +169,17 @@ double Problem::rounding(Vec displacement, Vec loads) const {
   return PETSC_MACHINE_EPSILON * (springs + forces);
 }
 
-/// Returns the slip with that of the released nodes.
+/// Returns the slip, including that of released nodes.
 std::vector<contact::Slip> Problem::slip(double speed, Vec displacement) const {
   return withReleased(contact_, contact_.slip(speed, displacement), sticking_);
 }
 
-/// Collective. Returns why a body is loose with these holds; an empty text if none is.
+/// Collective. Returns why a body is under-constrained with these holds; an empty text if none is.
 std::string Problem::whyLoose(const Sticking& sticking) const {
   const auto loose =
       contact::looseBody(mesh_, contact_, bodies_.springs, {.released = sticking.free()});
   return loose ? "body '" + loose->body + "' can move rigidly (" + loose->motion +
-                     ") where nodes of sticking interfaces slide or have opened; hold it otherwise"
+                     ") while nodes of sticking interfaces slide or are open; add another support"
                : "";
 }
 
@@ -187,8 +187,8 @@ void Problem::requireSlip(const sweep::Parameters& at) const {
   contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_, at.friction);
 }
 
-/// Collective. Takes a solution back whose open contact leaves a body loose: its position is
-/// arbitrary, and no stiffness matrix of this active set is positive definite.
+/// Collective. Rejects a solution whose open contact leaves a body under-constrained: its position
+/// is arbitrary, and no stiffness matrix of this active set is positive definite.
 void Problem::requireHeld(Solution& solution) const {
   if (!solution.converged || solution.openNodes == 0) return;
   const auto loose =
@@ -197,9 +197,9 @@ void Problem::requireHeld(Solution& solution) const {
   if (!loose) return;
   solution.converged = false;
   solution.reason = formatted(
-      "body '%s' is loose (%s): %" PetscInt_FMT " of %" PetscInt_FMT
-      " contact nodes are open, and nothing else holds it; begin the sweep at a friction that "
-      "presses it, or hold it with -constraint_<group>_clamped or -ground_<group>_stiffness",
+      "body '%s' is under-constrained (%s): %" PetscInt_FMT " of %" PetscInt_FMT
+      " contact nodes are open, and it has no other support; start the sweep at a friction that "
+      "closes them, or support it with -constraint_<group>_clamped or -ground_<group>_stiffness",
       loose->body.c_str(), loose->motion.c_str(), solution.openNodes,
       contact_.interfaces.totalNodes);
 }
@@ -223,17 +223,16 @@ std::optional<Sticking> Problem::nextHolds(Solution& solution) const {
   if (!next) return {};
   std::string failure = whyLoose(*next);
   if (failure.empty() && solution.revisions == mostRevisions)
-    failure =
-        formatted("what holds the nodes of sticking interfaces has not settled after %d revisions",
-                  mostRevisions);
+    failure = formatted("the active set of sticking nodes has not settled after %d revisions",
+                        mostRevisions);
   if (failure.empty()) return next;
   solution.converged = false;
   solution.reason = std::move(failure);
   return {};
 }
 
-/// Collective. Solves with the nodes that stick as this problem holds them, from a start z, N
-/// entries, which becomes the solution.
+/// Collective. Solves with the holds of this problem, from a start z, N entries, which becomes the
+/// solution.
 Solution Problem::solveFrom(const sweep::Parameters& at, Vec z) const {
   Solution solution;
   solution.at = at;
@@ -250,10 +249,8 @@ void Problem::conclude(Vec x, double left, Solution& solution) const {
   if (solution.converged && solution.residual > meaningful) {
     solution.converged = false;
     solution.reason = formatted(
-        "rounding of the stiffness alone leaves %.1e of the forces out of balance, for "
-        "displacements reach %.3g m: a body is held "
-        "too "
-        "weakly for these loads; hold it by stiffer springs",
+        "round-off leaves a relative residual of %.1e because displacements reach %.3g m: a body "
+        "is under-constrained; use stiffer springs",
         solution.residual, largestDisplacement(solution.at, x));
   }
   recover(x, left, solution);
@@ -267,9 +264,9 @@ double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {
 }
 
 /// Collective. Solves the problem with the gaps of the active set held at zero, and returns the
-/// solution z, N entries. Under approximation A it is linear. With convective terms the matrix
-/// leaves out K^R and the turning of the slip, which are small and cost a few more steps of
-/// refinement.
+/// solution z, N entries. Under approximation A it is linear. With convective terms, the matrix
+/// omits K^R and the rotation of the slip direction, which are small; refinement then takes a few
+/// more steps.
 OwnedVec Problem::closedContact(const sweep::Parameters& at,
                                 const contact::CoupledSystem& system) const {
   const auto& closed = system.transformation();
@@ -296,9 +293,8 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   solution.displacement = displacement(solution.at, x);
   const OwnedVec force = forces(solution.at, solution.displacement),
                  folded = elasticity::nodalVector(mesh_);
-  check(
-      MatMultTranspose(contact_.periodic, force,
-                       folded));  // a contact node on a periodic boundary is pressed on both sides
+  check(MatMultTranspose(contact_.periodic, force,
+                         folded));  // a contact node on a periodic boundary is loaded on both sides
   solution.slip = contact_.slip(solution.at.speed, solution.displacement);
   const auto normal = normalForces(force);
 
@@ -350,8 +346,8 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
 }
 
 /// Returns the worst imbalance of the forces on a connected part, relative to the sum of all
-/// magnitudes, as a check of signs and solution. The forces are those of contact by the friction
-/// law, of supports where components are held, and loads.
+/// magnitudes, as a check of signs and solution. The forces are contact forces by the friction law,
+/// support forces at held components, and loads.
 double Problem::imbalance(const Solution& solution, Vec nodalForces,
                           const std::vector<Point>& onPads) const {
   const int dimension = mesh_.dimension;
@@ -365,8 +361,8 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
   }
   check(MatMultTranspose(contact_.sliding.jump, atNodes, contactForces));
   addTieForces(contact_, nodalForces, contactForces);
-  // [part][contact, supports, load][component], and at the end the sum of all magnitudes. That is
-  // the scale of the terms that cancel; resultants may vanish by themselves.
+  // [part][contact, supports, load][component], and at the end the sum of all magnitudes, the scale
+  // of the terms that cancel: resultants may be zero.
   std::vector<double> sums(mesh_.parts * 9 + 1, 0.0);
   const auto at = [&](int part, int kind, int d) -> double& {
     return sums[part * 9 + kind * 3 + d];

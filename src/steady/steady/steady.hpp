@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady sliding (paper, section 3) is equilibrium with
+/// Steady sliding (paper, section 3): equilibrium with
 ///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4].
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ struct ContactState {
   double coefficient = 0;  ///< h of g = E h, m, ≥ 0; the gap itself except on tri6 and quad8
   double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
   double pressure = 0;     ///< R_N over the nodal area, Pa
-  Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces what holds it
+  Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces the reaction
 };
 
 /// The contact forces of one interface.
@@ -29,16 +29,16 @@ struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
   Point moment{};  ///< of both about the origin, on the pad, N·m (in the plane along z)
-  /// Largest |R_T| / R_N of the closed nodes of a sticking interface that are held: the least
-  /// coefficient of friction that holds them; zero on other interfaces.
+  /// Largest |R_T| / R_N of the closed, held nodes of a sticking interface: the least coefficient
+  /// of friction that makes them stick; zero on other interfaces.
   double leastFriction = 0;
-  Point worst{};                        ///< position of the node that needs it, m
-  std::optional<double> stickingLimit;  ///< its coefficient of friction, where it sticks
-  PetscInt overLimit = 0;  ///< held nodes that need more than the limit of the interface
-  PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
-  PetscInt unheld = 0;     ///< closed nodes of a sticking interface that are free
-  /// Magnitude of the sum of the moments on both sides, which the coupling of surfaces that lie
-  /// apart leaves, N·m.
+  Point worst{};                        ///< position of the node with this ratio, m
+  std::optional<double> stickingLimit;  ///< its coefficient of friction, if it sticks
+  PetscInt overLimit = 0;               ///< held nodes above the limit of the interface
+  PetscInt released = 0;                ///< closed nodes of a sticking interface that slide
+  PetscInt unheld = 0;                  ///< closed nodes of a sticking interface that are free
+  /// Magnitude of the sum of the moments on both sides, N·m; not zero if coupled surfaces are
+  /// apart.
   double momentDefect = 0;
 };
 
@@ -47,52 +47,51 @@ struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< SNES converged reason, or why there is no solution
-  /// Without a solution: the point up to which one exists, on the way from a neighbour that has
-  /// one.
+  /// Without a solution: the last point with one, on the path from a solved neighbour.
   std::optional<sweep::Parameters> existsTo;
-  double tolerance = 0;  ///< that SNES was asked for, relative
-  int iterations = 0;    ///< Newton steps of SNES; 0 where it is not called
-  /// Relative residual: its 2-norm divided by that without displacements [M.15].
+  double tolerance = 0;  ///< requested of SNES, relative
+  int iterations = 0;    ///< Newton steps of SNES; 0 if it is not called
+  /// Relative residual: its 2-norm divided by that at zero displacements [M.15].
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
   std::vector<ContactState> contact;  ///< [owned contact node]
   std::vector<contact::Slip> slip;    ///< [owned contact node] sliding of sliding interfaces
   contact::Mask closed;               ///< [owned contact node] active: closed and pressed
-  Sticking sticking;                  ///< what holds the nodes of sticking interfaces
-  int revisions = 0;                  ///< how often that was changed to find this state
-  double negligibleForce = 0;         ///< forces of contact that are rounding, N
+  Sticking sticking;                  ///< holds of the nodes of sticking interfaces
+  int revisions = 0;                  ///< number of revisions of `sticking` for this state
+  double negligibleForce = 0;         ///< bound of contact forces that are round-off, N
   PetscInt openNodes = 0;             ///< contact nodes that are not active, over all ranks
   double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
   double imbalance = 0;  ///< worst |contact + supports + load| of a connected part over the sum of
                          ///< the magnitudes of all nodal forces
-  /// Contact nodes, over all ranks, by which another solution at these parameters differs; 0: none
-  /// is known.
+  /// Number of contact nodes, over all ranks, by which another solution at these parameters
+  /// differs; 0: no other one is known.
   PetscInt nodesOfAnother = 0;
 };
 
 /// Returns the active set of a steady state.
 contact::ActiveSet activeSet(const Solution& solution);
 
-/// The complementarity problem [3.3–3.4, M.13] is, with u = T x + p u0,
+/// The complementarity problem [3.3–3.4, M.13], with u = T x + p u0:
 ///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
 /// Under approximation A it is linear except for the inequalities. With convective terms the slip
-/// rows S follow w = −v (V + D u_D). Nodes of sticking interfaces that are free have tangential
-/// unknowns, and released ones are in S with their limit as coefficient.
+/// rows S follow w = −v (V + D u_D). Free nodes of sticking interfaces have tangential unknowns,
+/// and S contains released ones with their limit as coefficient.
 class Problem {
  public:
-  /// Collective. Borrows mesh, bodies and contact during the life of the object.
+  /// Collective. Borrows mesh, bodies and contact during the lifetime of the object.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
-  /// Collective. The same with nodes of sticking interfaces that are free or released.
+  /// Collective. The same with free or released nodes of sticking interfaces.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
           Sticking sticking);
   /// Collective. Solves by SNES VI (-steady_snes_*), starting from the solution with the active set
-  /// of `system` held closed, which its factorisation gives. The nodes that stick are held at first
-  /// and then revised(), until nothing changes. `converged` and `reason` tell whether
-  /// there is a solution. Throws Error if |w| = 0 at a node that carries friction.
+  /// of `system` held closed, by its factorisation. Sticking nodes are held at first and then
+  /// revised() until nothing changes. `converged` and `reason` report whether there is a solution.
+  /// Throws Error if |w| = 0 at a node with friction.
   Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
   /// Collective. Sets f = F(x), n entries.
@@ -106,14 +105,13 @@ class Problem {
   }
   /// Collective. Returns r = (K + v² K^R) u − b, the nodal forces of supports and contact, N.
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
-  /// Collective. Throws Error if f > 0 and |w| = 0 at a node that carries friction.
+  /// Collective. Throws Error if f > 0 and |w| = 0 at a node with friction.
   void requireSlip(const sweep::Parameters& at) const;
-  /// Collective. Returns how the nodes that stick are to be held after a solution that holds them
-  /// otherwise; nothing if it has settled. A solution whose holds cannot be revised becomes one
-  /// that has not converged.
+  /// Collective. Returns the revised holds of the sticking nodes; none if the solution has settled.
+  /// A solution whose holds cannot be revised is marked as not converged.
   std::optional<Sticking> nextHolds(Solution& solution) const;
-  /// Collective. Fills the rest of a solution from the unknowns x, whose natural residual has the
-  /// 2-norm `left`, N.
+  /// Collective. Sets the other members of a solution from the unknowns x, whose natural residual
+  /// has the 2-norm `left`, N.
   void conclude(Vec x, double left, Solution& solution) const;
   /// Collective. Returns b with the pressures and the centrifugal forces of this point, N entries,
   /// N.
@@ -122,15 +120,14 @@ class Problem {
   OwnedVec springForces(double speed, Vec displacement) const;
   /// Collective. Returns R_N = N r of nodal forces r, [contact node].
   std::vector<double> normalForces(Vec forces) const;
-  /// Collective. Returns an estimate of the rounding error of F, N, as in the numerator of [M.16],
+  /// Collective. Returns an estimate of the round-off of F, N, as in the numerator of [M.16],
   ///   ε (‖diag(K) u‖ + ‖b‖).
   /// `loads` b may be null.
   double rounding(Vec displacement, Vec loads) const;
 
   const mesh::Mesh& mesh() const { return mesh_; }
   const contact::Contact& contact() const { return contact_; }
-  /// Returns T with all gaps unknown, and the tangents of the nodes that stick as far as they are
-  /// free.
+  /// Returns T with all gaps unknown, and the tangents of free sticking nodes.
   const contact::Transformation& transformation() const { return transformation_; }
   const elasticity::Bodies& bodies() const { return bodies_; }
   /// Collective on the first call. Returns the projections of K by this transformation.
@@ -146,7 +143,7 @@ class Problem {
   OwnedVec test(const contact::Transformation& transformation, const contact::Mask& slides,
                 const sweep::Parameters& at, Vec forces,
                 const std::vector<contact::Slip>& slip) const;
-  /// Returns S_0 + f S_1; null where there is no friction.
+  /// Returns S_0 + f S_1; null without friction.
   OwnedMat slipRows(const contact::Transformation& transformation,
                     const std::vector<contact::Slip>& slip, const contact::Mask& slides,
                     double friction) const;
@@ -163,7 +160,7 @@ class Problem {
   Sticking sticking_;
   bool anyReleased_ = false;                                   // of all ranks
   contact::Transformation transformation_;                     // all gaps unknown
-  mutable contact::Projection stiffness_, rotationStiffness_;  // made when first wanted
+  mutable contact::Projection stiffness_, rotationStiffness_;  // created on first use
   OwnedVec diagonal_;                                          // diagonal of K, N entries
   OwnedMat jumps_, convected_;  // J T and D T, N×n; empty without convective terms
 };

@@ -12,7 +12,7 @@ namespace squeal::steady {
 
 namespace {
 
-/// A slip against the friction, relative to the largest jump, below which it is rounding.
+/// A smaller slip against the friction, relative to the largest jump, is round-off.
 constexpr double slipRounding = 1e-8;
 
 /// Collective. Returns the jumps along the surface, m, [contact node].

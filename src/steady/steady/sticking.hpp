@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Nodes of sticking interfaces are held along their master. The steady state frees them where they
-/// open, and where the force that holds them exceeds their limit of friction and they may slide.
+/// Holds of the nodes of sticking interfaces along their master. The steady state frees nodes that
+/// open, and nodes that may slide if the reaction exceeds their limit of friction.
 #include <optional>
 #include <vector>
 
@@ -13,18 +13,18 @@ using mesh::Point;
 
 struct Solution;
 
-/// What becomes of a node of a sticking interface along the surface.
+/// The state of a node of a sticking interface along the surface.
 enum class Hold : unsigned char {
   held,     ///< no jump
-  open,     ///< free, without a force: it is open, or it opens or slides whenever it is held
+  open,     ///< free, without a force: it is open, or it separates or slides whenever it is held
   released  ///< free, with the friction −f R_N d on the pad
 };
 
-/// The holds of all contact nodes. On other interfaces they mean nothing.
+/// The holds of all contact nodes. They have no meaning on other interfaces.
 struct Sticking {
   std::vector<Hold> holds;       ///< [owned contact node]
-  std::vector<Point> direction;  ///< [owned contact node] d, unit, where released
-  contact::Mask heldAgain;       ///< [owned contact node] 1 once it has been held again
+  std::vector<Point> direction;  ///< [owned contact node] d, unit, if released
+  contact::Mask heldAgain;       ///< [owned contact node] 1 after it has been held again
 
   /// Returns the holds with all nodes held.
   static Sticking allHeld(const contact::Contact& contact);
@@ -35,19 +35,19 @@ struct Sticking {
 };
 
 /// Returns the slip, [owned contact node], with that of the released nodes: the direction d and
-/// their limit as a coefficient that is fixed.
+/// their limit as a fixed coefficient.
 std::vector<contact::Slip> withReleased(const contact::Contact& contact,
                                         std::vector<contact::Slip> slip, const Sticking& sticking);
 
-/// Returns true if the force that holds the closed node i exceeds f R_N beyond rounding.
-/// Without a limit it never does.
+/// Returns true if the reaction on the closed node i exceeds f R_N beyond round-off; false without
+/// a limit.
 bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std::size_t i);
 
-/// Collective. Returns the holds that the solution asks for, where they differ from those that it
-/// was found with. A held or released node that has opened is freed, and one that has closed is
-/// held. On interfaces with `_release` a node that exceeds its limit is released, and one that
-/// slides along its friction, rather than against it, is held again. A node is held again once at
-/// most, so that the revisions end: after that it stays free, without a force, although it closes.
+/// Collective. Returns the revised holds of a solution; none if they do not change. A held or
+/// released node that has opened is freed, and one that has closed is held. On interfaces with
+/// `_release`, a node above its limit is released, and a node that slides along its friction
+/// instead of against it is held again. Each node is held again at most once, so the revisions end:
+/// afterwards it stays free, without a force, although it closes.
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution);
 
 }  // namespace squeal::steady

@@ -19,7 +19,7 @@ const SolverPrefix solverPrefix(
     "steady", "steady_uniqueness_",
     "KSP and PC of the open contact's stiffness (MUMPS LDLt), SLEPc EPS: ksp_*, pc_*, eps_*, …");
 
-/// The number of columns of K_o⁻¹ that are held at once.
+/// The number of columns of K_o⁻¹ in memory together.
 constexpr PetscInt blockColumns = 64;
 
 }  // namespace
@@ -48,7 +48,7 @@ OpenContact::OpenContact(const contact::Contact& contact, Mat stiffness,
   for (PetscInt i = 0; i < ownedSize_; ++i)
     check(MatSetValue(gaps_, transformation_.gapColumn[i], first_ + i, 1, INSERT_VALUES));
   interfaces::assembled(gaps_);
-  // The slip rows stand in the rows of the gaps, which the product B e selects.
+  // The slip rows are in the rows of the gaps, which the product B e selects.
   OwnedMat gapRows;
   check(MatMatMult(transformation_.selection, gaps_, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    gapRows.out()));
@@ -96,7 +96,7 @@ Compliance OpenContact::dense() const {
     const OwnedMat x = linalg::borrowed(comm(), transformation_.columns, solution);
     for (PetscInt column = 0; column < width; ++column) {
       const PetscInt j = begin + column;
-      // As K_o is symmetric, column j of A0 is eᵀ x, and row j of A1 is −xᵀ U.
+      // Since K_o is symmetric, column j of A0 is eᵀ x, and row j of A1 is −xᵀ U.
       for (Mat side : {gaps_.get(), friction_.get(), fixedFriction_.get()}) {
         if (!side) continue;
         Vec xj = nullptr;
@@ -112,8 +112,8 @@ Compliance OpenContact::dense() const {
       }
     }
   }
-  // Every entry has one or two parts that are not zero, so that the sums are the same on all ranks.
-  // They are made column by column, since n² may exceed an int.
+  // Every entry has one or two nonzero parts, so the sums are equal on all ranks. The reduction
+  // runs column by column, since n² may exceed an int.
   for (auto* a : {&compliance.a0, &compliance.a1})
     for (PetscInt j = 0; j < size_; ++j)
       check(MPI_Allreduce(MPI_IN_PLACE, a->column(j).data(), size_, MPI_DOUBLE, MPI_SUM, comm()));

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The steady problem is condensed to the contact [3.10–3.18]: it says which gaps nodal normal
-/// forces open.
+/// The steady problem condensed to the contact [3.10–3.18]: the gaps that nodal normal forces open.
 ///
 /// All gaps are unknowns of u = T x + p u0, and K_o = Tᵀ K T is the stiffness with the contact
-/// open. K stands for K + v² K^R. R holds the normal forces, e the columns of the identity at the
-/// gaps, and U the slip rows as columns, so that Sᵀ N r = U R. Equilibrium L(f)ᵀ (K u − b) = e R
-/// reads [M.17]
+/// open. K is K + v² K^R here. R are the normal forces, e the columns of the identity at the gaps,
+/// and U the slip rows as columns: Sᵀ N r = U R. Equilibrium L(f)ᵀ (K u − b) = e R is [M.17]
 ///   K_o x + f U R = Tᵀ (b − K p u0) + e R,
 /// and the gaps are
 ///   g = eᵀ x = A(f) R + F0,   A(f) = A0 + f A1,   A0 = eᵀ K_o⁻¹ e,   A1 = −eᵀ K_o⁻¹ U   [M.18].
-/// Interfaces whose coefficient is fixed add −eᵀ K_o⁻¹ U_0 with the slip rows U_0 of these.
+/// Interfaces with a fixed coefficient add −eᵀ K_o⁻¹ U_0 with their slip rows U_0.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
@@ -21,7 +19,7 @@ namespace squeal::uniqueness {
 
 /// The matrices of A(f), m/N, with all entries on every rank.
 struct Compliance {
-  linalg::DenseMatrix a0;  ///< at the swept friction 0: A0, and what fixed coefficients add
+  linalg::DenseMatrix a0;  ///< at the swept friction 0: A0 plus the terms of fixed coefficients
   linalg::DenseMatrix a1;
   /// Returns A(f) at the swept friction.
   linalg::DenseMatrix at(double friction) const;
@@ -30,25 +28,25 @@ struct Compliance {
 /// The condensed problem, with a factorisation of K_o.
 class OpenContact {
  public:
-  /// Collective. Factorises K_o (prefix -steady_uniqueness_); factorised() returns whether that has
-  /// worked. No body may be loose with the contact open. `stiffness` is K on all nodal
-  /// displacements, N×N, symmetric, N/m, and `slip`, [owned contact node], gives U; both are needed
-  /// during this call only. Borrows `contact` during the life of the object.
+  /// Collective. Factorises K_o (prefix -steady_uniqueness_); factorised() returns whether this
+  /// succeeded. No body may be under-constrained with open contact. `stiffness` is K on all nodal
+  /// displacements, N×N, symmetric, N/m, and `slip`, [owned contact node], defines U; both are used
+  /// only during this call. Borrows `contact` during the lifetime of the object.
   OpenContact(const contact::Contact& contact, Mat stiffness,
               const std::vector<contact::Slip>& slip);
-  /// Returns false if K_o could not be factorised; nothing else may be called then.
+  /// Returns false if K_o could not be factorised; no other function may be called then.
   bool factorised() const { return factorised_; }
-  /// Collective. Returns false if K_o is known to have a negative eigenvalue, as with convective
-  /// terms beyond a critical speed.
+  /// Collective. Returns false if K_o has a negative eigenvalue, as with convective terms beyond a
+  /// critical speed.
   bool positiveDefinite() const;
   MPI_Comm comm() const { return contact_.mesh->comm; }
   PetscInt size() const { return size_; }            ///< number of contact nodes of all ranks
   PetscInt ownedSize() const { return ownedSize_; }  ///< number of contact nodes of this rank
-  /// Returns true if an interface has a coefficient that is fixed: the products below leave it out.
+  /// Returns true if an interface has a fixed coefficient, which the products below omit.
   bool hasFixedFriction() const { return fixedFriction_ != nullptr; }
-  /// Collective. Returns A(f); all columns are solved for, in blocks.
+  /// Collective. Returns A(f), by block solves for all columns.
   Compliance dense() const;
-  /// Collective. Sets product = A0 v without forming A0. The entries of v stand in the order of
+  /// Collective. Sets product = A0 v without forming A0. The entries of v are in the order of
   /// Contact::nodes.
   void multiplyA0(Vec v, Vec product) const;
   /// Collective. Sets product = sym(A1) v without forming A1.
@@ -79,8 +77,8 @@ class OpenContact {
   OwnedVec inner_, innerAnswer_;
 };
 
-/// Collective. Throws Error for a -steady_uniqueness_* option that no solver knows. If `dense`,
-/// options of the eigenvalue solver, which is not used then, count as known.
+/// Collective. Throws Error for a -steady_uniqueness_* option that is unknown to all solvers. With
+/// `dense`, options of the unused eigenvalue solver count as known.
 void rejectUnusedUniquenessOptions(bool dense);
 
 }  // namespace squeal::uniqueness

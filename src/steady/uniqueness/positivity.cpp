@@ -19,11 +19,11 @@ using linalg::DenseMatrix;
 
 namespace {
 
-/// Numbers below this relative size count as rounding. A comes from solves with a stiffness matrix
-/// of a condition number of 1e6 and more.
+/// Numbers below this relative size count as round-off. A comes from solves with a stiffness matrix
+/// whose condition number may exceed 1e6.
 constexpr double rounding = 1e-10;
 
-/// Returns true if all principal minors are positive, for a matrix that first has a unit diagonal.
+/// Returns true if all principal minors of a matrix with unit diagonal are positive.
 bool positiveMinors(const DenseMatrix& a) {
   if (!(a(0, 0) > rounding)) return false;
   const PetscInt m = a.rows() - 1;
@@ -53,7 +53,7 @@ bool pMatrix(const DenseMatrix& a) {
   DenseMatrix unit(n, n);
   for (PetscInt i = 0; i < n; ++i)
     if (!(a(i, i) > 0)) return false;
-  // Positive scaling of rows and columns keeps the signs of the minors.
+  // Positive scaling of rows and columns preserves the signs of the minors.
   for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < n; ++i) unit(i, j) = a(i, j) / std::sqrt(a(i, i) * a(j, j));
   return positiveMinors(unit);
@@ -85,7 +85,7 @@ Judgement examineMatrix(const DenseMatrix& a, double friction, int pMatrixLimit)
 }
 
 double lossOfPositivity(double smallestRatio) {
-  // Ratios are of the order of one, and known to the tolerance of the iterative solver at least.
+  // Ratios are of the order of one, with at least the tolerance of the iterative solver.
   return smallestRatio < -1e-7 ? -1 / smallestRatio : std::numeric_limits<double>::infinity();
 }
 

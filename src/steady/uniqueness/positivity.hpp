@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Small dense tests of the condensed matrix A of the contact decide on the solutions of the linear
+/// Tests of the small dense condensed matrix A of the contact for the solutions of the linear
 /// complementarity problem
 ///   g = A R + F,   g ≥ 0,   R ≥ 0,   g·R = 0.
-/// Matrices are the same on every rank; nothing here is collective.
+/// Not collective; matrices are the same on every rank.
 #include <string>
 #include <vector>
 
@@ -16,13 +16,13 @@ struct Judgement {
   double friction = 0;
   double smallest = 0;  ///< smallest eigenvalue of sym(A(f)), m/N; NaN where unknown
   std::string verdict;  ///< "one solution", "a solution exists" or "not decided"
-  std::string reason;   ///< the test that decided, or why none did
+  std::string reason;   ///< the deciding test, or why no test decided
 };
 
 /// Returns the eigenvalues of sym(A), ascending. Throws Error if LAPACK fails.
 std::vector<double> symmetricEigenvalues(const linalg::DenseMatrix& a);
 
-/// Returns true if the smallest of these ascending eigenvalues is positive beyond rounding.
+/// Returns true if the smallest of these ascending eigenvalues is positive beyond round-off.
 bool positiveDefinite(const std::vector<double>& eigenvalues);
 
 /// Returns true if all principal minors are positive, which is equivalent to one solution for every
@@ -30,17 +30,17 @@ bool positiveDefinite(const std::vector<double>& eigenvalues);
 bool pMatrix(const linalg::DenseMatrix& a);
 
 /// Returns true if sym(A) stays positive definite without its positive off-diagonal entries. This
-/// is sufficient for strict copositivity, and so for a solution for every F.
+/// is sufficient for strict copositivity, and therefore for a solution for every F.
 bool surelyCopositive(const linalg::DenseMatrix& a);
 
-/// Returns the verdict on A(f), m/N. If sym(A) is not positive definite, the P-matrix test is made
-/// up to n = `pMatrixLimit`.
+/// Returns the verdict on A(f), m/N. If sym(A) is not positive definite, it applies the P-matrix
+/// test up to n = `pMatrixLimit`.
 Judgement examineMatrix(const linalg::DenseMatrix& a, double friction, int pMatrixLimit);
 
 /// Returns the friction where positive definiteness is lost [M.19],
 ///   f = −1/μ,
 /// for the smallest eigenvalue μ of sym(A1) v = μ A0 v; infinite unless μ is negative beyond
-/// rounding.
+/// round-off.
 double lossOfPositivity(double smallestRatio);
 
 /// Returns the smallest f > 0 where sym(A0 + f A1) is not positive definite; infinite if there is

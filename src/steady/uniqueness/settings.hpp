@@ -9,7 +9,7 @@ struct Settings {
   int dense = 1000;  ///< contact nodes up to which the condensed matrix A is formed
   int pMatrix = 18;  ///< contact nodes n up to which the P-matrix test is made, with 2^n pivots
 
-  /// Reads the options; the limits only if the examination is wanted.
+  /// Reads the options; the limits only if the examination is enabled.
   static Settings given();
 };
 

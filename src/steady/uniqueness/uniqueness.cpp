@@ -59,7 +59,8 @@ OwnedMat shell(OpenContact& condensed, PetscErrorCode (*multiply)(Mat, Vec, Vec)
 ///   sym(A1) v = μ A0 v;
 /// none if SLEPc does not converge. The smallest eigenvalues of sym(A(f)) itself belong to forces
 /// that alternate from node to node: they are close together, scale with the mesh size and hardly
-/// depend on friction. Relative to A0 the mesh hardly matters, and one number serves all frictions.
+/// depend on friction. Relative to A0, the mesh hardly matters, and one number serves all
+/// frictions.
 std::optional<double> smallestRatio(OpenContact& condensed) {
   const OwnedMat a0 = shell(condensed, multiply<&OpenContact::multiplyA0>),
                  a1 = shell(condensed, multiply<&OpenContact::multiplySymmetricA1>);
@@ -70,7 +71,7 @@ std::optional<double> smallestRatio(OpenContact& condensed) {
   check(EPSSetProblemType(eps, EPS_GHEP));
   check(EPSSetWhichEigenpairs(eps, EPS_SMALLEST_REAL));
   check(EPSSetDimensions(eps, 1, std::min<PetscInt>(condensed.size(), 40), PETSC_DEFAULT));
-  // An absolute test, as the eigenvalue vanishes where a structure is its own mirror image.
+  // An absolute test, since the eigenvalue is zero for a mirror-symmetric structure.
   check(EPSSetConvergenceTest(eps, EPS_CONV_ABS));
   check(EPSSetTolerances(eps, 1e-8, 500));
   ST st = nullptr;
@@ -96,7 +97,7 @@ std::optional<double> smallestRatio(OpenContact& condensed) {
 }
 
 /// Examines the problem without forming A: sym(A(f)) = A0 + f sym(A1) is positive definite below
-/// the friction where that is lost.
+/// the friction lossOfPositivity().
 Uniqueness examineMatrixFree(OpenContact& condensed, const std::vector<double>& frictions) {
   if (condensed.hasFixedFriction())
     return undecided(frictions,
@@ -110,7 +111,7 @@ Uniqueness examineMatrixFree(OpenContact& condensed, const std::vector<double>& 
   if (!ratio)
     return undecided(
         frictions,
-        "the eigenvalue that decides did not converge; raise -steady_uniqueness_eps_max_it or "
+        "the decisive eigenvalue did not converge; raise -steady_uniqueness_eps_max_it or "
         "-steady_uniqueness_dense");
   Uniqueness result{{}, lossOfPositivity(*ratio)};
   for (double friction : frictions)
@@ -131,9 +132,10 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
                    const std::vector<double>& frictions, const Settings& settings) {
   if (contact.interfaces.totalNodes == 0) return undecided(frictions, "there is no contact node");
   if (const auto loose = contact::looseBody(*contact.mesh, contact, bodies.springs, {.any = false}))
-    return undecided(frictions,
-                     "body '" + loose->body +
-                         "' is held only by the contact, so the condensed matrix does not exist");
+    return undecided(
+        frictions,
+        "body '" + loose->body +
+            "' is supported only by the contact, so the condensed matrix does not exist");
   OwnedMat stiffness = bodies.stiffness.share();
   if (bodies.rotationStiffness) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stiffness.out()));
@@ -142,9 +144,10 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
   }
   for (const auto& interface : contact.interfaces.options)
     if (interface.role == contact::Role::sticking)
-      return undecided(frictions, "nodes of " + interface.label() +
-                                      " are freed along it where they open, which the condensed "
-                                      "matrix does not hold");
+      return undecided(
+          frictions,
+          "nodes of " + interface.label() +
+              " are free along it when they open, which the condensed matrix does not include");
   OpenContact condensed(contact, stiffness, contact.slip(speed, nullptr));
   const bool dense = condensed.size() <= settings.dense;
   if (dense) rejectUnusedUniquenessOptions(true);

@@ -229,7 +229,7 @@ TEST(Files, MistakesAreNamedWithTheirLine) {
       {"-a 1\n-b 0 0.2\n", "line 2: '0.2' follows option -b 0"},
       {"-a 1\nb 2\n", "line 2: 'b' is not an option"},
       {"-a 1\n-b\n2\n", "line 3: '2' is not an option"},
-      {"-a 1\n-b \"2\n", "line 2: a quote is left open"},
+      {"-a 1\n-b \"2\n", "line 2: a quote is not closed"},
       {"-a 1\n-b \"2\"3\n", "line 2: text follows"},
       {std::string("-a 1\n-b \0\n", 10), "line 2: a control character"},
       {"alias -a -b\n", "line 1: 'alias' is not an option"},

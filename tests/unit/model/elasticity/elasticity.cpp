@@ -314,8 +314,9 @@ TEST(CurvedTetrahedra, AreOfUseWhereTheStiffnessHasNoNegativePoint) {
   }
   // det J = 1 − 8 · 0.24 ξ, at the points of degree 5 from ξ = 0.0455 to 0.7218: −0.42 in ratio.
   EXPECT_EQ(assembleCurved(0.24).message,
-            "inverted elements: 2 cells have a Jacobian that is not positive, at worst -0.42 of "
-            "its largest: cell 7 (tet10) of group 'body', cell 9 (tet10) of group 'body'; "
+            "inverted elements: 2 cells have a Jacobian that is not positive; the worst "
+            "ratio to its largest value is -0.42: cell 7 (tet10) of group 'body', cell 9 (tet10) "
+            "of group 'body'; "
             "-mesh_straighten bad straightens the edges of such cells");
 }
 

@@ -100,9 +100,9 @@ TEST(PetscBinary, WhatMatLoadWouldMisreadIsNamed) {
       {"dense", Petsc{2, 2, -1, {}, {}, {1, 2, 3, 4}}.bytes(), "a dense matrix"},
       {"rows", Petsc{-2, 2, 0, {}, {}, {}}.bytes(), "the header announces -2 rows"},
       {"huge", Petsc{2000000000, 2000000000, 2000000000, {}, {}, {}}.bytes(),
-       std::to_string(4 * sizeof(PetscInt)) + " bytes where a real matrix of 2000000000 rows"},
-      {"long", sound + "1234", "cut short, or of another PETSc configuration"},
-      {"head", sound.substr(0, 12), "cut short"},
+       std::to_string(4 * sizeof(PetscInt)) + " bytes, but a real matrix of 2000000000 rows"},
+      {"long", sound + "1234", "truncated, or of another PETSc configuration"},
+      {"head", sound.substr(0, 12), "truncated"},
   };
   for (const auto& [name, bytes, message] : cases) {
     const std::string error = errorReading(writeFile(name + ".petsc", bytes));
@@ -269,7 +269,7 @@ TEST(Hdf5, OtherTypesAndKinds) {
          for (const std::string name : {"indptr", "indices", "data"})
            file.dataset("k/" + name, H5T_NATIVE_DOUBLE, numbers.data(), {3});
        },
-       "dataset 'indptr': integers are expected, it contains reals"},
+       "dataset 'indptr': integers are expected, but it contains reals"},
       {"complex",
        [&](const Hdf5File& file) {
          file.group("k");
@@ -277,7 +277,8 @@ TEST(Hdf5, OtherTypesAndKinds) {
          file.dataset("k/indices", H5T_NATIVE_LLONG, Group{}.index.data(), {3});
          file.dataset("k/data", pair, pairs.data(), {3});
        },
-       "dataset 'data': real numbers are expected, it contains a compound type, as complex numbers "
+       "dataset 'data': real numbers are expected, but it contains a compound type, such as "
+       "complex numbers "
        "are"},
       {"complex_table",
        [&](const Hdf5File& file) {
@@ -290,11 +291,11 @@ TEST(Hdf5, OtherTypesAndKinds) {
          for (const std::string name : {"indptr", "indices", "data"})
            file.dataset("k/" + name, H5T_NATIVE_LLONG, pairs.data(), {3, 1});
        },
-       "dataset 'indptr': 1 dimensions are expected, it has 2"},
-      {"blocks", Group{.format = "bsr"}, "the format 'bsr', where csr and csc are read"},
+       "dataset 'indptr': 1 dimensions are expected, but it has 2"},
+      {"blocks", Group{.format = "bsr"}, "the format 'bsr' is not supported"},
       {"contradiction",
        [&](const Hdf5File& file) { Group{}(file), file.text("k", "encoding-type", "csc_matrix"); },
-       "csr as well as csc"},
+       "both csr and csc"},
       {"shape",
        [&](const Hdf5File& file) {
          Group{}(file);
@@ -325,7 +326,7 @@ TEST(Hdf5, WhatWasNeverWritten) {
   expectNamed({
       {"unwritten",
        around([](const auto& file) { file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}); }),
-       "dataset 'data': the file holds 0 bytes of it, where its size takes 24"},
+       "dataset 'data': the file contains 0 bytes of it, but its size requires 24"},
       {"unwritten_chunk", around([&](const auto& file) {
          file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {1});
          file.writeFirst("k/data", H5T_NATIVE_DOUBLE, &one, 1);
@@ -334,7 +335,7 @@ TEST(Hdf5, WhatWasNeverWritten) {
       {"huge", around([](const auto& file) {
          file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {2000000000});
        }),
-       "the file holds 0 bytes of it, where its size takes 16000000000"},
+       "the file contains 0 bytes of it, but its size requires 16000000000"},
       {"huge_chunks", around([&](const auto& file) {
          file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {2000000000}, {1000});
          file.writeFirst("k/data", H5T_NATIVE_DOUBLE, &one, 1);
@@ -344,7 +345,7 @@ TEST(Hdf5, WhatWasNeverWritten) {
        [](const auto& file) {
          file.dataset("k", H5T_NATIVE_DOUBLE, nullptr, {100000, 100000});
        },
-       "the file holds 0 bytes of it, where its size takes 80000000000"},
+       "the file contains 0 bytes of it, but its size requires 80000000000"},
       {"elsewhere", around([](const auto& file) {
          file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {}, "/dev/null");
        }),

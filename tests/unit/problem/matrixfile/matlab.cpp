@@ -173,8 +173,8 @@ TEST(Matlab, WhatIsWrongIsNamed) {
   const std::string whole = head + full5(false, "k");
   const std::vector<std::array<std::string, 3>> cases{
       {"cut_value", whole.substr(0, whole.size() - 4),
-       "the file is cut short: the variable at byte 128 takes 56 bytes, 52 are left"},
-      {"long", whole + std::string(3, '\0'), "the file is cut short in the header of a variable"},
+       "the file is truncated: the variable at byte 128 takes 56 bytes, 52 are left"},
+      {"long", whole + std::string(3, '\0'), "the file is truncated in the header of a variable"},
       {"garbage", whole + std::string(16, 'x'), "no variable at byte 192"},
       {"few", head + variable5(false, 6, {2, 2}, "k", values({1, 2, 3})),
        "3 values in a matrix of 2 x 2"},

@@ -158,8 +158,8 @@ TEST(Options, IdleOnesAreRefusedByName) {
   for (const std::string option :
        {"-regime_cycles_kept 3", "-regime_frames 8", "-regime_air_impedance 400",
         "-regime_spectrum_points 0,0,0", "-regime_time 1"})
-    EXPECT_TRUE(test::contains(
-        refusal(option), "option " + option.substr(0, option.find(' ')) + ": nothing is followed"))
+    EXPECT_TRUE(test::contains(refusal(option), "option " + option.substr(0, option.find(' ')) +
+                                                    ": no motion after flutter"))
         << option;
   EXPECT_TRUE(test::contains(refusal("-regime_friction 0.4 -regime_frames 8 -regime_cycles_kept 0"),
                              "option -regime_frames: no period is stored"));

@@ -161,8 +161,8 @@ TEST(Steady, RefusedResidualIsTheReason) {
   steady::accept(solution, 3.5e-7, {.forceUnit = 100, .asked = 1e-11});
   EXPECT_FALSE(solution.converged);
   EXPECT_EQ(solution.reason,
-            "the relative residual of all equations is 3.5e-09, more than the accepted 1e-10, "
-            "where the solver of the contact stopped (CONVERGED_FNORM_ABS)");
+            "the solver of the contact stopped at a relative residual of all equations of 3.5e-09, "
+            "above the accepted 1e-10 (CONVERGED_FNORM_ABS)");
   solution.reason = "CONVERGED_FNORM_ABS";
   steady::accept(solution, 9e-9, {.forceUnit = 100, .asked = 1e-11});
   EXPECT_TRUE(solution.converged);

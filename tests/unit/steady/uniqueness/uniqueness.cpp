@@ -391,8 +391,9 @@ TEST(Uniqueness, IsNotDecidedWithoutTheMatrix) {
   for (const auto& judgement : result.judgements) {
     EXPECT_TRUE(std::isnan(judgement.smallest));
     EXPECT_EQ(judgement.verdict, "not decided");
-    EXPECT_EQ(judgement.reason,
-              "body 'pad' is held only by the contact, so the condensed matrix does not exist");
+    EXPECT_EQ(
+        judgement.reason,
+        "body 'pad' is supported only by the contact, so the condensed matrix does not exist");
   }
 }
 
