@@ -10,13 +10,13 @@
 #include "model/contact/coupled.hpp"
 #include "model/contact/response.hpp"
 #include "steady/steady/steady.hpp"
-#include "support/case.hpp"
-#include "support/communicator.hpp"
-#include "support/contact.hpp"
-#include "support/coupled.hpp"
-#include "support/model.hpp"
-#include "support/slider.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/harness/ranks.hpp"
+#include "support/model/coupled_contact.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
+#include "support/steady/contact_laws.hpp"
+#include "support/steady/strained_slider.hpp"
 
 namespace squeal::test {
 namespace {
