@@ -3,7 +3,7 @@
 
 #include "fuzz/fuzz.hpp"
 #include "problem/matrices/read.hpp"
-#include "support/matlab_bytes.hpp"
+#include "support/problem/matlab_bytes.hpp"
 
 namespace squeal::fuzz {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "model/mesh/gmsh_model.hpp"
-#include "support/mesh_text.hpp"
+#include "support/model/mesh_text.hpp"
 
 namespace squeal::fuzz {
 

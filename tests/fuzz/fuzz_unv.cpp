@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "fuzz/fuzz.hpp"
 #include "model/mesh/gmsh_model.hpp"
-#include "support/mesh_text.hpp"
+#include "support/model/mesh_text.hpp"
 
 namespace squeal::fuzz {
 

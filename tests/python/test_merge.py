@@ -17,13 +17,13 @@ import numpy as np
 import pandas as pd
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / "python"), str(repository / "tests/support")]
+sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/harness")]
 sys.dont_write_bytecode = True
 import squeal
 import squeal.merge
 from squeal.parts import Part
 from squeal.report import build, certificate, verdict
-from tables import reshape
+from changed_tables import reshape
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 PARAMETERS = list(squeal.PARAMETERS)

@@ -17,7 +17,7 @@ import unittest
 from pathlib import Path
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / "python"), str(repository / "tests/support")]
+sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/steady")]
 sys.dont_write_bytecode = True
 import squeal
 from pressed_block import pressed_block

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "support/case.hpp"
-#include "support/complementarity.hpp"
-#include "support/ranks.hpp"
+#include "support/harness/same_on_ranks.hpp"
+#include "support/run/case.hpp"
+#include "support/steady/complementarity.hpp"
 
 namespace squeal::test {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Mistakes in the input: what the program says of each, on all ranks. That it then ends with exit
 // code 1, and leaves no results behind, is a matter of command_line.cpp.
-#include "support/bad_input.hpp"
-#include "support/mesh_text.hpp"
+#include "support/harness/bad_input.hpp"
+#include "support/model/mesh_text.hpp"
 
 namespace squeal::test {
 namespace {

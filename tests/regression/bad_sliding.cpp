@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Mistakes about how bodies slide on each other: motions, their speed, and the friction law.
-#include "support/bad_input.hpp"
+#include "support/harness/bad_input.hpp"
 
 namespace squeal::test {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The program as it is called: options files, words of the command line, and what is said of
 // mistakes in them.
-#include "support/bad_input.hpp"
-#include "support/mesh_text.hpp"
+#include "support/harness/bad_input.hpp"
+#include "support/model/mesh_text.hpp"
 
 namespace squeal::test {
 namespace {

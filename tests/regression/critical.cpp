@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/ranks.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/harness/same_on_ranks.hpp"
 
 namespace squeal::test {
 namespace {

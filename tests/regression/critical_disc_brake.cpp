@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The critical frictions of the disc brake at its full size, confirmed by direct solves on all
 // unknowns just below and above. Minutes, so not part of the usual run.
-#include "support/ranks.hpp"
+#include "support/harness/same_on_ranks.hpp"
 
 namespace squeal::test {
 namespace {

@@ -3,7 +3,7 @@
 // were, nothing of the new ones left.
 #include <cstring>
 
-#include "support/disc.hpp"
+#include "support/harness/full_disc.hpp"
 
 namespace squeal::test {
 namespace {

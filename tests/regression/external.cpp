@@ -7,9 +7,9 @@
 #include <complex>
 #include <nlohmann/json.hpp>
 
-#include "support/bad_input.hpp"
-#include "support/hdf5.hpp"
-#include "support/program.hpp"
+#include "support/harness/bad_input.hpp"
+#include "support/harness/hdf5_reader.hpp"
+#include "support/harness/program.hpp"
 
 namespace squeal::test {
 namespace {

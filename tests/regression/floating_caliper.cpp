@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The case floating_caliper with coarse linear cells: ten parts meshed apart, fifteen contacts and
 // four ties.
-#include "support/ranks.hpp"
+#include "support/harness/same_on_ranks.hpp"
 
 namespace squeal::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/program.hpp"
+#include "support/harness/program.hpp"
 
 namespace squeal::test {
 namespace {

@@ -2,7 +2,7 @@
 // Wherever memory runs out, the program reports it in one line: no trace, no stall, no results.
 #include <gtest/gtest.h>
 
-#include "support/bad_input.hpp"
+#include "support/harness/bad_input.hpp"
 
 namespace squeal::test {
 namespace {

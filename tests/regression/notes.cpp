@@ -3,8 +3,8 @@
 // show.
 #include <nlohmann/json.hpp>
 
-#include "support/bad_input.hpp"
-#include "support/blocks_apart.hpp"
+#include "support/harness/bad_input.hpp"
+#include "support/model/blocks_apart.hpp"
 
 namespace squeal::test {
 namespace {

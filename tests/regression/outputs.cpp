@@ -7,8 +7,8 @@
 
 #include "base/options/options.hpp"
 #include "base/session/session.hpp"
-#include "support/ranks.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/harness/same_on_ranks.hpp"
 
 namespace squeal::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The number of ranks does not show in the results.
-#include "support/ranks.hpp"
+#include "support/harness/same_on_ranks.hpp"
 
 namespace squeal::test {
 namespace {

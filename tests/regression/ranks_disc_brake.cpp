@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The disc brake at its full size on 1, 2 and 3 ranks: minutes, so not part of the usual run.
-#include "support/ranks.hpp"
+#include "support/harness/same_on_ranks.hpp"
 
 namespace squeal::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "support/regime_runs.hpp"
+#include "support/regime/regime_cases.hpp"
 
 namespace squeal::test {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "support/hdf5.hpp"
-#include "support/regime_runs.hpp"
-#include "support/started.hpp"
+#include "support/harness/hdf5_reader.hpp"
+#include "support/harness/running_program.hpp"
+#include "support/regime/regime_cases.hpp"
 
 namespace squeal::test {
 namespace {

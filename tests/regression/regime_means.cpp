@@ -2,7 +2,7 @@
 // The regime after flutter depends neither on ranks nor on the mass of the boundary.
 #include <gtest/gtest.h>
 
-#include "support/regime_runs.hpp"
+#include "support/regime/regime_cases.hpp"
 
 namespace squeal::test {
 namespace {

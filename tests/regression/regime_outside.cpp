@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "support/hdf5.hpp"
-#include "support/regime_runs.hpp"
-#include "support/vtu.hpp"
+#include "support/harness/hdf5_reader.hpp"
+#include "support/harness/vtu_reader.hpp"
+#include "support/regime/regime_cases.hpp"
 
 namespace squeal::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Every way to end a run at five moments of it: the earlier results stay as they were, no process
 // is left, the next run works.
-#include "support/disc.hpp"
+#include "support/harness/full_disc.hpp"
 
 namespace squeal::test {
 namespace {

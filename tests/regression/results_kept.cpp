@@ -2,7 +2,7 @@
 // Results of an earlier run, and files of the user, against everything that can happen to a run.
 #include <nlohmann/json.hpp>
 
-#include "support/kept.hpp"
+#include "support/harness/earlier_results.hpp"
 
 namespace squeal::test {
 namespace {

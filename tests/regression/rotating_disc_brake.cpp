@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The rotating disc brake at its full size: the direct solve by PEP on 1, 2 and 3 ranks, and the
 // reduced problem against it. Minutes, so not part of the usual run.
-#include "support/ranks.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/harness/same_on_ranks.hpp"
 
 namespace squeal::test {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "base/system/text.hpp"
 #include "eigen/pencil/complex_modes.hpp"
-#include "support/case.hpp"
-#include "support/spectrum.hpp"
-#include "support/worst.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

@@ -2,8 +2,8 @@
 // A brake of three steel parts, tet10 with some 42,000 unknowns, from a contact that is closed to
 // one that opens: steady sliding is found at all frictions on any number of ranks, with the same
 // forces.
-#include "support/ranks.hpp"
-#include "support/steel_brake.hpp"
+#include "support/harness/same_on_ranks.hpp"
+#include "support/model/steel_brake.hpp"
 
 namespace squeal::test {
 namespace {

@@ -6,8 +6,8 @@
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "eigen/sweep/sweep.hpp"
-#include "support/case.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "base/system/text.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/spectrum.hpp"
-#include "support/step.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/model/cad_shape.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "support/case.hpp"
-#include "support/program.hpp"
-#include "support/ranks.hpp"
+#include "support/harness/program.hpp"
+#include "support/harness/same_on_ranks.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "exact/moving_layers.hpp"
-#include "support/case.hpp"
-#include "support/friction_law.hpp"
-#include "support/roots.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/characteristic_roots.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/model/exponential_law.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {
@@ -179,9 +179,10 @@ TEST(Antiplane, TangentOfTheFrictionLaw) {
     const analysis::Analysis curve = runCase("two_layers_antiplane", common + law.options());
     const analysis::Analysis tangent =
         runCase("two_layers_antiplane", common + law.tangentOptions(antiplane::velocity));
-    const double difference = worst(errors(eigenvaluesOf(curve.flutter.segments.at(0).points.at(0)),
-                                           eigenvaluesOf(tangent.flutter.segments.at(0).points.at(0)))
-                                        .relative);
+    const double difference =
+        worst(errors(eigenvaluesOf(curve.flutter.segments.at(0).points.at(0)),
+                     eigenvaluesOf(tangent.flutter.segments.at(0).points.at(0)))
+                  .relative);
     print("table with the same tangent, convective terms %s: %.1e\n", convective, difference);
     EXPECT_LT(difference, 1e-8);
   }

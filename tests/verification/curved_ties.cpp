@@ -9,10 +9,10 @@
 #include "eigen/modes/modes.hpp"
 #include "exact/annulus.hpp"
 #include "model/contact/coupled.hpp"
-#include "support/blocks_apart.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/model/blocks_apart.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "regime/march/law.hpp"
-#include "support/regime_models.hpp"
+#include "support/regime/reduced_models.hpp"
 
 namespace squeal {
 namespace {

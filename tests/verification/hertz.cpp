@@ -8,9 +8,9 @@
 #include "model/contact/coupled.hpp"
 #include "steady/condensed/condensed_problem.hpp"
 #include "steady/steady/steady.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "eigen/pencil/complex_modes.hpp"
 #include "exact/one_layer.hpp"
-#include "support/case.hpp"
-#include "support/roots.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/characteristic_roots.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

@@ -9,10 +9,10 @@
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/pencil.hpp"
 #include "exact/minimal_models.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/spectrum.hpp"
-#include "support/worst.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

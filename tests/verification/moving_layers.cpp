@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/case.hpp"
-#include "support/friction_law.hpp"
-#include "support/roots.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/characteristic_roots.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/model/exponential_law.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

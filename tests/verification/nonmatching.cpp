@@ -6,8 +6,8 @@
 #include "exact/antiplane.hpp"
 #include "exact/moving_layers.hpp"
 #include "exact/two_layers.hpp"
-#include "support/case.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

@@ -3,7 +3,7 @@
 // three cells on two of the disc: unstable modes are those of meshes that match.
 #include <gtest/gtest.h>
 
-#include "support/unstable.hpp"
+#include "support/run/disc_brake_modes.hpp"
 
 namespace squeal::test {
 namespace {

@@ -3,7 +3,7 @@
 // matching meshes, the more so the finer the meshes are. Minutes, so not part of the usual run.
 #include <gtest/gtest.h>
 
-#include "support/unstable.hpp"
+#include "support/run/disc_brake_modes.hpp"
 
 namespace squeal::test {
 namespace {

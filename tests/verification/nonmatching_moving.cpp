@@ -4,7 +4,7 @@
 // convective terms and with friction damping.
 #include <gtest/gtest.h>
 
-#include "support/nonmatching.hpp"
+#include "support/run/nonmatching_layers.hpp"
 
 namespace squeal::test {
 namespace {

@@ -3,7 +3,7 @@
 // convective terms: convergence to the exact waves on hexahedra of second order.
 #include <gtest/gtest.h>
 
-#include "support/nonmatching.hpp"
+#include "support/run/nonmatching_layers.hpp"
 
 namespace squeal::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "regime/cycles/branch.hpp"
 #include "regime/cycles/section.hpp"
 #include "regime/cycles/shooting.hpp"
-#include "support/regime_models.hpp"
+#include "support/regime/reduced_models.hpp"
 
 namespace squeal {
 namespace {

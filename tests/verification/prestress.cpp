@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/system/text.hpp"
-#include "support/case.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

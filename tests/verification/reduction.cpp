@@ -3,10 +3,10 @@
 // errors.
 #include <gtest/gtest.h>
 
-#include "support/case.hpp"
-#include "support/full_order.hpp"
-#include "support/spectrum.hpp"
-#include "support/worst.hpp"
+#include "support/eigen/full_order.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

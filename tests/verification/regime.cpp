@@ -10,7 +10,7 @@
 #include "algebra/linalg/symmetric.hpp"
 #include "regime/march/model.hpp"
 #include "regime/march/scheme.hpp"
-#include "support/regime_models.hpp"
+#include "support/regime/reduced_models.hpp"
 
 namespace squeal {
 namespace {

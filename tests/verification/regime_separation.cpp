@@ -2,7 +2,7 @@
 // The wave of stick, slip and separation of an elastic tube on a rotating shaft.
 #include <gtest/gtest.h>
 
-#include "support/regime_models.hpp"
+#include "support/regime/reduced_models.hpp"
 
 namespace squeal {
 namespace {

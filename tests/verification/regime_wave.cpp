@@ -3,7 +3,7 @@
 // discrete model agree, and the wave converges with the nodes.
 #include <gtest/gtest.h>
 
-#include "support/tube_march.hpp"
+#include "support/regime/tube_march.hpp"
 
 namespace squeal {
 namespace {

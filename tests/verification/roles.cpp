@@ -10,13 +10,13 @@
 #include "model/contact/coupled.hpp"
 #include "model/contact/response.hpp"
 #include "steady/steady/steady.hpp"
-#include "support/case.hpp"
-#include "support/communicator.hpp"
-#include "support/contact.hpp"
-#include "support/coupled.hpp"
-#include "support/model.hpp"
-#include "support/slider.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/harness/ranks.hpp"
+#include "support/model/coupled_contact.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
+#include "support/steady/contact_laws.hpp"
+#include "support/steady/strained_slider.hpp"
 
 namespace squeal::test {
 namespace {
@@ -30,10 +30,11 @@ double forceDifference(const steady::Solution& a, const steady::Solution& b) {
   double difference = 0, size = 0;
   for (std::size_t i = 0; i < a.model.contact.size(); ++i) {
     size = worse(size, std::abs(a.model.contact[i].normalForce));
-    difference = worse(difference, std::abs(a.model.contact[i].normalForce - b.contact[i].normalForce));
+    difference =
+        worse(difference, std::abs(a.model.contact[i].normalForce - b.contact[i].normalForce));
     for (std::size_t d = 0; d < 3; ++d)
-      difference = worse(difference,
-                         std::abs(a.model.contact[i].frictionForce[d] - b.contact[i].frictionForce[d]));
+      difference = worse(difference, std::abs(a.model.contact[i].frictionForce[d] -
+                                              b.contact[i].frictionForce[d]));
   }
   return largest(difference) / largest(size);
 }

@@ -13,9 +13,9 @@
 #include "model/contact/coupled.hpp"
 #include "model/mesh/mesh.hpp"
 #include "problem/terms/terms.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

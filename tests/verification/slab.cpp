@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "exact/one_layer.hpp"
-#include "support/case.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

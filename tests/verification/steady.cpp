@@ -5,10 +5,10 @@
 #include "exact/one_layer.hpp"
 #include "exact/two_layers.hpp"
 #include "steady/steady/steady.hpp"
-#include "support/case.hpp"
-#include "support/contact.hpp"
-#include "support/uniform.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/run/case.hpp"
+#include "support/steady/contact_laws.hpp"
+#include "support/steady/uniform_layers.hpp"
 
 namespace squeal::test {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "model/contact/coupled.hpp"
 #include "steady/steady/steady.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/steel_brake.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/model.hpp"
+#include "support/model/steel_brake.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -9,8 +9,8 @@
 #include "eigen/modes/modes.hpp"
 #include "exact/beam.hpp"
 #include "model/contact/coupled.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "eigen/modes/modes.hpp"
 #include "model/contact/coupled.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/spectrum.hpp"
-#include "support/warnings.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/harness/messages.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

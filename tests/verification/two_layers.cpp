@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/case.hpp"
-#include "support/roots.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/characteristic_roots.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

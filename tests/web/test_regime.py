@@ -15,12 +15,13 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / folder) for folder in ("python", "scripts/dev", "tests/support")]
+folders = ("python", "scripts/dev", "tests/support/harness")
+sys.path[:0] = [str(repository / folder) for folder in folders]
 sys.dont_write_bytecode = True
 import squeal
 from report_picture import browser
 from squeal import regime, report
-from tables import reshape
+from changed_tables import reshape
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 COARSE = "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"

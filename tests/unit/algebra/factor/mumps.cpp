@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "algebra/factor/symmetric_solver.hpp"
-#include "support/model.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "support/case.hpp"
-#include "support/dense.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

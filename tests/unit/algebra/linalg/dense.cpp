@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "algebra/linalg/symmetric.hpp"
-#include "support/dense.hpp"
-#include "support/model.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

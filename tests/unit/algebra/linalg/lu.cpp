@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/dense.hpp"
+#include "support/algebra/dense.hpp"
 
 namespace squeal {
 namespace {

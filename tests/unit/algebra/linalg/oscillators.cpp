@@ -7,11 +7,11 @@
 #include <random>
 
 #include "algebra/linalg/quadratic.hpp"
-#include "support/dense.hpp"
-#include "support/model.hpp"
-#include "support/oscillators.hpp"
-#include "support/quadratic.hpp"
-#include "support/spectrum.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/algebra/oscillators.hpp"
+#include "support/algebra/quadratic.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

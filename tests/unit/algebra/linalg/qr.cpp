@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/case.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

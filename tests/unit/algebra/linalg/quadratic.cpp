@@ -10,10 +10,10 @@
 #include <random>
 #include <vector>
 
-#include "support/dense.hpp"
-#include "support/model.hpp"
-#include "support/quadratic.hpp"
-#include "support/spectrum.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/algebra/quadratic.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

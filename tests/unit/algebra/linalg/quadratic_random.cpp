@@ -9,10 +9,10 @@
 
 #include "algebra/linalg/quadratic.hpp"
 #include "algebra/linalg/spread.hpp"
-#include "support/case.hpp"
-#include "support/dense.hpp"
-#include "support/quadratic.hpp"
-#include "support/spectrum.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/algebra/quadratic.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

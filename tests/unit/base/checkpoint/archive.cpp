@@ -9,8 +9,9 @@
 #include "base/options/settings.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/system/regular_file.hpp"
-#include "support/communicator.hpp"
-#include "support/report_files.hpp"
+#include "support/harness/messages.hpp"
+#include "support/harness/ranks.hpp"
+#include "support/harness/scratch_folder.hpp"
 
 namespace squeal::checkpoint {
 namespace {

@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "base/system/text.hpp"
-#include "support/model.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

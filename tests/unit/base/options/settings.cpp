@@ -12,8 +12,8 @@
 #include "base/options/yaml.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/text.hpp"
-#include "support/model.hpp"
-#include "support/warnings.hpp"
+#include "support/harness/messages.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

@@ -10,9 +10,10 @@
 
 #include <set>
 
-#include "support/output_folder.hpp"
-#include "support/report_files.hpp"
-#include "support/shared_files.hpp"
+#include "support/base/output_folder.hpp"
+#include "support/harness/messages.hpp"
+#include "support/harness/scratch_folder.hpp"
+#include "support/harness/shared_files.hpp"
 
 namespace squeal::output {
 namespace {

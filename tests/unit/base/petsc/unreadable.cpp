@@ -12,9 +12,10 @@
 
 #include "base/options/options.hpp"
 #include "problem/matrices/read.hpp"
-#include "support/matrix_files.hpp"
-#include "support/mesh_message.hpp"
-#include "support/mesh_text.hpp"
+#include "support/harness/messages.hpp"
+#include "support/model/mesh_text.hpp"
+#include "support/model/model.hpp"
+#include "support/problem/matrix_files.hpp"
 
 namespace squeal::test {
 namespace {

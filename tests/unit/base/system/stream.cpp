@@ -5,7 +5,7 @@
 
 #include "base/petsc/object.hpp"
 #include "base/petsc/owned.hpp"
-#include "support/communicator.hpp"
+#include "support/harness/ranks.hpp"
 
 namespace squeal {
 namespace shapes {

@@ -10,10 +10,10 @@
 
 #include "eigen/direct/direct.hpp"
 #include "eigen/pencil/complex_modes.hpp"
-#include "support/case.hpp"
-#include "support/chains.hpp"
-#include "support/model.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/mass_chains.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace {
 

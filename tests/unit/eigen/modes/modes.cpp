@@ -6,9 +6,9 @@
 #include "eigen/modes/blocklanczos.hpp"
 #include "eigen/modes/modes.hpp"
 #include "model/contact/coupled.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

@@ -15,11 +15,11 @@
 #include "algebra/linalg/lapack.hpp"
 #include "algebra/linalg/quadratic.hpp"
 #include "problem/terms/terms.hpp"
-#include "support/case.hpp"
-#include "support/entry_matrix.hpp"
-#include "support/full_problem.hpp"
-#include "support/layers.hpp"
-#include "support/worst.hpp"
+#include "support/algebra/sparse.hpp"
+#include "support/eigen/full_problem.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/problem/coarse_layers.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

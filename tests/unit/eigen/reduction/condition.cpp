@@ -9,8 +9,8 @@
 #include <random>
 
 #include "algebra/linalg/quadratic.hpp"
-#include "support/dense.hpp"
-#include "support/spectrum.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/eigen/spectrum.hpp"
 
 namespace squeal {
 namespace {

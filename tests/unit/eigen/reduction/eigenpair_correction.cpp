@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "eigen/reduction/missing.hpp"
-#include "support/dense.hpp"
-#include "support/quadratic.hpp"
-#include "support/spectrum.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/algebra/quadratic.hpp"
+#include "support/eigen/spectrum.hpp"
 
 namespace squeal::test {
 namespace {

@@ -15,11 +15,11 @@
 #include "eigen/pencil/pencil.hpp"
 #include "problem/terms/terms.hpp"
 #include "run/report/stability_table.hpp"
-#include "support/blocks.hpp"
-#include "support/dense.hpp"
-#include "support/layers.hpp"
-#include "support/quadratic.hpp"
-#include "support/symmetric.hpp"
+#include "support/algebra/blocks.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/algebra/quadratic.hpp"
+#include "support/algebra/symmetric.hpp"
+#include "support/problem/coarse_layers.hpp"
 
 namespace squeal {
 namespace {
@@ -92,27 +92,6 @@ linalg::Block frictionForces(const pencil::Pencil& pencil, const linalg::Block& 
   return sum;
 }
 
-/// The largest energy norm of what K0⁻¹ of these forces has outside of a basis orthonormal in
-/// energy.
-double outside(const Fixture& f, const linalg::Block& basis, const linalg::Block& forces) {
-  const MPI_Comm comm = f.pencil.comm();
-  linalg::Block responses(forces.rows(), forces.columns());
-  PetscInt size = 0;
-  check(MatGetSize(f.system->k0(), &size, nullptr));
-  const OwnedMat from = linalg::borrowed(comm, size, forces),
-                 to = linalg::borrowed(comm, size, responses);
-  check(KSPMatSolve(f.system->solver(), from, to));
-  const auto energy = linalg::transposedProduct(comm, forces, responses),
-             parts = linalg::transposedProduct(comm, basis, forces);
-  double worst = 0;
-  for (PetscInt j = 0; j < forces.columns(); ++j) {
-    double rest = energy(j, j);
-    for (const double part : parts.column(j)) rest -= part * part;
-    worst = test::worse(worst, std::sqrt(test::worse(0, rest)));
-  }
-  return worst;
-}
-
 // K0⁻¹ r for the forces of friction r = k φ and kᵀφ, of unit length, on the modes of the band: the
 // basis holds them except for K0⁻¹ r' with r' of length 0.03 at most, whose energy is that squared
 // over the lowest eigenvalue of K0 at most.
@@ -129,7 +108,8 @@ TEST(StaticResponses, AreHeldByTheBasis) {
   for (const bool transposed : {false, true}) {
     const linalg::Block forces = linalg::unitColumns(
         f.pencil.comm(), frictionForces(f.pencil, modes, f.free.angularFrequency, transposed));
-    const double known = outside(f, after, forces), unknown = outside(f, before, forces);
+    const double known = test::energyOutside(*f.system, after, forces),
+                 unknown = test::energyOutside(*f.system, before, forces);
     test::print("%s: outside of the basis %.2e, of the modes alone %.2e; bound %.2e\n",
                 transposed ? "left" : "right", known, unknown, bound);
     EXPECT_LT(known, bound);

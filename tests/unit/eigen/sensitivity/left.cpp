@@ -15,8 +15,8 @@
 #include "eigen/sweep/parameters.hpp"
 #include "model/contact/coupled.hpp"
 #include "problem/terms/terms.hpp"
-#include "support/full_problem.hpp"
-#include "support/layers.hpp"
+#include "support/eigen/full_problem.hpp"
+#include "support/problem/coarse_layers.hpp"
 
 namespace squeal {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/sensitivities.hpp"
+#include "support/eigen/sensitivity_checks.hpp"
 
 namespace squeal {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "eigen/sensitivity/sensitivity.hpp"
 #include "run/report/sensitivities.hpp"
-#include "support/sensitivities.hpp"
+#include "support/eigen/sensitivity_checks.hpp"
 
 namespace squeal {
 namespace {

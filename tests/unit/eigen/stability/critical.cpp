@@ -12,8 +12,8 @@
 #include "eigen/pencil/band.hpp"
 #include "eigen/reduction/reduced.hpp"
 #include "eigen/tracking/track.hpp"
-#include "support/case.hpp"
-#include "support/families.hpp"
+#include "support/eigen/friction_families.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -12,8 +12,8 @@
 #include "eigen/stability/critical.hpp"
 #include "eigen/tracking/join.hpp"
 #include "eigen/tracking/track.hpp"
-#include "support/dense.hpp"
-#include "support/families.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/eigen/friction_families.hpp"
 
 namespace squeal {
 namespace {

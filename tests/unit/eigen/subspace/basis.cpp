@@ -9,9 +9,9 @@
 
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/symmetric.hpp"
-#include "support/blocks.hpp"
-#include "support/dense.hpp"
-#include "support/layers.hpp"
+#include "support/algebra/blocks.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/problem/coarse_layers.hpp"
 
 namespace squeal {
 namespace {

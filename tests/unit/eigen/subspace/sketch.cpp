@@ -9,9 +9,9 @@
 
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/qr.hpp"
-#include "support/case.hpp"
-#include "support/dense.hpp"
-#include "support/worst.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

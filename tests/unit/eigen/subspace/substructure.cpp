@@ -15,11 +15,11 @@
 #include "eigen/reduction/reduced.hpp"
 #include "problem/terms/terms.hpp"
 #include "run/analysis/mesh_sweep.hpp"
-#include "support/blocks.hpp"
-#include "support/dense.hpp"
-#include "support/full_problem.hpp"
-#include "support/layers.hpp"
-#include "support/spectrum.hpp"
+#include "support/algebra/blocks.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/eigen/full_problem.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/problem/coarse_layers.hpp"
 
 namespace squeal {
 namespace {

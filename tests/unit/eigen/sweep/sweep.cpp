@@ -8,8 +8,8 @@
 #include "eigen/pencil/pencil.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "eigen/sweep/sweep.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

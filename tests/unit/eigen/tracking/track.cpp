@@ -10,7 +10,7 @@
 #include "eigen/pencil/band.hpp"
 #include "eigen/stability/critical.hpp"
 #include "eigen/tracking/renumber.hpp"
-#include "support/families.hpp"
+#include "support/eigen/friction_families.hpp"
 
 namespace squeal {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "support/contact_cases.hpp"
-#include "support/coupled.hpp"
-#include "support/entries.hpp"
-#include "support/model.hpp"
-#include "support/worst.hpp"
+#include "support/algebra/sparse.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/contact_cases.hpp"
+#include "support/model/coupled_contact.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

@@ -3,9 +3,9 @@
 // contradict each other.
 #include <gtest/gtest.h>
 
-#include "support/contact_cases.hpp"
-#include "support/model.hpp"
-#include "support/warnings.hpp"
+#include "support/harness/messages.hpp"
+#include "support/model/contact_cases.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "model/contact/build.hpp"
 #include "model/contact/coupled.hpp"
-#include "support/case.hpp"
-#include "support/contact_cases.hpp"
-#include "support/coupled.hpp"
-#include "support/model.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/contact_cases.hpp"
+#include "support/model/coupled_contact.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

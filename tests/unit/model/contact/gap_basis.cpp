@@ -6,10 +6,10 @@
 
 #include <map>
 
-#include "support/case.hpp"
-#include "support/contact_cases.hpp"
-#include "support/model.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/contact_cases.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

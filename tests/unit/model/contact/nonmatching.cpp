@@ -8,9 +8,9 @@
 #include "model/contact/coupled.hpp"
 #include "model/mesh/vector.hpp"
 #include "steady/steady/steady.hpp"
-#include "support/blocks_apart.hpp"
-#include "support/case.hpp"
-#include "support/contact_cases.hpp"
+#include "support/model/blocks_apart.hpp"
+#include "support/model/contact_cases.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

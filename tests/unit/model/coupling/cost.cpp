@@ -6,8 +6,8 @@
 
 #include <fstream>
 
-#include "support/case.hpp"
-#include "support/coupled_surfaces.hpp"
+#include "support/model/coupled_surfaces.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "model/coupling/search.hpp"
-#include "support/case.hpp"
-#include "support/communicator.hpp"
-#include "support/random_faces.hpp"
+#include "support/harness/ranks.hpp"
+#include "support/model/random_faces.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -8,9 +8,9 @@
 #include "base/system/text.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/mesh/mesh.hpp"
-#include "support/model.hpp"
-#include "support/symmetric.hpp"
-#include "support/worst.hpp"
+#include "support/algebra/symmetric.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

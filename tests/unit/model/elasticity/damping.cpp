@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "model/elasticity/elasticity.hpp"
-#include "support/case.hpp"
-#include "support/dense.hpp"
-#include "support/model.hpp"
-#include "support/worst.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

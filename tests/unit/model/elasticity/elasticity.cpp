@@ -10,10 +10,10 @@
 #include "model/elasticity/inertia.hpp"
 #include "model/elasticity/shape.hpp"
 #include "model/mesh/mesh.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/patch.hpp"
-#include "support/symmetric.hpp"
+#include "support/algebra/symmetric.hpp"
+#include "support/model/element_patch.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "base/system/text.hpp"
 #include "exact/orthotropic.hpp"
-#include "support/case.hpp"
-#include "support/dense.hpp"
-#include "support/model.hpp"
-#include "support/warnings.hpp"
-#include "support/worst.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/harness/messages.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

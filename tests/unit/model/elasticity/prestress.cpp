@@ -8,8 +8,8 @@
 #include "base/system/text.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/mesh/mesh.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

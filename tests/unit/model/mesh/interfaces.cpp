@@ -4,10 +4,10 @@
 
 #include <set>
 
-#include "support/bad_input.hpp"
-#include "support/mesh_checks.hpp"
-#include "support/mesh_text.hpp"
-#include "support/model.hpp"
+#include "support/harness/bad_input.hpp"
+#include "support/model/mesh_checks.hpp"
+#include "support/model/mesh_text.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

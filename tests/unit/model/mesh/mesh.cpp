@@ -12,10 +12,10 @@
 #include "model/mesh/pairing.hpp"
 #include "model/mesh/partition.hpp"
 #include "model/mesh/whole.hpp"
-#include "support/case.hpp"
-#include "support/gathered.hpp"
-#include "support/mesh_checks.hpp"
-#include "support/model.hpp"
+#include "support/harness/ranks.hpp"
+#include "support/model/mesh_checks.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "model/elasticity/element.hpp"
 #include "model/mesh/mesh.hpp"
-#include "support/case.hpp"
-#include "support/files.hpp"
-#include "support/gathered.hpp"
-#include "support/mesh_checks.hpp"
-#include "support/model.hpp"
+#include "support/harness/folder_files.hpp"
+#include "support/harness/ranks.hpp"
+#include "support/model/mesh_checks.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "model/mesh/twins.hpp"
-#include "support/mesh_message.hpp"
-#include "support/mesh_text.hpp"
+#include "support/harness/messages.hpp"
+#include "support/model/mesh_text.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

@@ -9,11 +9,11 @@
 #include <set>
 
 #include "model/elasticity/shape.hpp"
-#include "support/case.hpp"
-#include "support/mesh_checks.hpp"
-#include "support/mesh_message.hpp"
-#include "support/model.hpp"
-#include "support/step.hpp"
+#include "support/harness/messages.hpp"
+#include "support/model/cad_shape.hpp"
+#include "support/model/mesh_checks.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -13,11 +13,11 @@
 #include "base/system/child.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/mesh/gmsh_model.hpp"
-#include "support/case.hpp"
-#include "support/mesh_checks.hpp"
-#include "support/mesh_message.hpp"
-#include "support/mesh_text.hpp"
-#include "support/model.hpp"
+#include "support/harness/messages.hpp"
+#include "support/model/mesh_checks.hpp"
+#include "support/model/mesh_text.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/petsc/check.hpp"
 #include "model/elasticity/shape.hpp"
 #include "model/mortar/dual.hpp"
-#include "support/face_patch.hpp"
+#include "support/model/face_patch.hpp"
 
 namespace squeal {
 namespace {

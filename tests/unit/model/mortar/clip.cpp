@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "support/dense.hpp"
+#include "support/algebra/dense.hpp"
 
 namespace squeal {
 namespace {

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "model/mortar/surface.hpp"
-#include "support/face_patch.hpp"
+#include "support/model/face_patch.hpp"
 
 namespace squeal {
 namespace {

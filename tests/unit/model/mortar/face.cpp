@@ -6,10 +6,10 @@
 #include <map>
 
 #include "model/coupling/box.hpp"
-#include "support/mesh_checks.hpp"
-#include "support/mesh_text.hpp"
-#include "support/model.hpp"
-#include "support/random_faces.hpp"
+#include "support/model/mesh_checks.hpp"
+#include "support/model/mesh_text.hpp"
+#include "support/model/model.hpp"
+#include "support/model/random_faces.hpp"
 
 namespace squeal {
 namespace {

@@ -14,7 +14,7 @@
 #include "model/mortar/clip.hpp"
 #include "model/mortar/dual.hpp"
 #include "model/mortar/surface.hpp"
-#include "support/face_patch.hpp"
+#include "support/model/face_patch.hpp"
 
 namespace squeal {
 namespace {

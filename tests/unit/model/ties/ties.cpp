@@ -10,10 +10,10 @@
 #include <tuple>
 
 #include "model/mesh/vector.hpp"
-#include "support/blocks_apart.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/warnings.hpp"
+#include "support/harness/messages.hpp"
+#include "support/model/blocks_apart.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {

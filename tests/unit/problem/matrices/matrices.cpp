@@ -8,9 +8,9 @@
 
 #include "base/system/text.hpp"
 #include "problem/matrixfile/matrix_market.hpp"
-#include "support/case.hpp"
-#include "support/matrix_files.hpp"
-#include "support/spectrum.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/problem/matrix_files.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

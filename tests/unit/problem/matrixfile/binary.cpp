@@ -16,8 +16,8 @@
 #include "problem/matrixfile/hdf5.hpp"
 #include "problem/matrixfile/matrix_market.hpp"
 #include "problem/matrixfile/petsc_binary.hpp"
-#include "support/hdf5_files.hpp"
-#include "support/matrix_files.hpp"
+#include "support/problem/hdf5_writer.hpp"
+#include "support/problem/matrix_files.hpp"
 
 namespace squeal::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "problem/matrixfile/matrix_market.hpp"
-#include "support/matrix_files.hpp"
+#include "support/problem/matrix_files.hpp"
 
 namespace squeal::test {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "problem/matrixfile/hdf5.hpp"
 #include "problem/matrixfile/matlab.hpp"
-#include "support/hdf5_files.hpp"
-#include "support/matlab_bytes.hpp"
-#include "support/matrix_files.hpp"
+#include "support/problem/hdf5_writer.hpp"
+#include "support/problem/matlab_bytes.hpp"
+#include "support/problem/matrix_files.hpp"
 
 namespace squeal::test {
 namespace {

@@ -13,11 +13,11 @@
 #include "eigen/reduction/reduced.hpp"
 #include "eigen/sweep/sweep.hpp"
 #include "problem/terms/terms.hpp"
-#include "support/entry_matrix.hpp"
-#include "support/full_problem.hpp"
-#include "support/layers.hpp"
-#include "support/oscillators.hpp"
-#include "support/spectrum.hpp"
+#include "support/algebra/oscillators.hpp"
+#include "support/algebra/sparse.hpp"
+#include "support/eigen/full_problem.hpp"
+#include "support/eigen/spectrum.hpp"
+#include "support/problem/coarse_layers.hpp"
 
 namespace squeal {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/regime_models.hpp"
+#include "support/regime/reduced_models.hpp"
 
 namespace squeal {
 namespace {

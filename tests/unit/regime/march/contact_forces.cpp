@@ -11,7 +11,7 @@
 #include "algebra/linalg/lu.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "regime/march/scheme.hpp"
-#include "support/dense.hpp"
+#include "support/algebra/dense.hpp"
 
 // Its headers define macros of common names, and come last.
 #include <siconos/numerics/FrictionContactProblem.h>

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "regime/march/onset.hpp"
-#include "support/dense.hpp"
+#include "support/algebra/dense.hpp"
 
 namespace squeal {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "model/elasticity/face.hpp"
 #include "regime/sound/boundary.hpp"
-#include "support/model.hpp"
-#include "support/patch.hpp"
-#include "support/steel_brake.hpp"
+#include "support/model/element_patch.hpp"
+#include "support/model/model.hpp"
+#include "support/model/steel_brake.hpp"
 
 namespace squeal {
 namespace {

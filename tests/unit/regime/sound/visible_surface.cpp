@@ -8,7 +8,7 @@
 
 #include "base/petsc/arrays.hpp"
 #include "regime/regime/regime.hpp"
-#include "support/model.hpp"
+#include "support/model/model.hpp"
 
 namespace squeal {
 namespace {

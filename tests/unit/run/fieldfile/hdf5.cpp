@@ -6,9 +6,11 @@
 
 #include "base/petsc/object.hpp"
 #include "run/fieldfile/hdf5.hpp"
-#include "support/hdf5.hpp"
-#include "support/program.hpp"
-#include "support/report_files.hpp"
+#include "support/harness/hdf5_reader.hpp"
+#include "support/harness/messages.hpp"
+#include "support/harness/program.hpp"
+#include "support/harness/scratch_folder.hpp"
+#include "support/run/bar_mesh.hpp"
 
 namespace squeal::fieldfile {
 namespace {

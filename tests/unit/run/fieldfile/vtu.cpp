@@ -15,9 +15,11 @@
 #include <sstream>
 
 #include "run/fieldfile/vtu.hpp"
-#include "support/program.hpp"
-#include "support/report_files.hpp"
-#include "support/vtu.hpp"
+#include "support/harness/messages.hpp"
+#include "support/harness/program.hpp"
+#include "support/harness/scratch_folder.hpp"
+#include "support/harness/vtu_reader.hpp"
+#include "support/run/bar_mesh.hpp"
 
 namespace squeal::fieldfile {
 namespace {

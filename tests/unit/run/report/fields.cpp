@@ -15,10 +15,11 @@
 #include "run/report/fields.hpp"
 #include "run/report/names.hpp"
 #include "run/report/sensitivities.hpp"
-#include "support/case.hpp"
-#include "support/hdf5.hpp"
-#include "support/report_files.hpp"
-#include "support/vtu.hpp"
+#include "support/harness/hdf5_reader.hpp"
+#include "support/harness/scratch_folder.hpp"
+#include "support/harness/vtu_reader.hpp"
+#include "support/run/bar_mesh.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::report {
 namespace {

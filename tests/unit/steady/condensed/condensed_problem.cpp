@@ -8,11 +8,11 @@
 #include <string>
 
 #include "model/contact/coupled.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/slider.hpp"
-#include "support/steel_brake.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/model.hpp"
+#include "support/model/steel_brake.hpp"
+#include "support/run/case.hpp"
+#include "support/steady/strained_slider.hpp"
 
 namespace squeal::test {
 namespace {

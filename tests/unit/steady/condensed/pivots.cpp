@@ -8,10 +8,10 @@
 
 #include "model/contact/coupled.hpp"
 #include "steady/condensed/condensed_problem.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/pressed_block.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
+#include "support/steady/pressed_block.hpp"
 
 namespace squeal::test {
 namespace {

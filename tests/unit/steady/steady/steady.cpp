@@ -14,11 +14,11 @@
 #include "model/contact/coupled.hpp"
 #include "steady/steady/complementarity.hpp"
 #include "steady/steady/steady.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
-#include "support/program.hpp"
-#include "support/slider.hpp"
-#include "support/worst.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/harness/program.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
+#include "support/steady/strained_slider.hpp"
 
 namespace squeal {
 namespace {

@@ -15,12 +15,12 @@
 #include "model/mesh/read.hpp"
 #include "steady/uniqueness/compliance.hpp"
 #include "steady/uniqueness/uniqueness.hpp"
-#include "support/case.hpp"
-#include "support/contact_cases.hpp"
-#include "support/dense.hpp"
-#include "support/gathered.hpp"
-#include "support/model.hpp"
-#include "support/worst.hpp"
+#include "support/algebra/dense.hpp"
+#include "support/harness/largest_error.hpp"
+#include "support/harness/ranks.hpp"
+#include "support/model/contact_cases.hpp"
+#include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {
