@@ -102,7 +102,7 @@ TEST(RegimeFailures, EachPointFailsForItself) {
   EXPECT_NE(run.out.find("friction 0.01: no mode is unstable"), std::string::npos);
   for (const char* text :
        {"friction 2.37, start on mode 4: nothing measured: the mode grows without oscillation",
-        "friction 3: not followed after flutter (-regime_friction): there is no steady sliding"})
+        "friction 3: not followed after flutter (-regime_friction): no steady sliding state"})
     EXPECT_NE(run.error.find(text), std::string::npos) << run.error;
 }
 

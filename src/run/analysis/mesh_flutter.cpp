@@ -122,8 +122,8 @@ void nameUnfollowed(const SlidingBrake& brake, Flutter& found) {
     at.damping = brake.sweep.dampings.front();
     if (!solution.converged && isFollowed(brake, at))
       found.addFailure(brake.comm(), sweep::parameterText(at) +
-                                         ": not followed after flutter (-regime_friction): there "
-                                         "is no steady sliding state to start from");
+                                         ": not followed after flutter (-regime_friction): no "
+                                         "steady sliding state was found to start from");
   }
 }
 
