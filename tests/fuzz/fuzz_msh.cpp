@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "model/mesh/gmsh_model.hpp"
+#include "support/gmsh_library.hpp"
 #include "support/mesh_text.hpp"
 
 namespace squeal::fuzz {

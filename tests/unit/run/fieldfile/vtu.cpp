@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // VTU and PVD files: what VTK's own reader finds in them is what was given.
-#include <gmsh.h>
 #include <gtest/gtest.h>
 #include <vtkCell.h>
 #include <vtkCellData.h>
@@ -15,6 +14,7 @@
 #include <sstream>
 
 #include "run/fieldfile/vtu.hpp"
+#include "support/gmsh_library.hpp"
 #include "support/program.hpp"
 #include "support/report_files.hpp"
 #include "support/vtu.hpp"
@@ -106,6 +106,7 @@ struct Reference {
 };
 
 Reference gmshReference(int type) {
+  test::startGmsh();
   std::string name;
   int dimension = 0, order = 0, nodes = 0, corners = 0;
   std::vector<double> given;
