@@ -37,8 +37,14 @@ extern "C" const char* __asan_default_options() {
 extern "C" const char* __ubsan_default_options();
 extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1"; }
 constexpr bool sanitized = true;
+/// Has programs that a reader starts report in the same way.
+static void passSanitizerOptions() {
+  setenv("ASAN_OPTIONS", __asan_default_options(), 1);
+  setenv("UBSAN_OPTIONS", __ubsan_default_options(), 1);
+}
 #else
 constexpr bool sanitized = false;
+static void passSanitizerOptions() {}
 #endif
 
 namespace squeal::fuzz {
@@ -148,7 +154,7 @@ std::string reported(pid_t reader) {
   std::string text;
   for (const auto& entry : fs::directory_iterator(SQUEAL_OUTPUT_DIR)) {
     const std::string found = entry.path().filename();
-    if (found.rfind(name, 0) != 0) continue;
+    if (!found.starts_with(name) && !found.starts_with("sanitizer.squeal_gmsh.")) continue;
     const std::string report = contentOf(entry.path());
     if (found == name + std::to_string(reader) || !isOfLibrary(report)) text += report;
     fs::remove(entry.path());
@@ -161,6 +167,7 @@ int readAll(std::uint64_t first, std::uint64_t count, Progress& progress) {
   const fs::path printed = pathOf(getpid(), ".printed");
   const int file = open(printed.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_APPEND, 0600);
   if (file < 0 || dup2(file, 1) < 0 || dup2(file, 2) < 0) return 2;
+  passSanitizerOptions();
   char program[] = "fuzz", *arguments[] = {program, nullptr};
   Session session(1, arguments);
   const Target target = fuzz::target();

@@ -20,7 +20,7 @@ struct Target {
   std::function<void(const std::string& path)> read;
 };
 
-/// Each program defines its own. Called within a session of MPI, PETSc and gmsh.
+/// Each program defines its own. Called within a session of MPI and PETSc.
 Target target();
 
 /// The bytes of a file that `write(path)` makes: seeds by the libraries of the formats.

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "model/mesh/gmsh_model.hpp"
+#include "support/model/gmsh_library.hpp"
 #include "support/model/mesh_text.hpp"
 
 namespace squeal::fuzz {

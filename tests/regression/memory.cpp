@@ -26,14 +26,14 @@ ProgramRun runLimited(const Limited& limited) {
                   shell.string());
 }
 
-// Libraries take some 400 MB of addresses, the case more than 1.1 GB on one rank: in between the
+// Libraries take some 250 MB of addresses, the case more than 1 GB on one rank: in between the
 // run ends, by an allocation of PETSc, of the C++ library, or of MUMPS. OpenBLAS, which asks for
 // ever, has its 128 MB before anything else.
 TEST(Memory, TooLittleIsToldInOneLine) {
-  for (const Limited& limited : {Limited{1, 500, "is out of memory"},
-                                 {1, 850, "MUMPS is out of memory"},
-                                 {1, 1000, "is out of memory"},
-                                 {2, 800, "is out of memory"}}) {
+  for (const Limited& limited : {Limited{1, 330, "is out of memory"},
+                                 {1, 710, "MUMPS is out of memory"},
+                                 {1, 870, "is out of memory"},
+                                 {2, 640, "is out of memory"}}) {
     SCOPED_TRACE(std::to_string(limited.ranks) + " ranks of " + std::to_string(limited.megabytes) +
                  " MB");
     const ProgramRun run = runLimited(limited);

@@ -2,7 +2,7 @@
 #include "base/session/session.hpp"
 
 #include <dmumps_c.h>
-#include <gmsh.h>
+#include <gmsh.h>  // only its version: the program squeal_gmsh calls it
 #include <hdf5.h>
 #include <slepcsys.h>
 #include <vtkVersionMacros.h>
@@ -16,7 +16,7 @@
 #include "base/options/settings.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/log_events.hpp"
-#include "base/system/memory.hpp"
+#include "base/system/process_memory.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
 
@@ -88,14 +88,11 @@ Session::Session(int argc, char** argv) {
   signals.begin(rank());
   keepFreedMemory();
   claimBlasWorkspace();
-  gmsh::initialize(0, nullptr, false);
-  gmsh::option::setNumber("General.Terminal", 0);  // our own errors contain its messages
 }
 
 Session::~Session() {
   // rejectUnknownOptions() reports them before the run instead of after it.
   PetscOptionsSetValue(nullptr, "-options_left", "no");
-  gmsh::finalize();
   SlepcFinalize();
   MPI_Finalize();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Starts MPI, PETSc, SLEPc and gmsh at the beginning of main() and ends them at its end.
+/// Starts MPI, PETSc and SLEPc at the beginning of main() and ends them at its end.
 #include <mpi.h>
 
 #include <string>
@@ -9,12 +9,12 @@ namespace squeal {
 
 class Session {
  public:
-  /// Collective. Starts MPI, PETSc, SLEPc and the gmsh library. The options database then contains
+  /// Collective. Starts MPI, PETSc and SLEPc. The options database then contains
   /// the options of the command line, of options files and of the environment, or none with `-help`
   /// and `-version`. If they cannot be read, the constructor prints one line and ends the program
   /// with exit code 1.
   Session(int argc, char** argv);
-  /// Collective. Ends gmsh, SLEPc, PETSc and MPI.
+  /// Collective. Ends SLEPc, PETSc and MPI.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

@@ -2,135 +2,82 @@
 #include "base/system/child.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
-#include <new>
 
+#include "base/system/child_work.hpp"
 #include "base/system/error.hpp"
-#include "base/system/memory.hpp"
+#include "base/system/installation.hpp"
 #include "base/system/text.hpp"
 
 namespace squeal {
 namespace {
 
-constexpr unsigned patience = 30;  // s, until a line reports that the child is still running
+/// A file descriptor that is closed with the object.
+struct OpenFile {
+  int number;
+  ~OpenFile() { close(number); }
+};
 
-enum class Outcome : char { result, failure, noMemory };
-
-void limit(decltype(RLIMIT_AS) resource, double value) {
-  rlimit now{};
-  if (getrlimit(resource, &now) != 0) return;
-  const rlim_t wanted = value;
-  now.rlim_cur = std::min(now.rlim_cur, wanted);
-  setrlimit(resource, &now);
-}
-
-void writeAll(int file, const char* bytes, std::size_t count) {
-  while (count > 0) {
-    const ssize_t written = write(file, bytes, count);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;  // the parent has died, or will notice the missing bytes
-    bytes += written, count -= written;
-  }
-}
-
-void answer(int pipe, Outcome outcome, const char* bytes, std::size_t count) {
-  writeAll(pipe, reinterpret_cast<const char*>(&outcome), 1);
-  writeAll(pipe, reinterpret_cast<const char*>(&count), sizeof count);
-  writeAll(pipe, bytes, count);
-}
-
-char runningText[512];  // a signal handler can only write a text that exists already
-int errorOutput = 2;
-
-void reportStillRunning(int) {
-  [[maybe_unused]] const auto written = write(errorOutput, runningText, std::strlen(runningText));
-}
-
-/// Does the work in the child process and exits. It does not flush, finalise or handle anything
-/// that belongs to the parent.
-[[noreturn]] void serve(int pipe, pid_t parent, const ChildLimits& limits, const ChildWork& work) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);
-  for (int number = 1; number < NSIG; ++number)
-    signal(number, SIG_DFL);  // PETSc's handlers would print a traceback
-  // mpirun signals the whole process group; the parent decides how the run stops.
-  for (const int number : {SIGTERM, SIGUSR1}) signal(number, SIG_IGN);
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_AS, addressSpace() + limits.memoryBytes);
-  if (limits.processorSeconds) limit(RLIMIT_CPU, std::ceil(*limits.processorSeconds));
-  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
-  errorOutput = fcntl(2, F_DUPFD_CLOEXEC, 3);
-  for (int file : {0, 1, 2})
-    dup2(nowhere, file);  // the program reports a crash itself, without the C library's lines
-  std::snprintf(runningText, sizeof runningText, "squeal: %s: %s has been running for %u s\n",
-                limits.subject.c_str(), limits.program.c_str(), patience);
-  signal(SIGALRM, reportStillRunning);
-  alarm(patience);
-  try {
-    const std::vector<char> result = work([&](const std::string& text) {
-      dprintf(errorOutput, "squeal: warning: %s\n", escaped(text).c_str());
-    });
-    answer(pipe, Outcome::result, result.data(), result.size());
-  } catch (const std::bad_alloc&) {
-    answer(pipe, Outcome::noMemory, "", 0);
-  } catch (const std::length_error&) {  // a vector longer than the address space
-    answer(pipe, Outcome::noMemory, "", 0);
-  } catch (const std::exception& error) {
-    const std::string text = error.what();
-    answer(pipe, Outcome::failure, text.data(), text.size());
-  }
-  _exit(0);
-}
-
-/// The reading end of the pipe from a child process. The destructor kills the child.
-struct Child {
-  pid_t id;
-  int pipe;
+/// A child process and the reading end of the pipe from it. The destructor kills the child.
+class Child {
+ public:
+  /// Starts `body(pipe)` in the child, which must not return.
+  template <class Body>
+  Child(const std::string& subject, const Body& body);
   ~Child() {
-    if (id > 0) kill(id, SIGKILL), wait();
-    close(pipe);
+    if (id_ > 0) kill(id_, SIGKILL), wait();
+    close(pipe_);
   }
+  Child(const Child&) = delete;
   int wait() {
     int status = 0;
-    while (waitpid(id, &status, 0) < 0 && errno == EINTR) continue;
-    id = 0;
+    while (waitpid(id_, &status, 0) < 0 && errno == EINTR) continue;
+    id_ = 0;
     return status;
   }
   /// Reads `count` bytes. Returns false if there are fewer.
   bool take(void* to, std::size_t count) const {
     for (char* at = static_cast<char*>(to); count > 0;) {
-      const ssize_t got = read(pipe, at, count);
+      const ssize_t got = read(pipe_, at, count);
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) return false;
       at += got, count -= got;
     }
     return true;
   }
+
+ private:
+  pid_t id_ = 0;
+  int pipe_ = -1;
 };
 
-Child start(const ChildLimits& limits, const ChildWork& work) {
+template <class Body>
+Child::Child(const std::string& subject, const Body& body) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
-    throw Error(limits.subject +
-                ": cannot create a pipe to a child process: " + std::strerror(errno));
+    throw Error(subject + ": cannot create a pipe to a child process: " + std::strerror(errno));
   const pid_t parent = getpid(), id = fork();
-  if (id == 0) serve(ends[1], parent, limits, work);
+  if (id == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);
+    resetSignals();
+    body(ends[1]);
+  }
   close(ends[1]);
   if (id < 0) {
     close(ends[0]);
-    throw Error(limits.subject + ": cannot start a child process: " + std::strerror(errno));
+    throw Error(subject + ": cannot start a child process: " + std::strerror(errno));
   }
-  return {id, ends[0]};
+  id_ = id, pipe_ = ends[0];
 }
 
 std::string endOf(int status, const ChildLimits& limits) {
@@ -145,10 +92,9 @@ std::string endOf(int status, const ChildLimits& limits) {
   return limits.program + " exited with code " + std::to_string(WEXITSTATUS(status));
 }
 
-}  // namespace
-
-std::vector<char> inChild(const ChildLimits& limits, const ChildWork& work) {
-  Child child = start(limits, work);
+/// Returns the result of the child. Throws Error if it has none. `file` is the file of its program;
+/// empty for a function.
+std::vector<char> resultOf(Child& child, const ChildLimits& limits, const std::string& file) {
   Outcome outcome{};
   std::size_t count = 0;
   std::vector<char> result;
@@ -158,10 +104,72 @@ std::vector<char> inChild(const ChildLimits& limits, const ChildWork& work) {
     whole = child.take(result.data(), count);
   }
   const int status = child.wait();
-  if (!whole) throw Error(limits.subject + ": " + endOf(status, limits));
-  if (outcome == Outcome::noMemory) throw Error(limits.subject + ": " + limits.noMemory);
+  const std::string head = limits.subject + ": ";
+  constexpr int notLoaded = 127;  // of the dynamic linker, which has printed the reason
+  if (!whole && !file.empty() && WIFEXITED(status) && WEXITSTATUS(status) == notLoaded)
+    throw Error(head + "the program '" + file + "' cannot be loaded: its libraries are incomplete");
+  if (!whole) throw Error(head + endOf(status, limits));
+  if (outcome == Outcome::noMemory) throw Error(head + limits.noMemory);
   if (outcome == Outcome::failure) throw Error(std::string(result.begin(), result.end()));
+  if (outcome == Outcome::notStarted) {
+    int error = 0;
+    Stream(std::move(result))(error);
+    throw Error(head + "cannot start the program '" + file + "': " + std::strerror(error));
+  }
   return result;
+}
+
+/// Returns a file in memory with these bytes, to read from its beginning.
+int fileOf(const std::vector<char>& bytes, const std::string& subject) {
+  const int file = memfd_create("squeal job", MFD_CLOEXEC);
+  if (file >= 0 && write(file, bytes.data(), bytes.size()) == std::ssize(bytes) &&
+      lseek(file, 0, SEEK_SET) == 0)
+    return file;
+  const int error = errno;
+  if (file >= 0) close(file);
+  throw Error(subject + ": cannot pass a job to a child process: " + std::strerror(error));
+}
+
+/// Replaces the process by a program that reads the job and writes to the pipe. It inherits the
+/// standard error output, and no other file. After fork() of a process with threads only calls of
+/// the system are safe.
+[[noreturn]] void replaceProcess(const char* file, int job, int pipe) {
+  job = fcntl(job, F_DUPFD, 3);  // the numbers 0 to 2 may be free
+  pipe = fcntl(pipe, F_DUPFD, 3);
+  dup2(job, 0);
+  dup2(pipe, 1);
+  if (fcntl(2, F_GETFD) < 0) open("/dev/null", O_WRONLY);
+#ifdef SYS_close_range
+  syscall(SYS_close_range, 3u, ~0u, 0u);
+#endif
+  char* const arguments[] = {const_cast<char*>(file), nullptr};
+  execv(file, arguments);
+  const int error = errno;
+  answer(1, Outcome::notStarted, reinterpret_cast<const char*>(&error), sizeof error);
+  _exit(1);
+}
+
+}  // namespace
+
+std::vector<char> inChild(const ChildLimits& limits, const ChildWork& work) {
+  Child child(limits.subject, [&](int pipe) {
+    closeOutputs();
+    workAndExit(pipe, limits, work);
+  });
+  return resultOf(child, limits, "");
+}
+
+std::vector<char> inProgram(const std::string& name, const ChildLimits& limits,
+                            const std::vector<char>& job) {
+  std::string file;
+  try {
+    file = installedProgram(name);
+  } catch (const Error& error) {
+    throw Error(limits.subject + ": " + error.what());
+  }
+  const OpenFile input{fileOf(Assignment::bytes(limits, job), limits.subject)};
+  Child child(limits.subject, [&](int pipe) { replaceProcess(file.c_str(), input.number, pipe); });
+  return resultOf(child, limits, file);
 }
 
 }  // namespace squeal

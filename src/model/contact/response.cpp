@@ -7,7 +7,7 @@
 #include "model/elasticity/assembly.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/elasticity/face.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "model/mesh/vector.hpp"
 
@@ -135,7 +135,7 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
   const Fields fields = fieldsOf(contact, slip, normalForce, friction);
   elasticity::Triples triples;
   for (const auto& block : mesh.faces) {
-    const auto& table = elasticity::shapeTable(block.type);
+    const auto& table = element::shapeTable(block.type);
     const int n = block.nodesPerFace, size = n * dimension;
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       const auto nodes = block.nodesOf(e);

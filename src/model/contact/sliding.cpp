@@ -5,7 +5,7 @@
 #include "base/system/mpi.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/elasticity/face.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/interfaces/algebra.hpp"
 
 namespace squeal::contact {
@@ -91,7 +91,7 @@ OwnedMat convectedByFaces(const SlidingInput& input) {
                      sums.out()));  // nodes of a face share a cell
   check(MatSetOption(sums, MAT_SYMMETRIC, PETSC_FALSE));
   for (const auto& block : mesh.faces) {
-    const auto& table = elasticity::shapeTable(block.type);
+    const auto& table = element::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       const interfaces::SlaveSide* slave =
           input.interfaces.slaveOf(mesh.surfaces[block.surface[e]]);

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 
 namespace squeal::coupling {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 /// The middle of a quadrilateral follows from the same rule in both directions. quad8 is a quad9
 /// with the middle node x_m = Σ x_e / 2 − Σ x_c / 4.
 std::vector<Point> controlPoints(const Face& face) {
-  const auto& table = elasticity::shapeTable(face.type);
+  const auto& table = element::shapeTable(face.type);
   const auto& x = face.points;
   if (table.order == 1) return x;
   std::vector<Point> control = x;

@@ -8,7 +8,7 @@
 
 #include "base/petsc/owned.hpp"
 #include "model/elasticity/element.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {

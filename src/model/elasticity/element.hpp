@@ -4,12 +4,15 @@
 /// PETSc objects. Not collective.
 #include <vector>
 
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/material/material.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {
 
+using element::ShapeTable;
+using element::shapeTable;
+using element::stiffnessTable;
 using material::Hooke;
 using material::Law;
 using material::Material;

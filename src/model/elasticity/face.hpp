@@ -4,11 +4,12 @@
 /// plane, a line), as small dense arrays from coordinates. Not collective.
 #include <vector>
 
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {
 
+using element::ShapeTable;
 using mesh::Point;
 
 /// Returns ∫ φᵢ n dA on a face (a line in the plane), [node][3], m² (m in the plane). The unit

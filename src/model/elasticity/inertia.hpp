@@ -7,11 +7,12 @@
 
 #include "model/elasticity/motion.hpp"
 #include "model/elasticity/settings.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {
 
+using element::ShapeTable;
 using mesh::Point;
 
 /// Returns the mass

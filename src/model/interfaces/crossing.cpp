@@ -11,7 +11,7 @@
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/elasticity/face.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "model/mesh/vector.hpp"
 
@@ -41,7 +41,7 @@ Around integrals(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
   exchange.largest(around.body);
   const std::string& surface = all.slaves[interface].surface;
   for (const auto& block : mesh.faces) {
-    const auto& table = elasticity::shapeTable(block.type);
+    const auto& table = element::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       if (mesh.surfaces[block.surface[e]] != surface) continue;
       const auto nodes = block.nodesOf(e);

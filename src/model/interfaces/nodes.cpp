@@ -11,7 +11,7 @@
 #include "base/system/text.hpp"
 #include "model/coupling/exchange.hpp"
 #include "model/elasticity/face.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "model/interfaces/candidates.hpp"
 #include "model/interfaces/carried.hpp"
@@ -33,7 +33,7 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
   FaceSums local{elasticity::nodalVector(mesh), elasticity::nodalVector(mesh)},
       sums{elasticity::nodalVector(mesh), elasticity::nodalVector(mesh)};
   for (const auto& block : mesh.faces) {
-    const auto& table = elasticity::shapeTable(block.type);
+    const auto& table = element::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       const SlaveSide* slave = all.slaveOf(mesh.surfaces[block.surface[e]]);
       if (!slave) continue;

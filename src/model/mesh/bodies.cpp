@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "model/mesh/bodies.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -19,12 +17,7 @@ namespace {
 void requireSupported(const WholeBlock& block, const std::string& body) {
   static const std::set<int> supported = {2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 16, 17, 18, 19};
   if (supported.count(block.type)) return;
-  std::string name;
-  int dimension = 0, order = 0, nodes = 0, corners = 0;
-  std::vector<double> local;
-  gmsh::model::mesh::getElementProperties(block.type, name, dimension, order, nodes, local,
-                                          corners);
-  throw Error("option -mesh_file: group '" + body + "' has cells '" + name +
+  throw Error("option -mesh_file: group '" + body + "' has cells '" + block.typeName +
               "'; supported are tri3, tri6, quad4, quad8, quad9, tet4, tet10, hex8, hex20, hex27, "
               "wedge6, wedge15, wedge18, pyramid5, pyramid13, pyramid14");
 }
@@ -97,7 +90,7 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
                                 [&](const auto& c) { return c.type == block.type; });
       if (known == mesh.cells.end())
         known = mesh.cells.insert(
-            known, WholeBlock{block.type, block.nodesPerElement, block.corners, {}, {}, {}});
+            known, WholeBlock{block.type, block.nodesPerElement, block.corners, {}, {}, {}, {}});
       for (auto tag : block.tag) {
         const auto [entry, isNew] = bodyOf.emplace(tag, b);
         if (!isNew && entry->second == b)

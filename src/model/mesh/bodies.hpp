@@ -2,6 +2,7 @@
 #pragma once
 /// The cells of the bodies and their nodes. Not collective: for rank 0 only.
 #include "model/mesh/gmsh_model.hpp"
+#include "model/mesh/whole.hpp"
 
 namespace squeal::mesh {
 

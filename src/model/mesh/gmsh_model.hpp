@@ -1,37 +1,16 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Interface to the gmsh library: a file that it has read or meshed, and the physical groups. Not
-/// collective: for rank 0 only.
-#include "base/system/stream.hpp"
-#include "model/mesh/whole.hpp"
+/// The mesh that gmsh has read from a file or made, with its physical groups. Not collective: for
+/// rank 0 only.
+#include "model/mesh/mesh.hpp"
+#include "model/meshfile/contents.hpp"
 #include "model/meshfile/settings.hpp"
 
 namespace squeal::mesh {
 
-/// The elements of one physical group, with nodes as indices for GmshModel::point().
-struct GroupElements {
-  int dimension = 0;
-  std::vector<WholeBlock> blocks;
-};
-
-/// The mesh in gmsh: its nodes in gmsh's order, and its groups by the names that options use.
-struct GmshContents {
-  std::vector<Point> points;
-  std::vector<PetscInt> tags;
-  std::map<std::string, GroupElements> groups;
-  int dimension = 0;  ///< the largest of an element
-  std::vector<PetscInt> ungrouped;
-  std::vector<char> atPoint;  ///< [node] 1: at a point of the geometry
-  PetscInt droppedNodes = 0;
-};
-void fields(Stream& stream, GroupElements& group);
-void fields(Stream& stream, GmshContents& contents);
-
-/// Returns the name of a group as options use it, with underscores in place of blanks.
-std::string groupName(std::string name);
-
-/// A GmshModel is the mesh that gmsh reads from a file or makes of a geometry. gmsh works in a
-/// child process: a crash there becomes an Error here, and its memory is freed with it.
+/// A GmshModel is the mesh that gmsh reads from a file or makes of a geometry. The
+/// program `squeal_gmsh` calls gmsh in a child process: a crash there becomes an Error here, and
+/// its memory is freed with it.
 class GmshModel {
  public:
   /// Reads or meshes the file. Throws Error for a file that is not what its name says or that gmsh
@@ -41,7 +20,7 @@ class GmshModel {
 
   /// Returns a group, borrowed. If the mesh has none of this name, throws Error, naming the group,
   /// the option that needs it and the groups of the mesh.
-  const GroupElements& group(const std::string& name, const std::string& wantedBy) const;
+  const meshfile::GroupElements& group(const std::string& name, const std::string& wantedBy) const;
   const Point& point(PetscInt index) const { return contents_.points[index]; }
   PetscInt tag(PetscInt index) const { return contents_.tags[index]; }
   PetscInt nodeCount() const { return contents_.points.size(); }
@@ -54,10 +33,10 @@ class GmshModel {
   /// Returns the number of nodes of the file that are in no element; gmsh drops them.
   PetscInt droppedNodes() const { return contents_.droppedNodes; }
   /// Returns all groups by the names that options use: see groupName().
-  const std::map<std::string, GroupElements>& groups() const { return contents_.groups; }
+  const std::map<std::string, meshfile::GroupElements>& groups() const { return contents_.groups; }
 
  private:
-  GmshContents contents_;
+  meshfile::Contents contents_;
 };
 
 }  // namespace squeal::mesh

@@ -7,6 +7,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/system/text.hpp"
+#include "model/element/shape.hpp"
 #include "model/mesh/bodies.hpp"
 #include "model/mesh/twins.hpp"
 #include "model/mesh/vector.hpp"
@@ -58,7 +59,7 @@ std::vector<CellReference> references(WholeMesh& mesh) {
 
 /// All named groups that are not bodies, read once before nodes are split.
 struct NamedElements {
-  std::map<std::string, GroupElements> groups;
+  std::map<std::string, meshfile::GroupElements> groups;
   std::set<PetscInt> nodes() const {
     std::set<PetscInt> all;
     for (const auto& [name, group] : groups)
@@ -169,7 +170,7 @@ class Splitter {
 
 /// Returns the nodes of a group after the split. An element that bounds cells of both sides gives
 /// the nodes of both.
-std::vector<PetscInt> groupNodes(const GroupElements& group, const Splitter& splitter) {
+std::vector<PetscInt> groupNodes(const meshfile::GroupElements& group, const Splitter& splitter) {
   std::set<PetscInt> nodes;
   for (const auto& block : group.blocks)
     for (std::size_t e = 0; e < block.tag.size(); ++e)
@@ -214,7 +215,7 @@ int outwardSign(const WholeMesh& mesh, std::span<const PetscInt> corners, const 
 }
 
 /// Throws Error if a face is there twice, since its pressure and contact area would be doubled.
-void requireDistinctFaces(const std::string& surface, const GroupElements& group) {
+void requireDistinctFaces(const std::string& surface, const meshfile::GroupElements& group) {
   const auto tag = [&](const ElementPlace& place) {
     return std::to_string(group.blocks[place.block].tag[place.element]);
   };
@@ -263,6 +264,13 @@ PetscInt boundedCell(const Splitter& splitter, const SurfaceUse& use, const std:
   return cells[0];
 }
 
+/// Throws Error unless the faces are of first or second order, as the cells are.
+void requireSupported(const WholeBlock& block, const std::string& surface) {
+  if (element::isKnown(block.type)) return;
+  throw Error("option -mesh_file: group '" + surface + "' has faces '" + block.typeName +
+              "'; supported are line2, line3, tri3, tri6, quad4, quad8, quad9");
+}
+
 /// Returns the block for faces of this type, with a new one if there is none.
 WholeFaces& facesOfType(WholeMesh& mesh, const WholeBlock& like) {
   for (auto& faces : mesh.faces)
@@ -280,6 +288,7 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
     mesh.surfaces.push_back(name);
     requireDistinctFaces(name, named.groups.at(name));
     for (const auto& block : named.groups.at(name).blocks) {
+      requireSupported(block, name);
       auto& faces = facesOfType(mesh, block);
       for (std::size_t e = 0; e < block.tag.size(); ++e) {
         const PetscInt cell = boundedCell(splitter, use, name, block, e);
@@ -324,11 +333,6 @@ void findParts(WholeMesh& mesh) {
 }
 
 }  // namespace
-
-void fields(Stream& stream, WholeBlock& block) {
-  auto& [type, nodesPerElement, corners, nodes, label, tag] = block;
-  stream(type, nodesPerElement, corners, nodes, label, tag);
-}
 
 PetscInt WholeMesh::cellCount() const {
   PetscInt count = 0;

@@ -2,31 +2,15 @@
 #pragma once
 /// The whole mesh, which rank 0 keeps between reading and distribution. Not
 /// collective: for rank 0 only.
-#include "base/system/stream.hpp"
 #include "model/mesh/mesh.hpp"
+#include "model/meshfile/contents.hpp"
 #include "model/meshfile/settings.hpp"
 
 namespace squeal::mesh {
 
-/// The cells or faces of one gmsh element type in the whole mesh.
-struct WholeBlock {
-  int type = 0, nodesPerElement = 0, corners = 0;
-  std::vector<PetscInt> nodes;  ///< [element][node] index into WholeMesh::points
-  std::vector<int> label;       ///< [element] body (cells) or surface (faces)
-  std::vector<PetscInt> tag;    ///< [element] gmsh's tag
-
-  std::span<PetscInt> nodesOf(std::size_t element) {
-    return std::span(nodes).subspan(element * nodesPerElement, nodesPerElement);
-  }
-  std::span<const PetscInt> nodesOf(std::size_t element) const {
-    return std::span(nodes).subspan(element * nodesPerElement, nodesPerElement);
-  }
-  std::span<const PetscInt> cornersOf(std::size_t element) const {
-    return nodesOf(element).first(corners);
-  }
-};
-
-void fields(Stream& stream, WholeBlock& block);
+/// The cells or faces of one gmsh element type in the whole mesh, with nodes as indices into
+/// WholeMesh::points.
+using WholeBlock = meshfile::ElementBlock;
 
 /// The boundary faces of one gmsh element type in the whole mesh.
 struct WholeFaces : WholeBlock {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "model/meshfile/format.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -16,18 +14,18 @@
 namespace squeal::meshfile {
 namespace {
 
-struct Format {
+struct Known {
   const char* ending;
-  std::vector<const char*> starts;  ///< beginnings, of which the file has one
-  const char* part;  ///< part of the gmsh library that reads it; empty if always there
+  std::vector<const char*> starts;  ///< the file has one of these beginnings
+  const char* part;                 ///< see Format
   FileKind kind;
 };
 
 /// Returns the formats that are data.
-const std::vector<Format>& formats() {
+const std::vector<Known>& formats() {
   const std::vector<const char*> step{"ISO-10303-21"},
       brep{"DBRep_DrawableShape", "CASCADE Topology", "\nCASCADE Topology"}, any{""};
-  static const std::vector<Format> list{
+  static const std::vector<Known> list{
       {".msh", {"$MeshFormat"}, "", FileKind::msh},
       {".unv", {"    -1"}, "", FileKind::unv},
       {".med", {"\x89HDF"}, "Med", FileKind::mesh},
@@ -56,19 +54,13 @@ bool beginsWith(const std::string& file, const std::string& start) {
   return stream.read(begin.data(), begin.size()) && begin == start;
 }
 
-bool isBuiltIn(const std::string& part) {
-  std::string parts;
-  gmsh::option::getString("General.BuildOptions", parts);
-  const auto list = split(parts, ' ');
-  return part.empty() || std::find(list.begin(), list.end(), part) != list.end();
-}
-
 [[noreturn]] void refuse(const std::string& file, const std::string& ending) {
   const std::string option = "option -mesh_file " + file + ": ";
-  std::vector<std::string> known;
+  std::vector<std::string> known, rare;
   for (const auto& format : formats())
-    if (isBuiltIn(format.part)) known.push_back(format.ending);
-  const std::string list = joined(known) + ", and geometries .geo, .geo_unrolled";
+    (format.kind == FileKind::mesh ? rare : known).push_back(format.ending);
+  const std::string list = joined(known) + ", geometries .geo, .geo_unrolled, and " + joined(rare) +
+                           " if gmsh was built for them";
   if (ending == ".inp")
     throw Error(option +
                 "gmsh writes Abaqus input files but cannot read them; have the mesh written in "
@@ -85,21 +77,21 @@ bool isBuiltIn(const std::string& part) {
 
 }  // namespace
 
-FileKind requireSound(const std::string& file) {
+Format requireSound(const std::string& file) {
   const std::string option = "option -mesh_file " + file + ": ", ending = endingOf(file);
   if (const auto why = whyUnreadable(file); !why.empty()) throw Error(option + why);
   if (!std::filesystem::is_regular_file(file)) throw Error(option + "not a regular file");
-  const std::string beside = file + ".opt";
-  if (std::filesystem::exists(beside))
-    throw Error(option + "gmsh would run the script '" + beside + "' next to it; remove it");
-  if (ending == ".geo" || ending == ".geo_unrolled") return FileKind::geometry;
+  const std::string script = file + ".opt";
+  if (std::filesystem::exists(script))
+    throw Error(option + "gmsh would run the script '" + script + "' next to it; remove it");
+  if (ending == ".geo" || ending == ".geo_unrolled") return {FileKind::geometry, ending, ""};
   for (const auto& format : formats()) {
-    if (ending != format.ending || !isBuiltIn(format.part)) continue;
+    if (ending != format.ending) continue;
     if (std::none_of(format.starts.begin(), format.starts.end(),
                      [&](const char* start) { return beginsWith(file, start); }))
       throw Error(option + "not a " + ending + " file: it does not begin with '" +
                   (format.kind == FileKind::mesh ? "HDF" : format.starts[0]) + "'");
-    return format.kind;
+    return {format.kind, ending, format.part};
   }
   refuse(file, ending);
 }

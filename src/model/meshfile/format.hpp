@@ -13,9 +13,17 @@ enum class FileKind {
   mesh       ///< another mesh format
 };
 
-/// Returns the kind of a file. Throws Error if it cannot be read, and unless it is a geometry by
+/// The format of a file.
+struct Format {
+  FileKind kind;
+  std::string ending;  ///< of the file's name, ".msh"
+  std::string part;    ///< part of the gmsh library that reads it; empty if always there
+};
+
+/// Returns the format of a file. Throws Error if it cannot be read, and unless it is a geometry by
 /// its name, or a mesh or shape by its name and its first line: gmsh runs any other file as a
-/// script. Throws Error also if an options file of gmsh lies beside it, which gmsh would run too.
-FileKind requireSound(const std::string& file);
+/// script. Throws Error also if there is an options file of gmsh next to it, which gmsh would run
+/// too.
+Format requireSound(const std::string& file);
 
 }  // namespace squeal::meshfile

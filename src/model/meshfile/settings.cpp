@@ -64,4 +64,10 @@ Settings Settings::given() {
   return settings;
 }
 
+void rejectShapeMesh(const std::string& file, const ShapeMesh& shape) {
+  for (const auto& option : shape.given)
+    throw Error("option " + option + ": it is for shapes, .step and the like; -mesh_file " + file +
+                " is a mesh, or a geometry that sets this itself");
+}
+
 }  // namespace squeal::meshfile

@@ -33,4 +33,7 @@ struct Settings {
 /// Returns the parameters in items "name=number". Throws Error as Settings::given() does.
 std::vector<GeometryParameter> parametersOf(const std::vector<std::string>& items);
 
+/// Throws Error if an option for shapes is given, for a file that is none.
+void rejectShapeMesh(const std::string& file, const ShapeMesh& shape);
+
 }  // namespace squeal::meshfile

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "algebra/linalg/lu.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/mesh/vector.hpp"
 #include "model/mortar/surface.hpp"
 
@@ -162,7 +162,7 @@ std::vector<double> coveredIntegrals(const FaceMoments& moments, std::span<const
 
 std::vector<double> wholeIntegrals(const Face& slave, std::span<const double> alpha) {
   const FaceType& type = faceType(slave.type);
-  const auto& table = elasticity::shapeTable(slave.type);
+  const auto& table = element::shapeTable(slave.type);
   std::vector<double> sum(slave.points.size());
   for (int q = 0; q < table.points(); ++q) {
     const FaceShape shape = faceShape(type, {table.point[3 * q], table.point[3 * q + 1]});

@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "base/petsc/check.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 
 namespace squeal::mortar {
 namespace {
@@ -60,7 +60,7 @@ std::vector<Face> facesOf(const mesh::Mesh& mesh, const std::string& surface) {
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       if (block.surface[e] != label) continue;
       const auto nodes = block.nodesOf(e);
-      const std::size_t corners = elasticity::shapeTable(block.type).corners;
+      const std::size_t corners = element::shapeTable(block.type).corners;
       Face& face = faces.emplace_back();
       face.type = block.type;
       face.sign = block.sign[e];

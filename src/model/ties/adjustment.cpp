@@ -11,7 +11,7 @@
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/elasticity/element.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "model/mesh/vector.hpp"
 
@@ -111,7 +111,7 @@ void follow(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Move
     for (PetscInt node : block.nodes) onSurface[node] = 1;
   exchange.largest(onSurface);
   for (const auto& block : mesh.cells) {
-    const std::size_t corners = elasticity::shapeTable(block.type).corners;
+    const std::size_t corners = element::shapeTable(block.type).corners;
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
       const auto nodes = block.nodesOf(e);
       const auto linear = elasticity::straightened(block.type, picked(moves, nodes));
@@ -151,7 +151,7 @@ std::vector<Folded> foldedCells(const mesh::Mesh& mesh, const std::vector<Point>
       cell = formatted("cell %" PetscInt_FMT
                        " (%s) of group '%s', of which the node at %s moves by "
                        "%.3g m",
-                       first, elasticity::shapeTable(block.type).name.c_str(),
+                       first, element::shapeTable(block.type).name.c_str(),
                        mesh.bodies[block.body[e]].c_str(), text(file[most]).c_str(), way(most));
     }
   return folded;
@@ -195,7 +195,7 @@ std::vector<Strain> strainsOf(const mesh::Mesh& mesh, const std::vector<Point>& 
   std::vector<Strain> strains(interfaces);
   const auto way = [&](PetscInt node) { return tieOf[node] > 0 ? length(moves[node]) : 0; };
   for (const auto& block : mesh.cells) {
-    const std::size_t corners = elasticity::shapeTable(block.type).corners;
+    const std::size_t corners = element::shapeTable(block.type).corners;
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
       const auto nodes = block.nodesOf(e);
       const PetscInt most = *std::max_element(

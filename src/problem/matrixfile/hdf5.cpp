@@ -7,7 +7,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/system/child.hpp"
-#include "base/system/memory.hpp"
+#include "base/system/process_memory.hpp"
 #include "base/system/stream.hpp"
 #include "base/system/text.hpp"
 #include "problem/matrixfile/hdf5_file.hpp"

@@ -10,14 +10,14 @@
 #include "base/system/concatenation.hpp"
 #include "base/system/mpi.hpp"
 #include "model/elasticity/face.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/mesh/vector.hpp"
 
 namespace squeal::sound {
 namespace {
 
-using elasticity::ShapeTable;
-using elasticity::shapeTable;
+using element::ShapeTable;
+using element::shapeTable;
 using mesh::Point;
 using Corners = std::vector<int>;
 /// The global numbers of the corners of a face, ascending; padded with −1 at the front.

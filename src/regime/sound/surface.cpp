@@ -15,7 +15,7 @@
 namespace squeal::sound {
 namespace {
 
-using elasticity::shapeTable;
+using element::shapeTable;
 using Marks = std::vector<unsigned char>;  // [local node]
 
 /// Collective. Returns nodal values, [local node][component]; images get the values of their

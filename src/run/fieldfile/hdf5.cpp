@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "run/fieldfile/hdf5.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -14,6 +12,7 @@
 #include "base/petsc/hdf5.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
+#include "model/element/shape.hpp"
 #include "run/fieldfile/hdf5_driver.hpp"
 
 namespace squeal::fieldfile {
@@ -175,12 +174,7 @@ void Hdf5File::writeMesh(const mesh::Mesh& mesh) {
 }
 
 void Hdf5File::writeCells(const mesh::Mesh& mesh, int type) {
-  std::string name;
-  int dimension = 0, order = 0, nodesPerCell = 0, corners = 0;
-  std::vector<double> localCoordinates;
-  gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodesPerCell,
-                                          localCoordinates, corners);
-
+  const auto& table = element::shapeTable(type);
   std::vector<PetscInt> nodes, bodies, tags;
   for (const auto& block : mesh.cells) {
     if (block.type != type) continue;
@@ -189,11 +183,11 @@ void Hdf5File::writeCells(const mesh::Mesh& mesh, int type) {
     tags.insert(tags.end(), block.tag.begin(), block.tag.end());
   }
   const std::string group = "/mesh/cells_" + std::to_string(type);
-  writeRows<PetscInt>(group, "nodes", nodesPerCell, nodes);
+  writeRows<PetscInt>(group, "nodes", table.nodes, nodes);
   writeRows<PetscInt>(group, "body", 1, bodies);
   writeRows<PetscInt>(group, "tag", 1, tags);
   writeAttribute(group, "gmsh_element_type", PetscInt{type});
-  writeAttribute(group, "gmsh_element_name", name);
+  writeAttribute(group, "gmsh_element_name", table.gmshName);
 }
 
 void Hdf5File::writeNodeVector(const std::string& group, const std::string& name, Vec values) {

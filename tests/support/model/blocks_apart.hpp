@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Two blocks on each other that are meshed apart, with any cells, as texts of gmsh's format.
-#include <gmsh.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "model/element/shape.hpp"
 #include "model/mortar/basis.hpp"
 #include "support/algebra/dense.hpp"
 #include "support/model/model.hpp"
@@ -143,27 +142,14 @@ class BlockWriter {
   }
   /// Nodes at their places in a cell or face with these corners.
   void element(int type, const std::vector<mesh::Point>& corners, int group) {
-    std::string name;
-    int dimension = 0, order = 0, count = 0, primary = 0;
-    std::vector<double> reference;
-    gmsh::model::mesh::getElementProperties(type, name, dimension, order, count, reference,
-                                            primary);
-    const std::size_t flat = dimension == 3 ? corners.size() / 2 : corners.size();
-    const auto& base = mortar::faceType(flat == 2 ? 1 : flat == 3 ? 2 : 3);
+    const auto& table = element::shapeTable(type);
     std::ostringstream out;
     out << type << " 2 " << group << " " << group;
-    for (int i = 0; i < count; ++i) {
-      const double* r = &reference[std::size_t(i * dimension)];
-      const auto shape = mortar::faceShape(base, {r[0], dimension > 1 ? r[1] : 0});
+    for (std::size_t i = 0; i < std::size_t(table.nodes); ++i) {
       mesh::Point x{};
-      for (std::size_t c = 0; c < flat; ++c)
-        for (std::size_t d = 0; d < 3; ++d) {
-          if (dimension < 3)
-            x[d] += shape.value[c] * corners[c][d];
-          else
-            x[d] += shape.value[c] *
-                    ((1 - r[2]) / 2 * corners[c][d] + (1 + r[2]) / 2 * corners[c + flat][d]);
-        }
+      for (std::size_t c = 0; c < corners.size(); ++c)
+        for (std::size_t d = 0; d < 3; ++d)
+          x[d] += table.cornerValue[i * corners.size() + c] * corners[c][d];
       out << " " << node(x);
     }
     elements_.push_back(out.str());

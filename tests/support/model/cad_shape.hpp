@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A shape as a CAD program writes it: a plate with a block on it.
-#include <gmsh.h>
-
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
 #include <string>
 
+#include "support/model/gmsh_library.hpp"
 #include "support/model/model.hpp"
 
 namespace squeal::test {
@@ -24,6 +23,7 @@ inline std::string plateAndBlock(const std::string& name,
   int rank = 0;
   check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   if (rank == 0) {
+    startGmsh();
     gmsh::clear();
     gmsh::model::occ::addBox(0, 0, 0, 100, 100, 10);
     gmsh::model::occ::addBox(30, 30, 10, 40, 40, 5);

@@ -11,7 +11,7 @@
 
 #include "model/coupling/coupling.hpp"
 #include "model/elasticity/face.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "support/model/blocks_apart.hpp"
 #include "support/model/model.hpp"
 
@@ -109,7 +109,7 @@ inline std::vector<double> nodalLoads(const Case& c, const std::string& group) {
       if (block.surface[e] != label) continue;
       std::vector<Point> points;
       for (PetscInt node : block.nodesOf(e)) points.push_back(c.mesh.coordinates[node]);
-      const auto mass = elasticity::faceMass(elasticity::shapeTable(block.type), points);
+      const auto mass = elasticity::faceMass(element::shapeTable(block.type), points);
       const int n = block.nodesPerFace;
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) load[c.mesh.globalNode[block.nodesOf(e)[i]]] += mass[i * n + j];

@@ -10,7 +10,7 @@
 
 #include "base/system/text.hpp"
 #include "model/elasticity/elasticity.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "support/model/model.hpp"
 
 namespace squeal::test::patch {
@@ -73,7 +73,7 @@ class Patch : public testing::TestWithParam<Element> {
     mesh = meshes[GetParam().label];
     bodies = assembleBodies(mesh);
     std::set<std::string> names;
-    for (const auto& block : mesh.cells) names.insert(elasticity::shapeTable(block.type).name);
+    for (const auto& block : mesh.cells) names.insert(element::shapeTable(block.type).name);
     EXPECT_EQ(joined({names.begin(), names.end()}, " "), GetParam().names);
   }
   int dimension() const { return GetParam().dimension; }

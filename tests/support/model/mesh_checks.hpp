@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/elasticity/face.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/mesh/mesh.hpp"
 #include "support/harness/ranks.hpp"
 #include "support/run/case.hpp"
@@ -88,7 +88,7 @@ inline std::map<std::string, mesh::Point> areaVectors(const mesh::Mesh& mesh) {
               mesh.coordinates[block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) +
                                            static_cast<std::size_t>(i)]]);
         const auto normals =
-            elasticity::faceNormals(elasticity::shapeTable(block.type), points, block.sign[e]);
+            elasticity::faceNormals(element::shapeTable(block.type), points, block.sign[e]);
         for (std::size_t i = 0; i < normals.size(); ++i) sum[i % 3] += normals[i];
       }
     for (auto& component : sum) component = total(component);

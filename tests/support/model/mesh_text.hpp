@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Small meshes as texts of gmsh's format, sound as they stand.
-#include <gmsh.h>
-
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -65,16 +63,6 @@ inline std::string changed(std::string text, const std::string& was, const std::
   const auto at = text.find(was);
   if (at == std::string::npos) throw std::logic_error("no '" + was + "' to change");
   return text.replace(at, was.size(), is);
-}
-
-/// Converts a mesh file that gmsh can read to the binary format. Not collective.
-inline void writeBinaryMsh(const std::string& from, const std::string& to, double version) {
-  gmsh::clear();
-  gmsh::open(from);
-  gmsh::option::setNumber("Mesh.MshFileVersion", version);
-  gmsh::option::setNumber("Mesh.Binary", 1);
-  gmsh::write(to);
-  gmsh::clear();
 }
 
 }  // namespace squeal::test

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/mortar/face.hpp"
 
 namespace squeal::test {
@@ -25,7 +25,7 @@ inline constexpr int faceTypes[] = {1, 8, 2, 9, 3, 16, 10};
 /// edge, or of the face, by up to `bulge` per component.
 inline Face randomFace(std::mt19937& random, int type, const Point& centre, double radius,
                        double bulge) {
-  const auto& table = elasticity::shapeTable(type);
+  const auto& table = element::shapeTable(type);
   Face face;
   face.type = type;
   const auto bulging = [&](Point p) {

@@ -8,7 +8,7 @@
 #include "model/elasticity/elasticity.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/inertia.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/mesh/mesh.hpp"
 #include "support/algebra/symmetric.hpp"
 #include "support/model/element_patch.hpp"
@@ -339,7 +339,7 @@ TEST(CurvedTetrahedra, ConvectionAndStressTakeTheSamePoints) {
         {0, 0, 0},     {1, 0, 0},   {0, 1, 0},   {0, 0, 1},     {0.5, inwards, inwards},
         {0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0, 0.5, 0.5}, {0.5, 0, 0.5}};
   };
-  const auto& table = elasticity::shapeTable(11);
+  const auto& table = element::shapeTable(11);
   EXPECT_EQ(elasticity::gradientTable(table, nodes(0.16)).points(), 14);
   EXPECT_EQ(elasticity::gradientTable(table, nodes(0.19)).points(), 4);
   const std::vector<Point> velocity(10, Point{1, 2, 3});
@@ -361,7 +361,7 @@ TEST(Mass, LinearSimplicesHaveTheClosedFormula) {
   const std::vector<Point> triangle{{0, 0, 0}, {1.2, 0.1, 0}, {0.2, 0.8, 0}},
       tetrahedron{{0, 0, 0}, {2, 0, 0}, {1, 3, 0}, {0, 1, 4}};
   for (const auto& [type, nodes, volume] : {std::tuple{2, triangle, 0.47}, {4, tetrahedron, 4.0}}) {
-    const auto& table = elasticity::shapeTable(type);
+    const auto& table = element::shapeTable(type);
     EXPECT_LT(*std::min_element(table.weight.begin(), table.weight.end()), 0) << type;
     const auto mass = elasticity::mass(table, nodes, density, elasticity::MassKind::consistent);
     const std::size_t n = nodes.size();
@@ -388,24 +388,24 @@ TEST(StiffnessRule, IsExactOnStraightCells) {
   for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {2, 0}})
     tri6.push_back(middle(triangle[i], triangle[j]));
   for (const auto& [type, nodes, points] : {std::tuple{11, tet10, 4}, {9, tri6, 3}}) {
-    const auto& rule = elasticity::stiffnessTable(type);
+    const auto& rule = element::stiffnessTable(type);
     EXPECT_EQ(rule.points(), points);
     const material::Law law{material::isotropic(young, poisson, rule.dimension, false), {}};
     const auto few = elasticity::stiffness(rule, nodes, law, false),
-               many = elasticity::stiffness(elasticity::shapeTable(type), nodes, law, false);
+               many = elasticity::stiffness(element::shapeTable(type), nodes, law, false);
     const double largest = *std::max_element(many.begin(), many.end());
     for (std::size_t i = 0; i < many.size(); ++i)
       EXPECT_NEAR(few[i], many[i], 1e-11 * largest);  // gmsh's points for tetrahedra have 13 digits
   }
   for (int type : {2, 3, 4, 5, 6, 7, 10, 12, 13, 14, 16, 17, 18, 19})
-    EXPECT_EQ(&elasticity::stiffnessTable(type), &elasticity::shapeTable(type)) << type;
+    EXPECT_EQ(&element::stiffnessTable(type), &element::shapeTable(type)) << type;
 }
 
 // ∫ uᵃ vᵇ wᶜ over the pyramid |u|, |v| ≤ 1 − w, 0 ≤ w ≤ 1, and closed in Gamma functions: the
 // points are those of the collapsed cube, and their weights sum to its volume.
 TEST(PyramidRule, IntegratesPolynomialsExactly) {
   for (int type : {7, 14, 19}) {
-    const auto& table = elasticity::shapeTable(type);
+    const auto& table = element::shapeTable(type);
     const int degree = 2 * table.order + 1;
     for (int a = 0; a <= degree; ++a)
       for (int b = 0; a + b <= degree; ++b)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // -mesh_straighten: where nodes go, who follows, and what is reported.
-#include <gmsh.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,6 +9,7 @@
 #include "model/mesh/mesh.hpp"
 #include "support/harness/folder_files.hpp"
 #include "support/harness/ranks.hpp"
+#include "support/model/gmsh_library.hpp"
 #include "support/model/mesh_checks.hpp"
 #include "support/model/model.hpp"
 #include "support/run/case.hpp"
@@ -99,6 +99,7 @@ std::string bentLayers(const std::string& name, bool recombine) {
   int rank = 0;
   check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   if (rank == 0) {
+    test::startGmsh();
     gmsh::clear();
     gmsh::onelab::clear();
     for (const auto& [parameter, value] :
@@ -191,8 +192,9 @@ TEST(Straighten, MovesNothingThatIsStraight) {
 
 // The nodes with straight edges are those of the linear cell: a linear field of places is kept.
 TEST(Straighten, KeepsWhatIsStraightOnEveryElement) {
+  test::startGmsh();
   for (int type : {9, 10, 11, 12, 13, 14, 16, 17, 18, 19}) {
-    const auto& table = elasticity::shapeTable(type);
+    const auto& table = element::shapeTable(type);
     std::string name;
     int dimension = 0, order = 0, nodes = 0, corners = 0;
     std::vector<double> local;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Shapes of CAD programs: their labels are groups, they are meshed as asked, and solids that touch
 // share nodes.
-#include <gmsh.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "support/harness/messages.hpp"
 #include "support/model/cad_shape.hpp"
 #include "support/model/mesh_checks.hpp"
@@ -49,7 +48,7 @@ const char* const pressures = "-load_bottom_pressure 1 -load_top_pressure 1 -loa
 
 TEST(Cad, LabelsAreGroups) {
   const Mesh mesh = readShape(test::plateAndBlock("labels.step"), pressures);
-  EXPECT_EQ(elasticity::shapeTable(mesh.cells.at(0).type).name, "tet10");
+  EXPECT_EQ(element::shapeTable(mesh.cells.at(0).type).name, "tet10");
   EXPECT_NEAR(volume(mesh, "disc"), 1e5, 1e-6);
   EXPECT_NEAR(volume(mesh, "brake_pad"), 8e3, 1e-6);
   const auto areas = test::areaVectors(mesh);
@@ -111,7 +110,7 @@ TEST(Cad, SizeOrderAndScale) {
   const auto file = test::plateAndBlock("size.step");
   const Mesh fine = readShape(file, "-mesh_size 8"),
              linear = readShape(file, "-mesh_size 8 -mesh_order 1");
-  EXPECT_EQ(elasticity::shapeTable(linear.cells.at(0).type).name, "tet4");
+  EXPECT_EQ(element::shapeTable(linear.cells.at(0).type).name, "tet4");
   EXPECT_EQ(linear.totalCells, fine.totalCells);
   // The edges on the curves are at most 8; those inside may be longer by a half.
   EXPECT_LE(longestEdge(fine), 12 * 1.2);

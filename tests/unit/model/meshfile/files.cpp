@@ -14,6 +14,7 @@
 #include "model/elasticity/element.hpp"
 #include "model/mesh/gmsh_model.hpp"
 #include "support/harness/messages.hpp"
+#include "support/model/gmsh_library.hpp"
 #include "support/model/mesh_checks.hpp"
 #include "support/model/mesh_text.hpp"
 #include "support/model/model.hpp"
@@ -152,6 +153,7 @@ TEST(MeshFile, ParametricNodesOfVersion2AreRead) {
   const auto file = test::writeFile("parametric.msh", text);
   const std::string binary = SQUEAL_OUTPUT_DIR "/parametric_binary.msh";
   if (rank() == 0) {
+    test::startGmsh();
     gmsh::clear();
     gmsh::open("meshes/ring.geo");
     gmsh::model::mesh::generate(3);
@@ -289,6 +291,19 @@ TEST(MeshFile, BinaryFilesAreReadAndChecked) {
     if (rank() == 0) bytes.replace(at, 1, version < 4 ? "9" : "\x09");
     expectMessage(messageOf(test::writeFile("promise.msh", bytes)), {"byte"});
   }
+}
+
+// By gmsh's names. A geometry can bring them: it is not checked as a mesh file is.
+TEST(MeshFile, ElementsOfOtherTypesAreNamed) {
+  const auto merged = [](const std::string& name, const std::string& was, const std::string& is) {
+    const auto file = test::writeFile(name + ".msh", changed(test::quadranglesMsh2(), was, is));
+    return test::writeFile(name + ".geo", "Merge \"" + file + "\";\n");
+  };
+  expectMessage(messageOf(merged("cubic", "5 3 2 3 1 1 2 5 4", "5 21 2 3 1 1 2 5 4 3 6 1 2 5 4")),
+                {"group 'layer' has cells 'Triangle 10'", "supported are tri3"});
+  expectMessage(messageOf(merged("cubic_line", "1 1 2 1 1 1 2\n", "1 26 2 1 1 1 2 4 5\n"),
+                          layer + "-load_bottom_pressure 1"),
+                {"group 'bottom' has faces 'Line 4'", "supported are line2"});
 }
 
 // gmsh puts the elements of one entity into all groups of that entity; many programs write 1 for

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/petsc/check.hpp"
-#include "model/elasticity/shape.hpp"
+#include "model/element/shape.hpp"
 #include "model/mortar/dual.hpp"
 #include "support/model/face_patch.hpp"
 
@@ -21,7 +21,7 @@ const std::vector<int> allTypes{line2, line3, tri3, tri6, quad4, quad8, quad9};
 
 TEST(FaceBasis, ShapeFunctionsAreThoseOfGmsh) {
   for (const int number : allTypes) {
-    const auto& table = elasticity::shapeTable(number);
+    const auto& table = element::shapeTable(number);
     const FaceType& type = faceType(number);
     SCOPED_TRACE(table.name);
     EXPECT_EQ(type.nodes, table.nodes);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Faces of a mesh with their bodies, and the boxes around curved faces.
-#include <gmsh.h>
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "model/coupling/box.hpp"
+#include "support/model/gmsh_library.hpp"
 #include "support/model/mesh_checks.hpp"
 #include "support/model/mesh_text.hpp"
 #include "support/model/model.hpp"
@@ -51,7 +51,7 @@ TEST(FacesOf, BearTheBodyThatTheyBound) {
                       coordinates[3 * static_cast<std::size_t>(face.nodes[i]) + d]);
         }
         const auto normals =
-            elasticity::faceNormals(elasticity::shapeTable(face.type), face.points, face.sign);
+            elasticity::faceNormals(element::shapeTable(face.type), face.points, face.sign);
         for (std::size_t i = 0; i < normals.size(); ++i) area[i % 3] += normals[i];
       }
       for (std::size_t d = 0; d < 3; ++d)
@@ -84,7 +84,7 @@ TEST(FacesOf, BearTheBodyOnEachSideOfANode) {
 
 /// Points of a face by the shape functions of gmsh, on a grid that includes its boundary.
 std::vector<Point> sampled(const Face& face) {
-  const auto& table = elasticity::shapeTable(face.type);
+  const auto& table = element::shapeTable(face.type);
   constexpr int steps = 12;
   std::vector<double> grid;
   for (int i = 0; i <= steps; ++i)
@@ -96,6 +96,7 @@ std::vector<Point> sampled(const Face& face) {
         grid.insert(grid.end(), {2 * s - 1, table.dimension == 1 ? 0 : 2 * t - 1, 0});
       }
     }
+  test::startGmsh();
   int components = 0, orientations = 0;
   std::vector<double> values;
   gmsh::model::mesh::getBasisFunctions(face.type, grid, "Lagrange", components, values,
@@ -139,7 +140,7 @@ TEST(Box, ContainsCurvedFaces) {
       if (type == 10) continue;
       EXPECT_LT(excess(boxOfPoints(straight.points), boxOf(straight)), 1e-14) << "type " << type;
     }
-    const bool curved = elasticity::shapeTable(type).order == 2;
+    const bool curved = element::shapeTable(type).order == 2;
     if (curved) {
       EXPECT_GT(beyondNodes, 0.01) << "the nodes do not bound the face";
     }

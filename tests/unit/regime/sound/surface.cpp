@@ -29,7 +29,7 @@ TEST_P(Patch, BoundaryOfTheUnitCell) {
   build();
   double sums[2] = {0, 0};
   for (const auto& face : sound::boundaryFaces(mesh)) {
-    const auto& table = elasticity::shapeTable(face.type);
+    const auto& table = element::shapeTable(face.type);
     std::vector<mesh::Point> points;
     for (const PetscInt node : face.nodes) points.push_back(mesh.coordinates[node]);
     for (const double weight : elasticity::areaWeights(table, points)) sums[0] += weight;

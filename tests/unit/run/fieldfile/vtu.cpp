@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // VTU and PVD files: what VTK's own reader finds in them is what was given.
-#include <gmsh.h>
 #include <gtest/gtest.h>
 #include <vtkCell.h>
 #include <vtkCellData.h>
@@ -19,6 +18,7 @@
 #include "support/harness/program.hpp"
 #include "support/harness/scratch_folder.hpp"
 #include "support/harness/vtu_reader.hpp"
+#include "support/model/gmsh_library.hpp"
 #include "support/run/bar_mesh.hpp"
 
 namespace squeal::fieldfile {
@@ -108,6 +108,7 @@ struct Reference {
 };
 
 Reference gmshReference(int type) {
+  test::startGmsh();
   std::string name;
   int dimension = 0, order = 0, nodes = 0, corners = 0;
   std::vector<double> given;

@@ -3,13 +3,10 @@
 /// Shapes of CAD programs: STEP, IGES and BREP. Not collective.
 #include <string>
 
-#include "base/system/child.hpp"
+#include "base/system/child_limits.hpp"
 #include "model/meshfile/settings.hpp"
 
-namespace squeal::meshfile {
-
-/// Throws Error if an option for shapes is given, for a file that is none.
-void rejectShapeMesh(const std::string& file, const ShapeMesh& shape);
+namespace squeal::gmshreader {
 
 /// Makes a shape the model of gmsh. Lengths come in millimetres from STEP and IGES, whatever their
 /// unit, and as they are from BREP. Solids that touch are cut where they do, so that their meshes
@@ -17,6 +14,6 @@ void rejectShapeMesh(const std::string& file, const ShapeMesh& shape);
 /// entities of equal labels together. One without a label of its own is `solid_N` or `face_N`, with
 /// the number that gmsh shows for the file. Throws Error if there is no solid; warns of labels
 /// whose faces are not found again after the cuts.
-void importShape(const std::string& file, const ShapeMesh& mesh, const Warn& warn);
+void importShape(const std::string& file, const meshfile::ShapeMesh& mesh, const Warn& warn);
 
-}  // namespace squeal::meshfile
+}  // namespace squeal::gmshreader

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "model/meshfile/geometry.hpp"
+#include "model/gmshreader/geometry.hpp"
 
 #include <gmsh.h>
-#include <petscsys.h>
+#include <petscsystypes.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/petsc/check.hpp"
-#include "base/system/memory.hpp"
+#include "base/system/error.hpp"
+#include "base/system/process_memory.hpp"
 #include "base/system/text.hpp"
 
-namespace squeal::meshfile {
+namespace squeal::gmshreader {
 namespace {
 
 using Json = nlohmann::json;
+using meshfile::GeometryParameter;
 
 std::string optionText(const GeometryParameter& given) {
   return "option -mesh_set " + given.name + "=" + shortest(given.value) + ": ";
@@ -139,7 +141,7 @@ double cellsByEdges() {
 
 }  // namespace
 
-void applyParameters(const std::vector<GeometryParameter>& parameters) {
+void applyParameters(const std::vector<meshfile::GeometryParameter>& parameters) {
   const auto known = knownNames();
   for (const auto& given : parameters) {
     if (std::find(known.begin(), known.end(), given.name) == known.end())
@@ -153,7 +155,7 @@ void applyParameters(const std::vector<GeometryParameter>& parameters) {
   for (const auto& given : parameters) gmsh::onelab::setNumber(given.name, {given.value});
 }
 
-void requireParametersUsed(const std::vector<GeometryParameter>& parameters) {
+void requireParametersUsed(const std::vector<meshfile::GeometryParameter>& parameters) {
   for (const auto& given : parameters) {
     std::vector<double> used;
     gmsh::onelab::getNumber(given.name, used);
@@ -175,7 +177,7 @@ void meshGeometry(const std::string& file, const Warn& warn) {
   const std::string expected = formatted(
       "option -mesh_file %s: by the numbers of cells along its edges the mesh has about %.2g cells",
       file.c_str(), cells);
-  if (numbers > PETSC_MAX_INT)
+  if (numbers > std::numeric_limits<PetscInt>::max())
     throw Error(expected + formatted(", more displacements than indices of %zu bits can number",
                                      8 * sizeof(PetscInt)));
   constexpr double bytesPerCell = 200;  // only of gmsh, at least
@@ -188,4 +190,4 @@ void meshGeometry(const std::string& file, const Warn& warn) {
   gmsh::model::mesh::generate(dimension);
 }
 
-}  // namespace squeal::meshfile
+}  // namespace squeal::gmshreader

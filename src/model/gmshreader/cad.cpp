@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "model/meshfile/cad.hpp"
+#include "model/gmshreader/cad.hpp"
 
 #include <dlfcn.h>
 #include <gmsh.h>
@@ -11,9 +11,9 @@
 #include <map>
 #include <set>
 
-#include "base/petsc/check.hpp"
+#include "base/system/error.hpp"
 
-namespace squeal::meshfile {
+namespace squeal::gmshreader {
 namespace {
 
 /// Has OpenCASCADE read the names of faces, not only of solids. gmsh has no option for it, and to
@@ -136,13 +136,7 @@ void makeGroups(const std::vector<Entity>& solids, const std::vector<Entity>& fa
 
 }  // namespace
 
-void rejectShapeMesh(const std::string& file, const ShapeMesh& shape) {
-  for (const auto& option : shape.given)
-    throw Error("option " + option + ": it is for shapes, .step and the like; -mesh_file " + file +
-                " is a mesh, or a geometry that sets this itself");
-}
-
-void importShape(const std::string& file, const ShapeMesh& mesh, const Warn& warn) {
+void importShape(const std::string& file, const meshfile::ShapeMesh& mesh, const Warn& warn) {
   requireEnd(file);
   readNamesOfFaces();
   gmsh::vectorpair imported;
@@ -161,4 +155,4 @@ void importShape(const std::string& file, const ShapeMesh& mesh, const Warn& war
   gmsh::option::setNumber("Mesh.ElementOrder", mesh.order);
 }
 
-}  // namespace squeal::meshfile
+}  // namespace squeal::gmshreader

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Memory of this process and of its machine. Not collective; programs without MPI use it too.
+
+namespace squeal {
+
+/// Returns the memory available to this process, in bytes: the free memory of the machine or, if it
+/// is less, of the control group.
+double availableMemory();
+
+/// Returns the size of the address space of this process, in bytes.
+double addressSpace();
+
+/// Makes the C library retain some of the freed memory. The program allocates and frees many blocks
+/// of columns, and the kernel would clear their pages each time (1/40 of the time of a run).
+void keepFreedMemory();
+
+}  // namespace squeal

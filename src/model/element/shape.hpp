@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Shape functions and quadrature rules of the elements, tabulated by gmsh when the program is
+/// built (apps/element_tables.cpp). Not collective.
+#include <span>
+#include <string>
+
+namespace squeal::element {
+
+/// The shape functions and a quadrature rule of one element type. The values live as long as the
+/// program.
+struct ShapeTable {
+  int type = 0, dimension = 0, order = 0, nodes = 0, corners = 0;
+  std::string name;                        ///< point1, line2, tri3, …, hex27, pyramid14
+  std::string gmshName;                    ///< gmsh's name, such as "Tetrahedron 10"
+  std::span<const double> weight;          ///< [point]
+  std::span<const double> point;           ///< [point][3] reference coordinates
+  std::span<const double> value;           ///< [point][node]
+  std::span<const double> gradient;        ///< [point][node][3] by the reference coordinates
+  std::span<const double> nodeGradient;    ///< [node as a point][node][3]
+  std::span<const double> cornerValue;     ///< [node][corner] linear shape functions of the corners
+  std::span<const double> centreGradient;  ///< [node][3] at the centre of a line, quadrilateral or
+                                           ///< hexahedron
+
+  int points() const { return weight.size(); }
+};
+
+/// Returns true if there is a table of a gmsh element type: the supported cells, their faces and
+/// edges, and points.
+bool isKnown(int gmshType);
+/// Returns the table of a gmsh element type, which must be known. Its rule integrates polynomials
+/// of the degree 2·order + 1 exactly. The shape functions of pyramids are rational, with the limit
+/// 0 or 1 at the apex; those of (Bergot, Cohen and Duruflé 2010) are polynomials in the coordinates
+/// of the cube that collapses to the pyramid, in which its rule is a product of Gauss rules and as
+/// exact for them.
+const ShapeTable& shapeTable(int gmshType);
+/// Returns the table with the smallest rule that the stiffness needs. tri6 has three and tet10 four
+/// points, which is exact where the cell is straight; degree 2 keeps the order of convergence
+/// (Ciarlet and Raviart 1972). These points lie further inside, where many curved cells have
+/// det J > 0 although it changes its sign near an edge. All other cells have the rule of
+/// shapeTable().
+const ShapeTable& stiffnessTable(int gmshType);
+
+}  // namespace squeal::element
