@@ -91,7 +91,7 @@ void expectZeroGrowthOfAllUnknowns(const Law& law) {
   const ProgramRun run =
       runProgram("critical/direct", 1,
                  layers + law.options +
-                     "-flutter_method direct -flutter_direct_count 60 -flutter_friction " + list);
+                     "-flutter_method direct -flutter_direct_count 40 -flutter_friction " + list);
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const CsvTable full = readCsv(run.folder / "eigenvalues.csv");
   const auto at = full.column("friction");

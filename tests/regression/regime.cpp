@@ -72,7 +72,7 @@ TEST(Regime, TellsWhatEachNodeDoes) {
 
 TEST(Regime, SaysThatNothingIsUnstable) {
   const ProgramRun run = runProgram(
-      "regime_stable", 2,
+      "regime_stable", 1,
       commandLine(with(coarse, {{"flutter_friction", "0.1"}, {"regime_friction", "0.1"}})));
   EXPECT_EQ(run.exitCode, 0);
   EXPECT_NE(run.out.find("friction 0.1: no mode is unstable"), std::string::npos);
@@ -80,7 +80,7 @@ TEST(Regime, SaysThatNothingIsUnstable) {
 
 TEST(Regime, NamesTheStableStep) {
   const ProgramRun run =
-      runProgram("regime_step", 2,
+      runProgram("regime_step", 1,
                  commandLine(with(coarse, {{"regime_step", "1e-4"}, {"regime_time", "0.02"}})));
   EXPECT_NE(run.exitCode, 0);
   EXPECT_NE(run.error.find("-regime_step 0.0001 s exceeds"), std::string::npos) << run.error;

@@ -174,7 +174,7 @@ TEST(Antiplane, TangentOfTheFrictionLaw) {
     const std::string common =
         std::string(
             "-flutter_friction 0.2 -flutter_method direct -flutter_direct_count 30"
-            " -mesh_set order=2,nx=8,ny_disc=3,ny_pad=2 -motion_convective ") +
+            " -mesh_set order=2,nx=6,ny_disc=2,ny_pad=2 -motion_convective ") +
         convective;
     const analysis::Analysis curve = runCase("two_layers_antiplane", common + law.options());
     const analysis::Analysis tangent =

@@ -24,17 +24,15 @@ void expectMovingOrder(double least, const std::string& slave, double ratio,
 
 // Cells 2:3 and 7:5.
 TEST(NonMatchingMovingLayers, SecondOrderWithQuad4) {
-  expectMovingOrder(1.9, "pad", 2, "order=1,nx=24,nx_pad=36,ny_disc=8,ny_pad=7",
-                    "order=1,nx=48,nx_pad=72,ny_disc=16,ny_pad=14");
-  expectMovingOrder(1.9, "disc", 2, "order=1,nx=24,nx_pad=36,ny_disc=8,ny_pad=7",
-                    "order=1,nx=48,nx_pad=72,ny_disc=16,ny_pad=14");
+  for (const char* slave : {"pad", "disc"})
+    expectMovingOrder(1.9, slave, 1.5, "order=1,nx=24,nx_pad=36,ny_disc=8,ny_pad=6",
+                      "order=1,nx=36,nx_pad=54,ny_disc=12,ny_pad=9");
 }
 
 TEST(NonMatchingMovingLayers, FourthOrderWithQuad9) {
-  expectMovingOrder(3.5, "pad", 1.5, "order=2,nx=28,nx_pad=20,ny_disc=10,ny_pad=4",
-                    "order=2,nx=42,nx_pad=30,ny_disc=15,ny_pad=6");
-  expectMovingOrder(3.5, "disc", 1.5, "order=2,nx=28,nx_pad=20,ny_disc=10,ny_pad=4",
-                    "order=2,nx=42,nx_pad=30,ny_disc=15,ny_pad=6");
+  for (const char* slave : {"pad", "disc"})
+    expectMovingOrder(3.5, slave, 1.5, "order=2,nx=14,nx_pad=10,ny_disc=6,ny_pad=4",
+                      "order=2,nx=21,nx_pad=15,ny_disc=9,ny_pad=6");
 }
 
 TEST(NonMatchingMovingSlabs, SecondOrderWithHex8) {

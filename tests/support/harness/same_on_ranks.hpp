@@ -139,14 +139,23 @@ inline void expectSame(const Findings& one, const Findings& other, const std::st
       unstableModes(one, frictions.size() - 1));
 }
 
-/// Runs a case on 1, 2 and 3 ranks.
+/// Returns the run of a case on a number of ranks, which is made once.
+inline const ProgramRun& runOnRanks(const std::string& name, const std::string& options, int ranks,
+                                    int seconds) {
+  static std::map<std::string, ProgramRun> runs;
+  const std::string place = "ranks/" + name + "_np" + std::to_string(ranks);
+  if (const auto known = runs.find(place); known != runs.end()) return known->second;
+  return runs[place] = runProgram(place, ranks, options + " -quiet -report_fields off", seconds);
+}
+
+/// Runs a case on 1, 2 and 3 ranks. `onSeveral` are the options on 2 and 3 ranks, if they differ.
 inline void expectSameOnAllRanks(const std::string& name, const std::string& options, int seconds,
-                                 int mostIterations = 6) {
+                                 int mostIterations = 6, const std::string& onSeveral = {}) {
   Findings one;
   for (int ranks : {1, 2, 3}) {
     const std::string label = name + " on " + std::to_string(ranks) + " ranks";
-    const ProgramRun run = runProgram("ranks/" + name + "_np" + std::to_string(ranks), ranks,
-                                      options + " -quiet -report_fields off", seconds);
+    const ProgramRun& run =
+        runOnRanks(name, ranks == 1 || onSeveral.empty() ? options : onSeveral, ranks, seconds);
     ASSERT_EQ(run.exitCode, 0) << label << ": " << run.error;
     Findings findings = findingsOf(run);
     EXPECT_EQ(findings.summary.at("ranks"), ranks);
