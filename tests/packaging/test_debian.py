@@ -195,6 +195,7 @@ class Package(unittest.TestCase):
             "share/doc/squeal/copyright",
             "share/bash-completion/completions/squeal",
             "bin/squeal-run",
+            "libexec/squeal/squeal_gmsh",
         ):
             self.assertRegex(content, rf"(?m) \./usr/{re.escape(name)}( -> .*)?$")
 

@@ -149,7 +149,8 @@ class Installation(unittest.TestCase):
         self.assertLessEqual(
             {"README.md", "LICENSE", "docs/method.md"}, below(self.prefix / "share/doc/squeal")
         )
-        self.assertEqual({path.name for path in self.prefix.iterdir()}, {"bin", "share"})
+        self.assertEqual(below(self.prefix / "libexec"), {"squeal/squeal_gmsh"})
+        self.assertEqual({path.name for path in self.prefix.iterdir()}, {"bin", "libexec", "share"})
         self.assertEqual(list(self.prefix.rglob("__pycache__")), [])
         for case in (self.data / "options").glob("*.yaml"):
             schema = re.match(r"# yaml-language-server: \$schema=(\S+)\n", case.read_text())
