@@ -162,7 +162,7 @@ void Massless::update(StepArrays& step) {
     q_[i] += h_ * v_[i];
   }
   if (!std::isfinite(state_.kinetic))
-    throw Error("the motion is not finite: reduce the time step (-regime_step)");
+    throw Error("the motion is not finite: reduce the time step");
 }
 
 /// Adds the work of the step, and sets the velocities of the contact.

@@ -222,7 +222,7 @@ class Moreau : public Scheme {
     addProduct(whole_.mass, v_, momentum);
     state_.kinetic = dot(momentum, v_) / 2;
     if (!std::isfinite(state_.kinetic))
-      throw Error("the motion is not finite: reduce the time step (-regime_step)");
+      throw Error("the motion is not finite: reduce the time step");
     state_.time += h_;
   }
 
