@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""Tables of runs against their schema, and damaged ones, which are refused: test_schema.py PROGRAM.
+"""Tables of runs against their schema, and damaged ones, which are refused: test_schema.py PROGRAM
+RESULTS, with the results of after_flutter.py.
 
 With SQUEAL_LONG in the environment, ten times as many damaged tables.
 """
@@ -17,8 +18,10 @@ import unittest
 from pathlib import Path
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/steady")]
+folders = ("python", "tests/support/run", "tests/support/steady")
+sys.path[:0] = [str(repository / folder) for folder in folders]
 sys.dont_write_bytecode = True
+import after_flutter
 import squeal
 from pressed_block import pressed_block
 from squeal import schema
@@ -26,9 +29,9 @@ from squeal.agreement import require_agreement
 from squeal.tables import read_table
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
+MADE = sys.argv.pop(1) if len(sys.argv) > 1 else None
 LONG = bool(os.environ.get("SQUEAL_LONG"))
 DAMAGES = 20000 if LONG else 2000
-COARSE = "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"
 LAYERS = [
     "-mesh_set",
     "nx=4,ny_disc=2,ny_pad=2,order=2",
@@ -39,32 +42,6 @@ LAYERS = [
 ]
 # Shipped cases on small meshes, and a block of which nodes open: all tables that there are.
 RUNS = {
-    "brake": [
-        "-options_file",
-        repository / "options/disc_brake_regime.yaml",
-        "-modes_count",
-        "60",
-        "-flutter_band",
-        "9000",
-        "-mesh_set",
-        COARSE,
-        "-flutter_friction",
-        "0.4",
-        "-regime_time",
-        "0.016",
-        "-regime_start_factor",
-        "1",
-        "-regime_cycle",
-        "on",
-        "-regime_cycle_steps",
-        "128",
-        "-regime_cycle_range",
-        "0.39,0.41",
-        "-regime_cycles_kept",
-        "0",
-        "-regime_spectrum_points",
-        "0.15,0,0;-0.15,0,0",
-    ],
     "layers": [
         "-options_file",
         repository / "options/two_layers_moving.yaml",
@@ -111,7 +88,8 @@ class Tables(unittest.TestCase):
                 check=True,
                 stdout=subprocess.DEVNULL,
             )
-        cls.runs = {name: squeal.open(cls.place / name) for name in RUNS}
+        after_flutter.place(PROGRAM, MADE, cls.place / "brake")
+        cls.runs = {name: squeal.open(cls.place / name) for name in ("brake", *RUNS)}
 
     def test_the_program_writes_what_the_schema_says(self):
         """Column by column, in every table; and every table of the schema is among them."""

@@ -91,7 +91,8 @@ TEST(MovingLayers, FourthOrder) {
 
 // G and K^R in the reduced problem: corrected to the full one up to backward errors of 1e-11.
 TEST(MovingLayers, ReducedProblemIsTheFullOne) {
-  const std::string options = "-flutter_friction 0.5 -flutter_accuracy 1e-11" + coarse;
+  const std::string options =
+      "-flutter_friction 0.5 -flutter_accuracy 1e-11 -mesh_set order=2,nx=12,ny_disc=4,ny_pad=3";
   const analysis::Analysis reduced = runCase("two_layers_moving", options + " -modes_count 80");
   const analysis::Analysis full = runCase("two_layers_moving", options + direct(30));
   const auto& point = reduced.flutter.segments.at(0).points.at(0);

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""The motion after flutter in the report, opened in Chromium: test_regime.py PROGRAM."""
+"""The motion after flutter in the report, opened in Chromium: test_regime.py PROGRAM RESULTS, with
+the results of after_flutter.py."""
 import csv
 import json
 import shutil
@@ -15,16 +16,17 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
-folders = ("python", "scripts/dev", "tests/support/harness")
+folders = ("python", "scripts/dev", "tests/support/harness", "tests/support/run")
 sys.path[:0] = [str(repository / folder) for folder in folders]
 sys.dont_write_bytecode = True
+import after_flutter
 import squeal
 from report_picture import browser
 from squeal import regime, report
 from changed_tables import reshape
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
-COARSE = "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"
+MADE = sys.argv.pop(1) if len(sys.argv) > 1 else None
 
 
 def rows(path):
@@ -38,40 +40,7 @@ class AfterFlutter(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = Path(cls.temporary.name) / "coarse"
-        subprocess.run(
-            [
-                PROGRAM,
-                "-options_file",
-                repository / "options/disc_brake_regime.yaml",
-                "-modes_count",
-                "60",
-                "-flutter_band",
-                "9000",
-                "-mesh_set",
-                COARSE,
-                "-flutter_friction",
-                "0.4",
-                "-regime_time",
-                "0.016",
-                "-regime_start_factor",
-                "1",
-                "-regime_cycle",
-                "on",
-                "-regime_cycle_steps",
-                "128",
-                "-regime_cycle_range",
-                "0.39,0.41",
-                "-regime_cycles_kept",
-                "0",
-                "-regime_spectrum_points",
-                "0.15,0,0;-0.15,0,0",
-                "-report_dir",
-                cls.folder,
-                "-quiet",
-            ],
-            check=True,
-            stdout=subprocess.DEVNULL,
-        )
+        after_flutter.place(PROGRAM, MADE, cls.folder)
         subprocess.run(
             [repository / "scripts/squeal-report", cls.folder],
             check=True,
