@@ -68,7 +68,7 @@ double memoryFreeOnNode(MPI_Comm comm, double& needed) {
   return availableMemory();
 }
 
-void keepFreedMemory() {
+void retainFreedMemory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 512 << 20);

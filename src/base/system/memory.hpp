@@ -22,7 +22,7 @@ double memoryFreeOnNode(MPI_Comm comm, double& needed);
 
 /// Makes the C library retain some of the freed memory. The program allocates and frees many blocks
 /// of columns, and the kernel would clear their pages each time (1/40 of the time of a run).
-void keepFreedMemory();
+void retainFreedMemory();
 
 /// Reports in one line that this rank is out of memory, and ends all ranks.
 [[noreturn]] void outOfMemory();

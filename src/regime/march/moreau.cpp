@@ -174,7 +174,8 @@ class Moreau : public Scheme {
 
   /// Solves for the contact forces, and corrects v_{n+1}.
   void solveContact(std::vector<double>& v) {
-    sweeps_ = solver_.solve(friction_, active_, tolerance_, state_.force, increments_, stopAsked_);
+    sweeps_ =
+        solver_.solve(friction_, active_, tolerance_, state_.force, increments_, stopRequested_);
     std::vector<double> change(model_.rows()), correction(order_);
     for (PetscInt i = 0; i < model_.rows(); ++i) change[i] = state_.force[i] - guess_[i];
     addProduct(whole_.jumps, change, correction, h_);
@@ -222,7 +223,7 @@ class Moreau : public Scheme {
     addProduct(whole_.mass, v_, momentum);
     state_.kinetic = dot(momentum, v_) / 2;
     if (!std::isfinite(state_.kinetic))
-      throw Error("the motion is not finite: reduce the time step (-regime_step)");
+      throw Error("the motion is not finite: reduce the time step");
     state_.time += h_;
   }
 

@@ -57,7 +57,7 @@ Analysis analyse(MPI_Comm comm, const Settings& settings,
   }
   expectPoints(analysis.sweep.points().size());
   try {
-    stopIfAsked(comm);
+    stopIfRequested(comm);
     if (analysis.mesh)
       solveMesh(analysis);
     else

@@ -89,10 +89,10 @@ contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& 
 std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis,
                                                const uniqueness::Settings& settings) {
   std::vector<double> speeds = analysis.sweep.speeds;
-  if (analysis.contact.slipIsGiven()) speeds.resize(1);
+  if (analysis.contact.slipIsConstant()) speeds.resize(1);
   std::vector<SpeedUniqueness> result;
   for (double speed : speeds) {
-    stopIfAsked(analysis.comm);
+    stopIfRequested(analysis.comm);
     Stage stage(analysis.mesh->comm, "steady");
     result.push_back({speed, uniqueness::examine(analysis.bodies, analysis.contact, speed,
                                                  analysis.sweep.frictions, settings)});
@@ -142,7 +142,7 @@ linalg::Block nodalModes(const Analysis& analysis, const MeshSweep& problem,
 void followAfterFlutter(Analysis& analysis, const MeshSweep& problem, CurrentSystem& current,
                         const sweep_solver::ModalSegment& segment,
                         const pencil::ComplexModes& point) try {
-  stopIfAsked(analysis.comm);
+  stopIfRequested(analysis.comm);
   const auto held = contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size());
   analysis.regimes.push_back(regime::study({analysis.bodies, analysis.contact, current.of(held),
                                             steadyAt(analysis, point.at), point.at.damping},
@@ -187,8 +187,8 @@ void solveMeshSweep(Analysis& analysis, std::size_t first, std::size_t last, Cur
   auto solved = sweep_solver::solveSweep(problem, requestOf(analysis), analysis.checkpoint,
                                          "sets_" + std::to_string(before + 1));
   for (auto& segment : solved.segments) {
-    for (auto& followed : segment.followed)
-      for (int& activeSet : followed.activeSet)
+    for (auto& tracked : segment.trackedLines)
+      for (int& activeSet : tracked.activeSet)
         if (activeSet > 0) activeSet += before;
     analysis.segments.push_back(std::move(segment));
   }
@@ -219,8 +219,7 @@ void prepareMesh(Analysis& analysis) {
       buildContact(*analysis.mesh, analysis.bodies, std::move(ties), settings.contact);
   contact::requireMotion(analysis.contact);
   settleFriction(analysis.contact, run.frictionGiven, analysis.sweep);
-  if (run.regime.followed())
-    regime::requireSupported(run.regime, analysis.bodies, analysis.contact);
+  if (run.regime.enabled()) regime::requireSupported(run.regime, analysis.bodies, analysis.contact);
   requireFiniteSweep(analysis.bodies, analysis.contact, analysis.sweep);
   rejectIdleFactors(analysis.bodies, analysis.contact, run.pencil, analysis.sweep);
 }
@@ -238,7 +237,7 @@ void solveMesh(Analysis& analysis) {
   for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
     last = first + 1;
     if (!analysis.steady[first].converged) continue;
-    stopIfAsked(analysis.comm);
+    stopIfRequested(analysis.comm);
     last = endOfShared(analysis, first);
     try {
       solveMeshSweep(analysis, first, last, system, influences);

@@ -55,7 +55,7 @@ std::string endText(const condensed::ContactPath& path) {
 /// it ends.
 void continueTo(condensed::CondensedProblem& condensed, const steady::Solution& from,
                 steady::Solution& solution) {
-  auto path = condensed::followContact(condensed, from, solution.at);
+  auto path = condensed::traceContact(condensed, from, solution.at);
   const std::string way = "followed from " + sweep::parameterText(from.at);
   if (!path.obstacle.empty()) {
     solution.existsTo = path.end;
@@ -63,7 +63,7 @@ void continueTo(condensed::CondensedProblem& condensed, const steady::Solution& 
     return;
   }
   const std::string before = solution.reason;
-  condensed.beginWith(std::move(path.gaps), std::move(path.sticking));
+  condensed.startFrom(std::move(path.gaps), std::move(path.sticking));
   solution = condensed.solve(solution.at);
   if (solution.converged)
     solution.reason += ", " + way + " after " + before;
@@ -155,10 +155,10 @@ void anticipate(const Analysis& analysis, condensed::CondensedProblem& condensed
                 const std::vector<Way>& ways) {
   Stage stage(analysis.mesh->comm, "steady");
   const long before = condensed.solves();
-  std::vector<condensed::ContactWay> ends;
+  std::vector<condensed::ContactInterval> ends;
   for (const Way& way : ways)
     ends.push_back({&analysis.steady[way.from], &analysis.steady[way.to]});
-  condensed::anticipateContact(condensed, ends);
+  condensed::precomputeContact(condensed, ends);
   if (const long more = condensed.solves() - before; more > 0)
     stage.finish(formatted("contact between the points: %ld right-hand sides", more));
 }
@@ -170,7 +170,7 @@ void followPath(Analysis& analysis, condensed::CondensedProblem& condensed, cons
   const std::string between = betweenText(analysis, way);
   steady::Solution& solution = analysis.steady[way.to];
   Stage stage(comm, "steady");
-  auto path = condensed::followContact(condensed, analysis.steady[way.from], solution.at);
+  auto path = condensed::traceContact(condensed, analysis.steady[way.from], solution.at);
   if (!path.obstacle.empty()) printWarning(comm, between + "followed up to " + endText(path));
   for (auto& event : path.events) {
     event.order += analysis.contactEvents;
@@ -180,7 +180,7 @@ void followPath(Analysis& analysis, condensed::CondensedProblem& condensed, cons
   const PetscInt others =
       path.obstacle.empty() ? contact::countDifferent(comm, path.closed, solution.closed) : 0;
   if (others > 0) {
-    condensed.beginWith(std::move(path.gaps), std::move(path.sticking));
+    condensed.startFrom(std::move(path.gaps), std::move(path.sticking));
     auto ahead = condensed.solve(solution.at);
     if (ahead.converged && contact::countDifferent(comm, ahead.closed, path.closed) == 0) {
       solution = std::move(ahead);
@@ -266,7 +266,7 @@ class KeptStates {
     std::size_t count = analysis_.steady.size();
     archive.common(count, analysis_.contactEvents);
     analysis_.steady.resize(count);
-    for (; kept_ < count; ++kept_) steady::exchange(archive, analysis_.steady[kept_]);
+    for (; kept_ < count; ++kept_) steady::serialise(archive, analysis_.steady[kept_]);
     archive.own(analysis_.contactPath);  // of the whole path: it is short
   }
   Analysis& analysis_;
@@ -285,7 +285,7 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
   KeptStates states(analysis);
   if (solutions.size() < points.size()) closed.solver();
   while (solutions.size() < points.size()) {
-    stopIfAsked(comm);
+    stopIfRequested(comm);
     Stage stage(comm, "steady");
     if (!condensed) {
       condensed.emplace(problem, closed);
@@ -335,7 +335,7 @@ void fullSweep(Analysis& analysis, const steady::Problem& problem, CurrentSystem
       if (analysis.steady[k].converged) active.back() = steady::activeSet(analysis.steady[k]);
       continue;
     }
-    stopIfAsked(analysis.comm);
+    stopIfRequested(analysis.comm);
     const auto& current = system.of(active.back());
     current.solver();
     Stage stage(analysis.mesh->comm, "steady");
