@@ -10,7 +10,7 @@
 
 int main() {
   squeal::Assignment assignment;
-  squeal::keepFreedMemory();
+  squeal::retainFreedMemory();
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);  // our own errors contain its messages
   assignment.perform([](std::vector<char> bytes, const squeal::Warn& warn) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "support/run/case.hpp"
+#include "support/case.hpp"
 
 namespace squeal::test {
 namespace {
@@ -22,14 +22,14 @@ struct Rule {
 };
 
 /// Frictions that the sweep asks for and that were followed.
-std::vector<double> sweptStations(const stability::Followed& followed) {
+std::vector<double> sweptStations(const stability::TrackedLine& followed) {
   std::vector<double> list;
   for (const auto& station : followed.branches.stations)
     if (station.swept) list.push_back(station.friction);
   return list;
 }
 
-TEST(Followed, WhichSweepsAre) {
+TEST(TrackedLine, WhichSweepsAre) {
   const std::string sweep = "-flutter_friction 0.1,0.2 ", single = "-flutter_friction 0.2 ";
   const std::vector<Rule> rules{
       // terms that hold at all points
@@ -58,7 +58,7 @@ TEST(Followed, WhichSweepsAre) {
     SCOPED_TRACE(name + " " + options);
     const analysis::Analysis analysis = runCase(name, options);
     ASSERT_EQ(analysis.flutter.segments.size(), 1U);
-    const auto& followed = analysis.flutter.segments[0].followed;
+    const auto& followed = analysis.flutter.segments[0].trackedLines;
     const auto lines = wanted ? analysis.sweep.speeds.size() : 0;
     EXPECT_EQ(lines > 0, wanted);
     EXPECT_EQ(followed.size(), lines);

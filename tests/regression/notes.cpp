@@ -128,7 +128,7 @@ TEST(Notes, TiesThatHoldLittleOfTheirSlave) {
         runProgram("notes/little", ranks, commandLine(overhang("little", 0.9, tie)));
     ASSERT_EQ(run.exitCode, 0) << run.error;
     EXPECT_NE(run.error.find("warning: tie 'glue' ties 20 % of the area of its slave 'pad_low', "
-                             "0.4 of 2 m2; nothing of 'disc_high' faces the rest within "
+                             "0.4 of 2 m2; no part of 'disc_high' faces the rest within "
                              "-tie_glue_tolerance, half the size of a face"),
               std::string::npos)
         << run.error;

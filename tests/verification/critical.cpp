@@ -6,8 +6,8 @@
 #include <array>
 
 #include "exact/damped_layers.hpp"
-#include "support/eigen/spectrum.hpp"
-#include "support/run/case.hpp"
+#include "support/case.hpp"
+#include "support/spectrum.hpp"
 
 namespace squeal::test {
 namespace {
@@ -21,7 +21,7 @@ analysis::Analysis run(const std::string& changes) {
 }
 
 const std::vector<stability::Critical>& criticals(const analysis::Analysis& analysis) {
-  return analysis.flutter.segments.at(0).followed.at(0).criticals;
+  return analysis.flutter.segments.at(0).trackedLines.at(0).criticals;
 }
 
 // As the mesh of 9-node quadrilaterals is refined.
@@ -31,7 +31,7 @@ TEST(Critical, DampedLayersAgainstExactWaves) {
     const analysis::Analysis analysis =
         run("-mesh_set order=2,recombine=1,serendipity=0," + mesh +
             " -flutter_friction 0,0.05,0.1 -flutter_band 0.7 -modes_count 80");
-    const auto& followed = analysis.flutter.segments.at(0).followed.at(0);
+    const auto& followed = analysis.flutter.segments.at(0).trackedLines.at(0);
     EXPECT_TRUE(followed.complete()) << followed.statement();
     errors.emplace_back();
     for (const auto& critical : followed.criticals) {
@@ -57,7 +57,7 @@ TEST(Track, HoldsTheEigenvaluesOfTheSweep) {
             "-material_disc_rayleigh_mass " +
             damping + " -material_pad_rayleigh_mass " + damping);
     const auto& segment = analysis.flutter.segments.at(0);
-    const auto& followed = segment.followed.at(0);
+    const auto& followed = segment.trackedLines.at(0);
     EXPECT_TRUE(followed.complete()) << followed.statement();
     EXPECT_EQ(followed.countExact, damping == "0");
     const auto& stations = followed.branches.stations;

@@ -112,7 +112,7 @@ TEST(Periodic, MassOnASlowBelt) {
   EXPECT_LT(std::abs(product(multipliers.values)), 0.1);
 }
 
-// Followed downwards the branch ends where motions become linear, which is where the mode is
+// TrackedLine downwards the branch ends where motions become linear, which is where the mode is
 // neutral: the belt's stiffness has the eigenvalues μ = 2 ± √(1 − 4 f/3), and s² + 0.05 s + μ = 0
 // has an imaginary root for |Im μ| = 0.05 √(Re μ), at f = (1 + 0.05² · 2) · 3/4. The leapfrog rule
 // keeps it, as it keeps the damping; the last motion that touches a limit lies a step aroute.
@@ -121,9 +121,9 @@ TEST(Periodic, BranchEndsAtTheOnsetOfFlutter) {
   const ShootingResult found = shot(period);
   ASSERT_TRUE(found.converged);
   std::vector<Orbit> motions;
-  const auto route =
-      cycles::follow(period, found, false, {0.1, 2, 40, tolerance}, {},
-                     [&](const ShootingResult& motion) { motions.push_back(motion.orbit); });
+  const auto route = cycles::continueBranch(
+      period, found, false, {0.1, 2, 40, tolerance}, {},
+      [&](const ShootingResult& motion) { motions.push_back(motion.orbit); });
   EXPECT_EQ(route.reason, "no node separates or sticks");
   EXPECT_NEAR(route.end, 0.75375, 1e-4);
   EXPECT_TRUE(route.folds.empty());

@@ -161,7 +161,7 @@ TEST(FixedFriction, StandsBesideASweptOne) {
     const auto found = eigenvaluesOf(point), all = eigenvaluesOf(full.segments.at(0).points.at(i));
     EXPECT_LT(worst(errors(found, all).relative), 1e-8);  // of the certificate
   }
-  const auto& followed = reduced.segments.at(0).followed.at(0);
+  const auto& followed = reduced.segments.at(0).trackedLines.at(0);
   EXPECT_FALSE(followed.countExact);
   EXPECT_TRUE(followed.complete()) << followed.statement();
   EXPECT_TRUE(contains(followed.statement(), "not confirmed by a Sturm count"));

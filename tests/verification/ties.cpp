@@ -158,7 +158,7 @@ TEST(Ties, CirclesAreErrors) {
     const std::string message = errorOf([] { buildModel(); });
     // Where nodes match, the second tie says nothing new.
     const bool matching = mesh.find("nx_pad") == std::string::npos;
-    EXPECT_TRUE(contains(message, matching ? "nodes are tied by tie '"
+    EXPECT_TRUE(contains(message, matching ? "nodes are already tied by tie '"
                                            : "depend on each other in a circle") &&
                 contains(message, "tie 'down'") && contains(message, "tie 'up'"))
         << message;

@@ -29,12 +29,12 @@ constexpr double hopeless = 2;
 enum Job { begin = -1, end = -2, analysis = 1, factorisation = 2, solution = 3 };
 
 /// Returns true for entries of ICNTL that the storage of matrix and right-hand sides determines.
-bool isSettled(int i) { return i == 5 || (i >= 18 && i <= 21) || i == 26 || i == 30; }
+bool isReserved(int i) { return i == 5 || (i >= 18 && i <= 21) || i == 26 || i == 30; }
 
 /// Reads the options of ICNTL and CNTL.
 PetscErrorCode readOptions(const char* prefix, DMUMPS_STRUC_C& id) {
   for (int i = 1; i <= 60; ++i) {
-    if (isSettled(i)) continue;
+    if (isReserved(i)) continue;
     const std::string name = formatted("-mat_mumps_icntl_%d", i);
     PetscInt value = id.icntl[i - 1];
     PetscBool given = PETSC_FALSE;
@@ -87,7 +87,7 @@ void MumpsFactor::call(int job) {
   dmumps_c(&id_);
 }
 
-void MumpsFactor::wantInertia(double zero) {
+void MumpsFactor::enableInertia(double zero) {
   icntl(13) = 1;  // ScaLAPACK on the root would hide its pivots' signs
   icntl(24) = 1;
   if (zero > 0) id_.cntl[2] = zero;
@@ -119,7 +119,7 @@ void MumpsFactor::setEntries(Mat matrix) {
     check(MatRestoreRow(matrix, row, &count, &columns, &values));
     ownRows_.push_back(row + 1);
   }
-  entriesHeld_ = true;
+  hasEntries_ = true;
   if (n > std::numeric_limits<MUMPS_INT>::max())
     throw Error("a factorisation: the matrix has more rows than MUMPS can count");
   id_.n = n;
@@ -175,7 +175,7 @@ void MumpsFactor::fitIntoMemory() {
 }
 
 std::string MumpsFactor::factorise(Mat matrix) {
-  if (matrix && !entriesHeld_) setEntries(matrix);
+  if (matrix && !hasEntries_) setEntries(matrix);
   fitIntoMemory();
   call(factorisation);
   for (const int percent : workspaces) {
@@ -185,7 +185,7 @@ std::string MumpsFactor::factorise(Mat matrix) {
   }
   // MUMPS no longer needs the entries.
   rows_ = {}, columns_ = {}, entries_ = {};
-  entriesHeld_ = false;
+  hasEntries_ = false;
   solutionRows_.clear();
   return failure();
 }

@@ -33,7 +33,7 @@ class MumpsFactor {
 
   /// Makes MUMPS report the signs of all pivots, for inertia(). Pivots below `zero` times the norm
   /// of the scaled matrix count as zero; with 0, MUMPS decides (about 1e-21).
-  void wantInertia(double zero = 0);
+  void enableInertia(double zero = 0);
   /// Collective. Analyses the pattern. With `like`, the factor of a matrix of the same pattern and
   /// distribution, it reuses the elimination order of `like`. Throws Error if it fails.
   void analyse(Mat matrix, const MumpsFactor* like = nullptr);
@@ -45,7 +45,7 @@ class MumpsFactor {
   std::string factorise(Mat matrix = nullptr);
   /// Collective. Computes X = A⁻¹ B, each by this rank's rows, column after column.
   void solve(const double* b, double* x, PetscInt columns);
-  /// Returns the inertia, after wantInertia() and factorise().
+  /// Returns the inertia, after enableInertia() and factorise().
   Inertia inertia() const { return {id_.infog[11], id_.infog[27]}; }
   /// Returns INFOG(i) of MUMPS's manual.
   PetscInt infog(int i) const { return id_.infog[i - 1]; }
@@ -62,7 +62,7 @@ class MumpsFactor {
   int ranks_ = 1;
   DMUMPS_STRUC_C id_{};
   PetscInt localRows_ = 0;
-  bool entriesHeld_ = false;  // since analyse()
+  bool hasEntries_ = false;  // since analyse()
   std::vector<MUMPS_INT> rows_, columns_, ownRows_, solutionRows_, order_;
   std::vector<double> entries_, solution_, byRows_;
   PetscSF toOwners_ = nullptr;  // from the rows of the solution that MUMPS leaves here

@@ -197,7 +197,7 @@ double factorMemory(Mat matrix) {
 
 std::unique_ptr<MumpsFactor> shiftedFactor(Mat k, Mat m, double sigma, KSP like) {
   auto factor = std::make_unique<MumpsFactor>(commOf(k), factorisation.prefix);
-  factor->wantInertia();
+  factor->enableInertia();
   {
     OwnedMat shifted;
     check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
@@ -211,7 +211,7 @@ std::unique_ptr<MumpsFactor> shiftedFactor(Mat k, Mat m, double sigma, KSP like)
 
 Inertia inertia(Mat matrix, double zero) {
   MumpsFactor factor(commOf(matrix), factorisation.prefix);
-  factor.wantInertia(zero);
+  factor.enableInertia(zero);
   factor.analyse(matrix);
   if (const std::string why = factor.factorise(); !why.empty())
     throw Error("the inertia of a symmetric matrix: " + why);

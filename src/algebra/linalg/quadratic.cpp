@@ -52,16 +52,16 @@ Complex rootOf(Complex mu) {
 
 /// The leading matrix M of a quadratic problem and its factors, both borrowed. If possible, M⁻¹ A
 /// is formed, since QR takes a fraction of the time of QZ.
-struct Leading {
+struct LeadingMatrix {
   const DenseMatrix& matrix;
   const Lu<double>& factors;
 };
 
-std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness,
-                                      Vectors vectors, const Wanted& wanted) {
+std::vector<DensePair> linearInSquare(const LeadingMatrix& mass, const DenseMatrix& stiffness,
+                                      Vectors vectors, const EigenvalueFilter& wanted) {
   // K q = μ M q, μ = −s² Both roots ±s are eigenvalues. One of these roots has Im s ≥ 0, or both if
   // they are real. The double root of μ = 0 is listed once.
-  const Wanted either = [&](Complex mu) {
+  const EigenvalueFilter either = [&](Complex mu) {
     const Complex s = rootOf(mu);
     return wanted(s) || (s.imag() == 0 && wanted(-s));
   };
@@ -94,9 +94,9 @@ DenseMatrix padded(const DenseMatrix& mass) {
 /// Returns the Frobenius norm.
 double norm(const DenseMatrix& x) { return std::sqrt(squaredLength(x.entries())); }
 
-std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping,
+std::vector<DensePair> companion(const LeadingMatrix& mass, const DenseMatrix& damping,
                                  const DenseMatrix& stiffness, Vectors vectors,
-                                 const Wanted& wanted) {
+                                 const EigenvalueFilter& wanted) {
   const PetscInt m = stiffness.rows();
   // s = unit ŝ (Fan, Lin and Van Dooren 2004); a zero matrix does not determine the unit
   const double ratio = norm(stiffness) / norm(mass.matrix),
@@ -114,7 +114,9 @@ std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping
     }
   }
   std::vector<DensePair> pairs;
-  const Wanted upper = [&](Complex value) { return value.imag() >= 0 && wanted(unit * value); };
+  const EigenvalueFilter upper = [&](Complex value) {
+    return value.imag() >= 0 && wanted(unit * value);
+  };
   for (const auto& [value, right, left] :
        invertible(mass.factors) ? standard(a, vectors, upper)
                                 : generalized(a, padded(mass.matrix), vectors, upper)) {
@@ -163,7 +165,7 @@ bool positiveDefinite(DenseMatrix a) {
 
 /// Returns the conjugate of s = 1/t for a root t of the reversed polynomial with Im t ≥ 0. Its
 /// imaginary part is not negative either.
-Complex turnedRound(Complex t) { return 1.0 / std::conj(t); }
+Complex reflected(Complex t) { return 1.0 / std::conj(t); }
 
 }  // namespace
 
@@ -174,7 +176,7 @@ bool conservative(const DenseProblem& problem) {
 }
 
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors,
-                                      const Wanted& wanted) {
+                                      const EigenvalueFilter& wanted) {
   // If K is better conditioned, as in a basis that is orthonormal in energy, the roots of the
   // reversed polynomial are computed:
   //   t² K + t Z + M,   t = 1/s
@@ -188,18 +190,18 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
   if (ofStiffness.pivotRatio() < beyondDoubt) ofMass.emplace(problem.mass);
   const bool reversed =
       !ofMass || (invertible(ofStiffness) && ofStiffness.pivotRatio() > ofMass->pivotRatio());
-  const Leading leading =
-      reversed ? Leading{problem.stiffness, ofStiffness} : Leading{problem.mass, *ofMass};
+  const LeadingMatrix leading = reversed ? LeadingMatrix{problem.stiffness, ofStiffness}
+                                         : LeadingMatrix{problem.mass, *ofMass};
   const auto& last = reversed ? problem.mass : problem.stiffness;
-  const Wanted root = [&](Complex t) {
+  const EigenvalueFilter root = [&](Complex t) {
     if (reversed && t == 0.0) return false;  // s is infinite: a motion without mass
-    return !wanted || wanted(reversed ? turnedRound(t) : t);
+    return !wanted || wanted(reversed ? reflected(t) : t);
   };
   auto pairs = problem.damping.empty() ? linearInSquare(leading, last, vectors, root)
                                        : companion(leading, problem.damping, last, vectors, root);
   for (auto& pair : pairs) {
     if (!reversed) break;
-    pair = {turnedRound(pair.s), conjugated(std::move(pair.q)), conjugated(std::move(pair.left))};
+    pair = {reflected(pair.s), conjugated(std::move(pair.q)), conjugated(std::move(pair.left))};
   }
   // Growth rates are exactly zero here. With round-off in them, eigenvalues that a small friction
   // makes unstable would be reported as unstable at friction 0.

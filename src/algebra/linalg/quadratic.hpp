@@ -35,7 +35,7 @@ struct DensePair {
 enum class Vectors { right, both };
 
 /// Returns true for the eigenvalues s to return. An empty function selects all.
-using Wanted = std::function<bool(Complex)>;
+using EigenvalueFilter = std::function<bool(Complex)>;
 
 /// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that `wanted` selects, by ascending
 /// Im s, then by ascending Re s. If Z is empty, s = 0 is double for each vector and is listed once.
@@ -49,7 +49,7 @@ using Wanted = std::function<bool(Complex)>;
 /// Throws Error if an entry is not finite, if LAPACK fails, or if M and K have a common null
 /// vector.
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right,
-                                      const Wanted& wanted = {});
+                                      const EigenvalueFilter& wanted = {});
 
 /// Not collective. Returns A times the right vectors of the pairs, m × pairs. An empty A counts as
 /// zero.

@@ -85,18 +85,18 @@ class Factors {
 /// A vector of the companion form
 ///   [0 I; −K −Z] z = s [I 0; 0 M] z.
 /// A right vector is (x, s x), and a left vector is ((s M + Z)ᴴ y, y).
-struct Lifted {
+struct CompanionVector {
   Entries top, bottom;
 };
 
-Lifted combined(Complex a, const Lifted& x, Complex b, const Lifted& y) {
+CompanionVector combined(Complex a, const CompanionVector& x, Complex b, const CompanionVector& y) {
   return {combined(a, x.top, b, y.top), combined(a, x.bottom, b, y.bottom)};
 }
 
 /// Orthonormalises one or two columns. `weight` multiplies the bottom halves in the inner product,
 /// which gives both halves the same weight.
-void orthonormalise(std::vector<Lifted>& z, double weight) {
-  const auto product = [&](const Lifted& x, const Lifted& y) {
+void orthonormalise(std::vector<CompanionVector>& z, double weight) {
+  const auto product = [&](const CompanionVector& x, const CompanionVector& y) {
     return dot(x.top, y.top) + weight * weight * dot(x.bottom, y.bottom);
   };
   for (std::size_t j = 0; j < z.size(); ++j) {
@@ -129,7 +129,7 @@ class TwoSidedIteration {
     const double size = std::abs(shift);
     orthonormalise(right_, 1 / size);
     orthonormalise(left_, size);
-    std::vector<Lifted> bz;  // the columns of B Z
+    std::vector<CompanionVector> bz;  // the columns of B Z
     for (auto& z : right_) {
       bz.push_back({z.top, times(problem_.mass, z.bottom)});
       //   P(σ) x = −(M v' + (Z + σM) x'),   v = x' + σ x,   (x', v') the column before the step
@@ -198,7 +198,7 @@ class TwoSidedIteration {
   }
 
  private:
-  static DensePair pair(Complex s, const Lifted& right, const Lifted& left) {
+  static DensePair pair(Complex s, const CompanionVector& right, const CompanionVector& left) {
     DensePair result{s, right.top, left.bottom};
     for (auto* vector : {&result.q, &result.left}) {
       const double size = std::sqrt(dot(*vector, *vector).real());
@@ -208,7 +208,7 @@ class TwoSidedIteration {
   }
 
   const DenseProblem& problem_;
-  std::vector<Lifted> right_, left_;
+  std::vector<CompanionVector> right_, left_;
   std::array<Complex, 4> gram_{}, small_{};  // column-major
 };
 

@@ -20,7 +20,7 @@ void borrow(Stream& stream, const DenseView& matrix, std::shared_ptr<const void>
                 std::move(owner));
 }
 
-void exchange(checkpoint::Archive& archive, ComplexVector& vector) {
+void serialise(checkpoint::Archive& archive, ComplexVector& vector) {
   auto& [real, imaginary] = vector;
   archive.vector(real);
   archive.vector(imaginary);

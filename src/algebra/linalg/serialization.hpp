@@ -27,6 +27,6 @@ void fields(Stream& stream, DensePair& pair);
 void borrow(Stream& stream, const DenseView& matrix, std::shared_ptr<const void> owner = {});
 
 /// Collective. Writes both parts, or creates them with their original layout.
-void exchange(checkpoint::Archive& archive, ComplexVector& vector);
+void serialise(checkpoint::Archive& archive, ComplexVector& vector);
 
 }  // namespace squeal::linalg

@@ -50,7 +50,7 @@ std::vector<std::vector<DensePair>> spread(
 
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
                                                 const std::vector<DenseProblem>& problems,
-                                                Vectors vectors, const Wanted& wanted) {
+                                                Vectors vectors, const EigenvalueFilter& wanted) {
   return spread(comm, problems.size(), vectors,
                 [&](std::size_t i) { return solveQuadratic(problems[i], vectors, wanted); });
 }

@@ -22,7 +22,8 @@ std::vector<std::vector<DensePair>> spread(
 /// matrices.
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
                                                 const std::vector<DenseProblem>& problems,
-                                                Vectors vectors, const Wanted& wanted = {});
+                                                Vectors vectors,
+                                                const EigenvalueFilter& wanted = {});
 
 /// Collective. Solves one problem on rank 0 and returns the results on all ranks. Throws Error on
 /// all ranks if it fails.

@@ -35,7 +35,7 @@ std::vector<Complex> complexColumn(const DenseMatrix& vectors, PetscInt j, bool 
 std::vector<EigenPair> unpacked(const std::vector<double>& real,
                                 const std::vector<double>& imaginary,
                                 const std::vector<double>& beta, const DenseMatrix& right,
-                                const DenseMatrix& left, const Wanted& wanted) {
+                                const DenseMatrix& left, const EigenvalueFilter& wanted) {
   std::vector<EigenPair> pairs;
   for (std::size_t j = 0; j < real.size(); ++j) {
     if (beta[j] == 0 && real[j] == 0)
@@ -67,7 +67,7 @@ void requireSuccess(const char* routine, PetscBLASInt info) {
 }  // namespace
 
 std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, Vectors sides,
-                                   const Wanted& wanted) {
+                                   const EigenvalueFilter& wanted) {
   PetscBLASInt n = a.rows(), info = 0;
   std::vector<double> real(n), imaginary(n), beta(n);
   DenseMatrix right(n, n), left(n, sides == Vectors::both ? n : 0);
@@ -80,7 +80,7 @@ std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, Vectors sides,
   return unpacked(real, imaginary, beta, right, left, wanted);
 }
 
-std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const Wanted& wanted) {
+std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const EigenvalueFilter& wanted) {
   PetscBLASInt n = a.rows(), info = 0, sorted = 0, low = 0, high = 0;
   std::vector<double> real(n), imaginary(n), scale(n);
   DenseMatrix schur(n, n);

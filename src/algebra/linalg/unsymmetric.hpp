@@ -18,11 +18,11 @@ struct EigenPair {
 /// Returns the finite wanted eigenvalues, with eigenvectors, of A x = μ B x, by QZ. Throws Error if
 /// A and B have a common null vector, or if LAPACK fails.
 std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, Vectors sides,
-                                   const Wanted& wanted);
+                                   const EigenvalueFilter& wanted);
 /// Returns the wanted eigenvalues, with eigenvectors, of A x = μ x, from its Schur form. It
 /// computes only the wanted eigenvectors, since all eigenvectors would take most of the time.
 /// Throws Error if LAPACK fails.
-std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const Wanted& wanted);
+std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const EigenvalueFilter& wanted);
 
 /// Returns the conjugate of a vector.
 std::vector<Complex> conjugated(std::vector<Complex> vector);

@@ -133,7 +133,8 @@ bool Checkpoint::due() {
   if (!settings_.enabled) return false;
   constexpr double most = 0.05;  // share of the time that entries may take
   const double interval = settings_.interval, since = MPI_Wtime() - last_;
-  return mpi::any(comm_, stopAsked() || interval == 0 || since >= std::max(interval, cost_ / most));
+  return mpi::any(comm_,
+                  stopRequested() || interval == 0 || since >= std::max(interval, cost_ / most));
 }
 
 bool Checkpoint::isWorth(double seconds) const {

@@ -77,7 +77,7 @@ Identity identityOfRun(MPI_Comm comm) {
   // The layout of entries depends on the program's data structures.
   identity["the program"] = std::string(version()) + ", " + checksumOfFile(comm, "/proc/self/exe");
   for (const auto& [name, value] : givenOptions())
-    if (FileOption::isOne(name))
+    if (FileOption::isDeclared(name))
       identity["the file of option -" + name] = checksumOfFile(comm, value);
     else if (!isIndifferent(name))
       identity["option -" + name] = value;

@@ -26,7 +26,7 @@ nlohmann::json schemaOf(const Range& range) {
 
 }  // namespace
 
-bool Range::holds(double x) const {
+bool Range::contains(double x) const {
   return (openLow ? x > low : x >= low) && (openHigh ? x < high : x <= high);
 }
 
@@ -46,7 +46,7 @@ RealOption::RealOption(std::string stage, std::string name, std::optional<double
 
 double RealOption::parsed(const std::string& subject, const std::string& value) const {
   const double x = number(subject, value);
-  if (!range_.holds(x)) reject(subject, value);
+  if (!range_.contains(x)) reject(subject, value);
   return x;
 }
 
@@ -113,7 +113,7 @@ std::vector<double> RealListOption::parsed(const std::string& subject,
     for (const auto& item : items) list.push_back(number(subject, item));
   }
   for (double x : list)
-    if (!range_.holds(x)) reject(subject, value);
+    if (!range_.contains(x)) reject(subject, value);
   return list;
 }
 
@@ -185,7 +185,7 @@ void FileOption::validate(const std::string& subject) const {
   });
 }
 
-bool FileOption::isOne(const std::string& full) {
+bool FileOption::isDeclared(const std::string& full) {
   const auto options = all();
   return std::any_of(options.begin(), options.end(), [&](const auto* option) {
     return dynamic_cast<const FileOption*>(option) && option->matches(full);

@@ -16,7 +16,7 @@ struct Range {
   double low = -std::numeric_limits<double>::infinity(),
          high = std::numeric_limits<double>::infinity();
   bool openLow = false, openHigh = false;
-  bool holds(double x) const;
+  bool contains(double x) const;
   std::string text() const;
 };
 inline constexpr Range anyReal{};
@@ -165,7 +165,7 @@ class FileOption : public Option {
   void validate(const std::string& subject) const override;
   nlohmann::json valueSchema() const override;
   /// Returns true if this is the full name (no dash) of a FileOption.
-  static bool isOne(const std::string& fullName);
+  static bool isDeclared(const std::string& fullName);
 };
 
 /// Collective. Throws Error if a given option of this program has a value that violates its rule.

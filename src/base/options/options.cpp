@@ -19,13 +19,13 @@ std::vector<const SolverPrefix*>& prefixes() {
   return list;
 }
 
-std::vector<std::string> namesGiven() {
+std::vector<std::string> givenNames() {
   std::vector<std::string> names;
   for (const auto& [name, value] : givenOptions()) names.push_back(name);
   return names;
 }
 
-std::vector<std::string> namesLeft() {
+std::vector<std::string> unusedNames() {
   PetscInt count = 0;
   char **names = nullptr, **values = nullptr;
   check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
@@ -94,7 +94,7 @@ SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string 
 
 std::vector<std::string> SolverPrefix::names() const {
   std::vector<std::string> ours;
-  for (const auto& name : namesGiven())
+  for (const auto& name : givenNames())
     if (name.starts_with(prefix)) ours.push_back("-" + name);
   return ours;
 }
@@ -108,7 +108,7 @@ std::vector<const SolverPrefix*> SolverPrefix::all() {
 }
 
 void SolverPrefix::rejectUnused(const std::vector<std::string>& exceptAfter) const {
-  for (const auto& name : namesLeft()) {
+  for (const auto& name : unusedNames()) {
     if (!name.starts_with(prefix) || isOurs(name)) continue;
     const std::string rest = name.substr(prefix.size());
     if (std::any_of(exceptAfter.begin(), exceptAfter.end(),
@@ -134,7 +134,7 @@ void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
                                             PETSC_ERR_USER,
                                             PETSC_ERR_USER_INPUT,
                                             PETSC_ERR_ORDER};
-  const KeptError error;
+  const CapturedError error;
   const PetscErrorCode code = configure();
   if (code == 0) return;
   if (!rejections.count(error.code())) return check(code);
@@ -149,7 +149,7 @@ void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
 }
 
 void rejectUnknownOptions() {
-  for (const auto& name : namesLeft()) {
+  for (const auto& name : unusedNames()) {
     if (isOurs(name) || isOfSolver(name)) continue;
     for (const auto* option : Option::all())
       if (option->fullName("") == name && option->name != name)
@@ -164,7 +164,7 @@ void rejectUnknownOptions() {
 }
 
 std::vector<std::string> unusedOptions() {
-  std::vector<std::string> unused, left = namesLeft();
+  std::vector<std::string> unused, left = unusedNames();
   for (const auto& [name, value] : givenOptions()) {
     const bool used = isOurs(name) ? resolvedOptions().count(name) > 0
                                    : std::find(left.begin(), left.end(), name) == left.end();

@@ -85,7 +85,7 @@ class Splitter {
 
 /// Returns the rule for names of options, and of groups and interfaces in them, that a name (no
 /// dash) violates; empty if none.
-std::string brokenRule(const std::string& name) {
+std::string violatedRule(const std::string& name) {
   for (const unsigned char c : name) {
     if (c == ' ') return "it contains a blank; write _ for a blank in the name of a group";
     if (std::iscntrl(c))
@@ -112,7 +112,7 @@ void requireSound(const Setting& setting) {
   if (const auto equals = name.find('='); equals != std::string::npos)
     fail("option -" + name + ": a blank separates name and value: -" + name.substr(0, equals) +
          " " + name.substr(equals + 1));
-  if (const std::string broken = brokenRule(name); !broken.empty())
+  if (const std::string broken = violatedRule(name); !broken.empty())
     fail("'" + withoutBreaks(name) + "' is not the name of an option: " + broken);
   if (name.size() >= PETSC_MAX_OPTION_NAME)
     fail(formatted("the name of option -%s… is too long: %zu characters, at most %d are allowed",
@@ -225,7 +225,7 @@ void SettingsReader::add(const Setting& setting) {
   if (addPrefix(setting)) return;
   settings_.push_back(setting);
   settings_.back().name = joined(prefixes_, "") + name;
-  if (FileOption::isOne(settings_.back().name))
+  if (FileOption::isDeclared(settings_.back().name))
     settings_.back().value = located(setting.value, setting.file);
 }
 

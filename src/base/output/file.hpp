@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Writes files on one rank. Once termination from outside has started, no write starts
-/// (SignalsBlocked), so that nothing appears after the removal of files.
+/// (SignalsBlocked), so no file appears after the removal.
 #include <fcntl.h>
 
 #include <filesystem>

@@ -93,11 +93,11 @@ void requireRegularFiles(const fs::path& folder) {
 }
 
 /// Returns true if a folder of an earlier run contains files that do not belong to that run.
-bool holdsMore(const fs::path& folder, const fs::path& inside, const Manifest& ours) {
+bool hasOtherFiles(const fs::path& folder, const fs::path& inside, const Manifest& ours) {
   for (const auto& name : entriesOf(folder / inside)) {
     const fs::path path = inside / name;
     const bool listed = isFolder(folder / path)
-                            ? ours.folders().contains(path) && !holdsMore(folder, path, ours)
+                            ? ours.folders().contains(path) && !hasOtherFiles(folder, path, ours)
                             : ours.files().contains(path);
     if (!listed) return true;
   }
@@ -129,7 +129,7 @@ Folder::Folder(MPI_Comm comm, Naming naming, fs::path path)
   try {
     onFirst([&] { make(); });
     mpi::broadcast(comm_, made_);
-    lock_.take(comm_, path_, head_);
+    lock_.acquire(comm_, path_, head_);
     onFirst([&] {
       const SignalsBlocked whole;
       clear();
@@ -177,7 +177,7 @@ void Folder::clear() {
   if (fs::exists(fs::symlink_status(complete_))) replace();
 }
 
-/// Removes files only on the last rank, so that no other rank is still using them.
+/// Removes files only on the last rank, when no other rank uses them any more.
 void Folder::tidy(std::chrono::milliseconds patience) {
   const SignalsBlocked whole;
   const auto asLast = [&] {
@@ -218,7 +218,7 @@ void Folder::commit() {
     Manifest fresh = Manifest::of(staging_);
     const Manifest old = earlier();
     for (const auto& folder : old.folders())
-      if (isFolder(path_ / folder) && holdsMore(path_, folder, old)) fresh.keep(folder);
+      if (isFolder(path_ / folder) && hasOtherFiles(path_, folder, old)) fresh.retain(folder);
     writeFile(staging_ / Manifest::name, fresh.text());
     for (const auto& file : fresh.files()) {
       if (const std::string why = whyNotRegular(staging_ / file); !why.empty())

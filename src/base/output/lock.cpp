@@ -36,11 +36,11 @@ bool isStill(const std::filesystem::path& path, int file) {
 
 }  // namespace
 
-void Lock::take(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head) {
+void Lock::acquire(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head) {
   path_ = folder / name;
   check(MPI_Barrier(comm));  // all ranks have released an earlier lock of this run
   std::string warning;
-  onFirstRank(comm, head, [&] { takeAlone(folder, warning); });
+  onFirstRank(comm, head, [&] { lockExclusively(folder, warning); });
   if (!warning.empty()) printWarning(comm, warning);
   bool held = state_ == State::held;
   mpi::broadcast(comm, held);
@@ -49,10 +49,10 @@ void Lock::take(MPI_Comm comm, const std::filesystem::path& folder, const std::s
 
 /// Takes the lock exclusively at first, which shows that no other run has it, and then shared, so
 /// that the other ranks can join. Sets `warning` if the file system cannot lock. Throws Error or
-/// WriteError in the cases of take().
-void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) {
+/// WriteError in the cases of acquire().
+void Lock::lockExclusively(const std::filesystem::path& folder, std::string& warning) {
   const SignalsBlocked whole;
-  // A run that ends at this moment removes its file, hence several attempts.
+  // A run that ends at this moment removes its file, so try several times.
   for (int attempt = 0; attempt < 10; ++attempt) {
     const int file = openRegular(path_, O_RDWR | O_CREAT, cannotWrite(path_, 0));
     int error = lockFile(file, LOCK_EX);

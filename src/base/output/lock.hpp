@@ -25,7 +25,7 @@ class Lock {
   /// Collective. Takes the lock. Throws Error on all ranks, with a message that begins with `head`,
   /// if another run has the lock or the file cannot be created. Issues a warning if the file system
   /// cannot lock.
-  void take(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head);
+  void acquire(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head);
   /// Not collective. Releases the lock. The last rank first calls `asLast` and removes the file.
   /// The others wait for it up to `patience`, and replace it if it dies meanwhile.
   void release(
@@ -37,7 +37,7 @@ class Lock {
     held,
     unlockable  ///< the file system cannot lock; only on rank 0, which is then the last one
   };
-  void takeAlone(const std::filesystem::path& folder, std::string& warning);
+  void lockExclusively(const std::filesystem::path& folder, std::string& warning);
   void join();
 
   std::filesystem::path path_;

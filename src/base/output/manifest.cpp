@@ -59,7 +59,7 @@ std::optional<Manifest> Manifest::read(const fs::path& folder) {
       manifest.add(listed);
       ++count;
     } else
-      manifest.keep(listed.parent_path());
+      manifest.retain(listed.parent_path());
   }
   if (head.find(": the " + std::to_string(count) + " files") == std::string::npos)
     throw std::runtime_error(
@@ -75,14 +75,14 @@ void Manifest::add(const fs::path& file) {
     folders_.insert(folder);
 }
 
-void Manifest::keep(const fs::path& folder) {
-  if (folders_.insert(folder).second) kept_.insert(folder);
+void Manifest::retain(const fs::path& folder) {
+  if (folders_.insert(folder).second) retained_.insert(folder);
 }
 
 std::string Manifest::text() const {
   std::string text = firstLine(files_.size()) + "\n";
   for (const auto& path : files_) text += path.generic_string() + "\n";
-  for (const auto& path : kept_) text += path.generic_string() + "/\n";
+  for (const auto& path : retained_) text += path.generic_string() + "/\n";
   return text;
 }
 

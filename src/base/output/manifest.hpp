@@ -31,15 +31,15 @@ class Manifest {
   }
   /// Adds a folder of ours that stays because it contains files of the user. In the text its path
   /// ends with a slash.
-  void keep(const std::filesystem::path& folder);
+  void retain(const std::filesystem::path& folder);
   /// Returns the content of the file.
   std::string text() const;
 
  private:
   void add(const std::filesystem::path& file);
   std::set<std::filesystem::path> files_;
-  std::set<std::filesystem::path> folders_;  // those of files, and kept_
-  std::set<std::filesystem::path> kept_;
+  std::set<std::filesystem::path> folders_;  // those of files, and retained_
+  std::set<std::filesystem::path> retained_;
 };
 
 }  // namespace squeal::output

@@ -13,9 +13,9 @@ namespace squeal {
 
 namespace {
 
-KeptError* keeper = nullptr;
+CapturedError* active = nullptr;
 
-bool lacks = false;
+bool allocationFailed = false;
 
 /// Replaces PETSc's handler, which prints a trace if an allocation fails. This one forwards the
 /// code to check(), which reports it in one line. PetscMallocAlign of PETSc 3.18 raises a line
@@ -24,22 +24,23 @@ PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const 
                            PetscErrorCode code, PetscErrorType type, const char* message,
                            void* context) {
   if (type == PETSC_ERROR_INITIAL)
-    lacks = code == PETSC_ERR_MEM || (function && std::string(function) == "PetscMallocAlign");
-  if (lacks || KeptError::keep(code, message)) return code;
+    allocationFailed =
+        code == PETSC_ERR_MEM || (function && std::string(function) == "PetscMallocAlign");
+  if (allocationFailed || CapturedError::record(code, message)) return code;
   return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
 }
 
 }  // namespace
 
-KeptError::KeptError() { keeper = this; }
+CapturedError::CapturedError() { active = this; }
 
-KeptError::~KeptError() { keeper = nullptr; }
+CapturedError::~CapturedError() { active = nullptr; }
 
-bool KeptError::keep(PetscErrorCode code, const char* message) {
-  if (!keeper) return false;
-  if (keeper->code_ == 0) {  // the calling functions repeat it
-    keeper->code_ = code;
-    keeper->message_ = message ? message : "";
+bool CapturedError::record(PetscErrorCode code, const char* message) {
+  if (!active) return false;
+  if (active->code_ == 0) {  // the calling functions repeat it
+    active->code_ = code;
+    active->message_ = message ? message : "";
   }
   return true;
 }
@@ -47,20 +48,22 @@ bool KeptError::keep(PetscErrorCode code, const char* message) {
 void check(PetscErrorCode code, std::source_location where) {
   if (code == 0) return;
   if (lacksMemory(code)) outOfMemory();
-  const std::string kept = keeper ? keeper->message() : "";  // not printed yet
-  keeper = nullptr;
+  const std::string recorded = active ? active->message() : "";  // not printed yet
+  active = nullptr;
   PetscError(PETSC_COMM_SELF, where.line(), where.function_name(), where.file_name(), code,
-             kept.empty() ? PETSC_ERROR_REPEAT : PETSC_ERROR_INITIAL, "%s",
-             kept.empty() ? " " : kept.c_str());
+             recorded.empty() ? PETSC_ERROR_REPEAT : PETSC_ERROR_INITIAL, "%s",
+             recorded.empty() ? " " : recorded.c_str());
   runTerminationHandlers();
   MPI_Abort(PETSC_COMM_WORLD, 70);
 }
 
 void reportLackOfMemoryInOneLine() { check(PetscPushErrorHandler(handleError, nullptr)); }
 
-bool lacksMemory(PetscErrorCode code) { return code != 0 && (lacks || code == PETSC_ERR_MEM); }
+bool lacksMemory(PetscErrorCode code) {
+  return code != 0 && (allocationFailed || code == PETSC_ERR_MEM);
+}
 
-void claimBlasWorkspace() {
+void allocateBlasWorkspace() {
   constexpr std::size_t workspace = 160u << 20;  // OpenBLAS takes 128 MB
   if (void* room = std::malloc(workspace))
     std::free(room);

@@ -17,18 +17,18 @@ void check(PetscErrorCode code, std::source_location where = std::source_locatio
 
 /// Stores the first PETSc error during the object's lifetime as text, and suppresses its traceback.
 /// Only one object may exist at a time.
-class KeptError {
+class CapturedError {
  public:
-  KeptError();
-  ~KeptError();
-  KeptError(const KeptError&) = delete;
-  KeptError& operator=(const KeptError&) = delete;
+  CapturedError();
+  ~CapturedError();
+  CapturedError(const CapturedError&) = delete;
+  CapturedError& operator=(const CapturedError&) = delete;
   PetscErrorCode code() const { return code_; }
   /// Returns PETSc's message, such as "Unknown EPS type given: foo".
   const std::string& message() const { return message_; }
   /// Stores the first error in the existing object; the error handler calls this. Returns false if
   /// no object exists.
-  static bool keep(PetscErrorCode code, const char* message);
+  static bool record(PetscErrorCode code, const char* message);
 
  private:
   PetscErrorCode code_ = 0;
@@ -43,6 +43,6 @@ bool lacksMemory(PetscErrorCode code);
 
 /// Makes OpenBLAS allocate its workspace, once for all calls of this thread; ends the run if there
 /// is not enough memory. OpenBLAS itself would retry forever.
-void claimBlasWorkspace();
+void allocateBlasWorkspace();
 
 }  // namespace squeal

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Rejects inf and nan, so that an overflow cannot reach a result.
+/// Rejects inf and nan: an overflow must not reach a result.
 #include <petscmat.h>
 
 #include <string>

@@ -78,7 +78,7 @@ Session::Session(int argc, char** argv) {
     for (const char* help : {"-help", "--help", "-h", "-help_json", "--help_json"})
       if (words[i] == help && !words[i + 1].starts_with('-')) helpStage_ = words[i + 1];
   versionWanted_ = among({"-version", "--version"});
-  // MPI starts before PETSc, so that an error in the options is one line instead of a traceback.
+  // MPI starts before PETSc: an error in the options is then one line instead of a traceback.
   check(MPI_Init(&argc, &argv));
   const auto settings = helpWanted_ || helpJsonWanted_ || versionWanted_ ? std::vector<Setting>{}
                                                                          : readSettings(words);
@@ -86,8 +86,8 @@ Session::Session(int argc, char** argv) {
   startSlepc(argv[0], settings);
   reportLackOfMemoryInOneLine();
   signals.begin(rank());
-  keepFreedMemory();
-  claimBlasWorkspace();
+  retainFreedMemory();
+  allocateBlasWorkspace();
 }
 
 Session::~Session() {

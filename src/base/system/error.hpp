@@ -13,7 +13,7 @@
 namespace squeal {
 
 /// A wrong input, or a problem without a solution. The message names the option or group and the
-/// violated rule. A collective function throws Error on all ranks of the communicator, so that the
+/// violated rule. A collective function throws Error on all ranks of the communicator, so the
 /// program ends without a deadlock. A function that is not collective throws it only on its rank,
 /// and the caller shares it by onFirstRank() or failTogether().
 class Error : public std::runtime_error {

@@ -54,7 +54,7 @@ double availableMemory() {
   return bytes;
 }
 
-void keepFreedMemory() {
+void retainFreedMemory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 512 << 20);

@@ -13,6 +13,6 @@ double addressSpace();
 
 /// Makes the C library retain some of the freed memory. The program allocates and frees many blocks
 /// of columns, and the kernel would clear their pages each time (1/40 of the time of a run).
-void keepFreedMemory();
+void retainFreedMemory();
 
 }  // namespace squeal

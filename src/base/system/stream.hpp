@@ -74,12 +74,12 @@ class Stream {
   /// Not collective. Writes or reads these values. Throws Error if the bytes do not contain them.
   template <class... Values>
   void operator()(Values&... values) {
-    (serialize(values), ...);
+    (serialise(values), ...);
   }
 
  private:
   template <class Value>
-  void serialize(Value& value) {
+  void serialise(Value& value) {
     if constexpr (requires { fields(*this, value); }) {
       fields(*this, value);
     } else {
@@ -88,45 +88,45 @@ class Stream {
     }
   }
   /// Writes or reads a number of elements. Throws Error for more than there are bytes.
-  void serializeCount(std::size_t& count) {
-    serialize(count);
+  void serialiseCount(std::size_t& count) {
+    serialise(count);
     if (reads_ && count > bytes_.size()) throw Error(damage_);
   }
   template <class Value>
-  void serialize(std::vector<Value>& values) {
+  void serialise(std::vector<Value>& values) {
     std::size_t count = values.size();
-    serializeCount(count);
+    serialiseCount(count);
     if (reads_) values.resize(count);
     if constexpr (std::is_trivially_copyable_v<Value> &&
                   !requires(Stream & stream, Value & value) { fields(stream, value); })
       raw(values.data(), count * sizeof(Value));
     else
-      for (auto& value : values) serialize(value);
+      for (auto& value : values) serialise(value);
   }
-  void serialize(std::string& text) {
+  void serialise(std::string& text) {
     std::size_t count = text.size();
-    serializeCount(count);
+    serialiseCount(count);
     if (reads_) text.resize(count);
     raw(text.data(), count);
   }
   template <class Value>
-  void serialize(std::optional<Value>& value) {
+  void serialise(std::optional<Value>& value) {
     bool has = value.has_value();
-    serialize(has);
+    serialise(has);
     if (reads_ && has) value.emplace();
     if (reads_ && !has) value.reset();
-    if (has) serialize(*value);
+    if (has) serialise(*value);
   }
   template <class First, class Second>
-  void serialize(std::pair<First, Second>& both) {
-    serialize(both.first);
-    serialize(both.second);
+  void serialise(std::pair<First, Second>& both) {
+    serialise(both.first);
+    serialise(both.second);
   }
   template <class Key, class Value>
-  void serialize(std::map<Key, Value>& values) {
+  void serialise(std::map<Key, Value>& values) {
     std::vector<std::pair<Key, Value>> entries;
     if (!reads_) entries.assign(values.begin(), values.end());
-    serialize(entries);
+    serialise(entries);
     if (reads_) values = std::map<Key, Value>(entries.begin(), entries.end());
   }
 

@@ -38,7 +38,7 @@ int signalPipe[2] = {-1, -1};
 
 /// Forwards the signal to the waiting thread. A signal handler must not do more: the interrupted
 /// code may be using memory or holding a lock.
-extern "C" void passOn(int signal) {
+extern "C" void forwardSignal(int signal) {
   const unsigned char byte = signal;
   [[maybe_unused]] const auto written = write(signalPipe[1], &byte, 1);
 }
@@ -46,7 +46,7 @@ extern "C" void passOn(int signal) {
 /// Writes one line and ends this process by the signal; mpirun then ends the other ranks. The
 /// handlers of MPI and PETSc allocate memory, and would hang if the heap is damaged. For the same
 /// reason no termination handlers run.
-extern "C" void endByDefect(int signal) {
+extern "C" void reportCrash(int signal) {
   const auto print = [](const char* text) {
     [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
   };
@@ -63,7 +63,7 @@ extern "C" void endByDefect(int signal) {
 
 constexpr int defects[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
-void endByDefects() {
+void installCrashHandlers() {
   // The stack itself may have overflowed.
   static unsigned char alternative[1 << 16];
   stack_t stack{};
@@ -73,7 +73,7 @@ void endByDefects() {
   struct sigaction action {};
   action.sa_flags = SA_ONSTACK | SA_RESETHAND | SA_NODEFER;
   sigemptyset(&action.sa_mask);
-  action.sa_handler = endByDefect;
+  action.sa_handler = reportCrash;
   for (int signal : defects) sigaction(signal, &action, nullptr);
 }
 
@@ -90,7 +90,7 @@ bool hasTimeAfterSigterm() {
 /// Returns the next signal that ends the process; none if the pipe cannot be read.
 std::optional<int> awaitEnding(int rank, bool hasTime) {
   using Clock = std::chrono::steady_clock;
-  std::optional<Clock::time_point> asked;
+  std::optional<Clock::time_point> requestedAt;
   for (;;) {
     unsigned char signal = 0;
     while (read(signalPipe[0], &signal, 1) != 1)
@@ -99,9 +99,9 @@ std::optional<int> awaitEnding(int rank, bool hasTime) {
     if ((signal != SIGTERM && signal != SIGUSR1) || ends) return signal;
     // The batch system and mpirun may send the same request at nearly the same time. A later one
     // announces SIGKILL.
-    if (signal == SIGTERM && asked && Clock::now() - *asked > std::chrono::seconds(5))
+    if (signal == SIGTERM && requestedAt && Clock::now() - *requestedAt > std::chrono::seconds(5))
       return signal;
-    if (!asked) asked = Clock::now();
+    if (!requestedAt) requestedAt = Clock::now();
     if (!stop.exchange(true) && rank == 0)
       std::fprintf(stderr, "squeal: signal %d (%s): the run stops as soon as it can\n", signal,
                    strsignal(signal));
@@ -132,7 +132,7 @@ class SharedStop {
   SharedStop& operator=(const SharedStop&) = delete;
 
   /// Not collective. Returns true once a request on any rank is known.
-  bool asked() {
+  bool requested() {
     if (stop || asked_) return true;
     if (over_ || size_ == 1) return false;
     constexpr std::chrono::milliseconds interval{20};
@@ -169,7 +169,7 @@ class SharedStop {
   MPI_Comm comm_;
   int size_;
   MPI_Request request_ = MPI_REQUEST_NULL;
-  int own_[2] = {}, all_[2] = {};  // number of ranks asked, number done
+  int own_[2] = {}, all_[2] = {};  // number of requests, number done
   bool asked_ = false, over_ = false;
   Clock::time_point next_;
 };
@@ -197,9 +197,9 @@ void runTerminationHandlers() noexcept {
     }
 }
 
-bool stopAsked() { return stop; }
+bool stopRequested() { return stop; }
 
-void stopIfAsked(MPI_Comm comm) {
+void stopIfRequested(MPI_Comm comm) {
   if (mpi::any(comm, stop)) throw Interrupted();
 }
 
@@ -210,11 +210,12 @@ bool completed(const std::function<void()>& work) try {
   return false;
 }
 
-void workApart(MPI_Comm comm, const std::function<void(const StopAsked& asked)>& work) {
+void workIndependently(MPI_Comm comm,
+                       const std::function<void(const StopRequested& stopRequested)>& work) {
   SharedStop shared(comm);
   std::string failure;
   try {
-    work([&] { return shared.asked(); });
+    work([&] { return shared.requested(); });
   } catch (const Error& error) {
     failure = error.what();
   } catch (const Interrupted&) {  // join() returns true then
@@ -245,12 +246,12 @@ void SignalWatch::begin(int rank) {
   std::thread(awaitSignal, rank, hasTime_).detach();
   gate(), handlers();                   // constructed first, they outlive the call at exit
   std::atexit(runTerminationHandlers);  // MPI calls exit() on a rank that has lost its mpirun
-  endByDefects();
+  installCrashHandlers();
   struct sigaction action {};
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   for (int signal : endings) {
-    action.sa_handler = ignored_ & (1UL << signal) ? SIG_IGN : passOn;
+    action.sa_handler = ignored_ & (1UL << signal) ? SIG_IGN : forwardSignal;
     sigaction(signal, &action, nullptr);
   }
 }

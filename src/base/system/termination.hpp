@@ -46,21 +46,23 @@ void runTerminationHandlers() noexcept;
 struct Interrupted {};
 
 /// Not collective. Returns true once SIGTERM or SIGUSR1 has requested a stop on this rank.
-bool stopAsked();
+bool stopRequested();
 /// Collective. Throws Interrupted on all ranks once a stop has been requested on any of them.
-void stopIfAsked(MPI_Comm comm);
+void stopIfRequested(MPI_Comm comm);
 
 /// Returns false if the work throws Interrupted. Its results so far remain.
 bool completed(const std::function<void()>& work);
 
 /// Returns true once a stop has been requested on any rank.
-using StopAsked = std::function<bool()>;
+using StopRequested = std::function<bool()>;
 
-/// Collective. Runs work(asked) independently on each rank: the work makes no collective calls, and
-/// may take longer on one rank than on another. It calls asked(), which is cheap, at short
-/// intervals, and returns or throws Interrupted once it is true. Throws Interrupted on all ranks if
-/// one has been asked to stop; otherwise Error on all ranks if the work of any rank throws it.
-void workApart(MPI_Comm comm, const std::function<void(const StopAsked& asked)>& work);
+/// Collective. Runs work(stopRequested) independently on each rank: the work makes no collective
+/// calls, and may take longer on one rank than on another. It calls stopRequested(), which is
+/// cheap, at short intervals, and returns or throws Interrupted once it is true. Throws Interrupted
+/// on all ranks if a stop has been requested on any rank; otherwise Error on all ranks if the work
+/// of any rank throws it.
+void workIndependently(MPI_Comm comm,
+                       const std::function<void(const StopRequested& stopRequested)>& work);
 
 /// Handles the signals by which batch systems, mpirun and the terminal end the program. SIGUSR1,
 /// and SIGTERM unless SIGKILL follows at once, request a stop at the next possible point:

@@ -17,7 +17,7 @@ NearestPairs solveBand(NearestSolver& solver, const Settings& settings) {
   for (PetscInt count = std::min(start, limit);; count = std::min(2 * count, limit)) {
     NearestPairs found = solver.solve(count);
     if (found.reached <= high && count < limit) continue;
-    if (confirmed) addMissed(solver, count, found);
+    if (confirmed) addMissing(solver, count, found);
     if (found.reached <= high && count < limit) continue;
     std::erase_if(found.pairs, [low = low, high = high](const auto& pair) {
       return pair.s.imag() < low || pair.s.imag() > high || std::abs(pair.s) > high;
@@ -30,7 +30,7 @@ NearestPairs solveBand(NearestSolver& solver, const Settings& settings) {
 /// one.
 NearestPairs solveCount(NearestSolver& solver, const Settings& settings) {
   NearestPairs found = solver.solve(settings.count);
-  if (settings.confirmed) addMissed(solver, settings.count, found);
+  if (settings.confirmed) addMissing(solver, settings.count, found);
   if (std::ssize(found.pairs) <= settings.count) return found;
   std::vector<double> sizes;
   for (const auto& pair : found.pairs) sizes.push_back(std::abs(pair.s));
@@ -52,18 +52,19 @@ pencil::ComplexModes solveDirect(const pencil::Pencil& pencil, const sweep::Para
   });
   pencil::ComplexModes point;
   point.at = at;
-  if (banded) point.askedTo = settings.high, point.coveredTo = std::min(reached, settings.high);
+  if (banded)
+    point.directBandTop = settings.high, point.coveredTo = std::min(reached, settings.high);
   point.accuracy = settings.criteria.accuracy;
   for (const auto& pair : pairs) {
     const double error = pencil::backwardError(pencil, at, pair.s, pair);
     point.eigenvalues.push_back({pair.s, error, NAN, error <= point.accuracy});
   }
-  pencil::judge(point, pencil::Symmetry::none, settings.criteria);
-  const auto wanted = pencil::shapesWanted(point, settings.criteria);
+  pencil::setVerdicts(point, pencil::Symmetry::none, settings.criteria);
+  const auto wanted = pencil::shapesToStore(point, settings.criteria);
   std::vector<linalg::ComplexVector> modes;
   for (std::size_t index : wanted)
     modes.push_back(linalg::ComplexVector::copied(pairs[index].real, pairs[index].imaginary));
-  pencil::keepShapes(point, trial, wanted, std::move(modes));
+  pencil::storeShapes(point, trial, wanted, std::move(modes));
   return point;
 }
 

@@ -285,7 +285,7 @@ NearestPairs NearestSolver::krylov(PetscInt count) {
 }
 
 std::string NearestSolver::lapackFailure() {
-  const KeptError error;
+  const CapturedError error;
   const PetscErrorCode code = run();
   if (code == 0) return "";
   if (error.message().find("LAPACK") == std::string::npos) check(code);
@@ -328,7 +328,7 @@ std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,
   return std::make_unique<Undamped>(pencil, at);
 }
 
-void addMissed(NearestSolver& solver, PetscInt count, NearestPairs& found) {
+void addMissing(NearestSolver& solver, PetscInt count, NearestPairs& found) {
   for (std::size_t before = 0; before != found.pairs.size() && found.reached < INFINITY;) {
     before = found.pairs.size();
     NearestPairs again = solver.solve(count);

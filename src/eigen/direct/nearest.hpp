@@ -70,7 +70,7 @@ std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,
 /// result of solver.solve(count), until a solve finds none. A Krylov space from one vector contains
 /// only one vector of a multiple eigenvalue, except for round-off. A pair is new if its vector is
 /// not in the span of known vectors with nearly the same s.
-void addMissed(NearestSolver& solver, PetscInt count, NearestPairs& found);
+void addMissing(NearestSolver& solver, PetscInt count, NearestPairs& found);
 
 /// Throws Error if -flutter_eps_*, -flutter_pep_* or -flutter_st_* options are given without the
 /// direct method, which is the only one that uses them.

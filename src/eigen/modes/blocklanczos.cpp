@@ -30,7 +30,7 @@ constexpr PetscInt fewestForPole = 40;
 struct Solver {
   PetscInt blockSize = 8;
   PetscBool secondPole = PETSC_TRUE;
-  BlockLanczosFacts facts;
+  BlockLanczosResult facts;
   std::exception_ptr failure;  // it must not pass through the C code of SLEPc
 };
 
@@ -47,7 +47,7 @@ Pole firstPole(EPS eps) {
 /// one. The number of eigenvalues below λ grows like
 ///   N(λ) = a λ^½ + c λ^(3/2),
 /// as in plates and in solids (Weyl's law); a and c are fitted to nearly converged Ritz values.
-double placeOfPole(EPS eps, const RitzPairs& ritz) {
+double polePosition(EPS eps, const RitzPairs& ritz) {
   constexpr double nearly = 0.1, distinct = 1.001;
   std::size_t known = 0;
   while (known < ritz.value.size() && ritz.residual[known] < nearly * ritz.value[known]) ++known;
@@ -80,7 +80,7 @@ std::vector<double> unconverged(EPS eps, const RitzPairs& ritz) {
 
 /// Returns a place for a further pole: the middle of the widest gap near the median of the
 /// unconverged eigenvalues `rest`.
-double placeOfNextPole(EPS eps, const RitzPairs& ritz, const std::vector<double>& rest) {
+double nextPolePosition(EPS eps, const RitzPairs& ritz, const std::vector<double>& rest) {
   const double middle = rest[rest.size() / 2];
   double place = middle, widest = 0;
   for (PetscInt i = 0; i + 1 < eps->nev; ++i) {
@@ -108,7 +108,7 @@ Pole poleAt(EPS eps, double sigma) {
 }
 
 /// Collective. Passes the Ritz pairs to SLEPc, which decides on convergence.
-void judge(EPS eps, const RitzPairs& ritz, bool full) {
+void checkConvergence(EPS eps, const RitzPairs& ritz, bool full) {
   const PetscInt count = std::min<PetscInt>(std::ssize(ritz.value), eps->ncv);
   bool all = true;
   eps->nconv = 0;
@@ -143,13 +143,13 @@ void iterate(EPS eps) {
     lanczos.expand(*pole);
     if (!placed && lanczos.size() >= vectorsBeforePole * count + width) {
       placed = true;
-      if (const double sigma = placeOfPole(eps, lanczos.ritz()); sigma > eps->target)
+      if (const double sigma = polePosition(eps, lanczos.ritz()); sigma > eps->target)
         pole = &second.emplace(poleAt(eps, sigma));
       vectorsBefore = lanczos.size();
     }
     if (lanczos.size() < next && !lanczos.full()) continue;
     const RitzPairs ritz = lanczos.ritz();
-    judge(eps, ritz, lanczos.full());
+    checkConvergence(eps, ritz, lanczos.full());
     solver.facts.solves = lanczos.solves();
     if (eps->reason != EPS_CONVERGED_ITERATING) {
       lanczos.finish(ritz, eps->nconv);
@@ -160,7 +160,7 @@ void iterate(EPS eps) {
     if (second && lanczos.size() >= vectorsBefore + vectorsOfPole &&
         10 * std::ssize(rest) > count) {
       second.reset();  // frees its factor before the next one is made
-      second.emplace(poleAt(eps, placeOfNextPole(eps, ritz, rest)));
+      second.emplace(poleAt(eps, nextPolePosition(eps, ritz, rest)));
       vectorsBefore = lanczos.size();
     }
     if (second) pole = 2 / ritz.value[eps->nconv] < second->distance ? &first : &*second;
@@ -291,7 +291,7 @@ void setBlockLanczos(EPS eps, PetscInt blockSize, bool secondPole) {
   solverOf(eps).secondPole = secondPole ? PETSC_TRUE : PETSC_FALSE;
 }
 
-BlockLanczosFacts solveBlockLanczos(EPS eps) {
+BlockLanczosResult solveBlockLanczos(EPS eps) {
   check(EPSSolve(eps));
   const Solver& solver = solverOf(eps);
   if (solver.failure) std::rethrow_exception(solver.failure);

@@ -28,7 +28,7 @@ void setBlockLanczos(EPS eps, PetscInt blockSize, bool secondPole);
 constexpr int lanczosVectors(int count, int blockSize) { return 3 * count + 8 * blockSize; }
 
 /// Results of a solve in addition to the eigenvalues.
-struct BlockLanczosFacts {
+struct BlockLanczosResult {
   int solves = 0;  ///< number of right-hand sides
   int restarts = 0;
   /// A shift σ and the number of eigenvalues below it, by the inertia of K − σ M; 0 if no shift
@@ -39,6 +39,6 @@ struct BlockLanczosFacts {
 
 /// Collective. Calls EPSSolve on a solver of this type and returns the facts. Throws Error if the
 /// second pole cannot be factorised or the basis cannot be extended.
-BlockLanczosFacts solveBlockLanczos(EPS eps);
+BlockLanczosResult solveBlockLanczos(EPS eps);
 
 }  // namespace squeal::modes

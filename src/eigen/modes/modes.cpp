@@ -80,7 +80,7 @@ std::size_t modesBelowGap(const std::vector<double>& w) {
 
 /// Returns true if the number of modes below the shift equals the inertia count, and the shift lies
 /// clearly between two modes.
-bool isCounted(const Modes& modes) {
+bool countAgrees(const Modes& modes) {
   constexpr double apart = 1e-6;  // of λ
   const double shift = modes.inertiaShift;
   if (!(shift > 0) || !(shift < modes.lambda.back())) return false;
@@ -93,7 +93,7 @@ bool isCounted(const Modes& modes) {
 /// Collective. Counts the eigenvalues below a shift in the gap of modesBelowGap(), unless an
 /// existing count already agrees.
 void confirmCount(Mat k, Mat m, Modes& modes) {
-  modes.countConfirmed = isCounted(modes);
+  modes.countConfirmed = countAgrees(modes);
   if (modes.lambda.empty() || modes.countConfirmed) return;
   const auto& w = modes.angularFrequency;
   const int below = modesBelowGap(w);
@@ -111,7 +111,7 @@ void requireConverged(int converged, int count, const char* remedy) {
 }
 
 /// Collective. Takes the eigenvalues, ascending, and the vectors, M-orthonormal, from a solver.
-void takeModes(EPS eps, int count, Modes& modes) {
+void extractModes(EPS eps, int count, Modes& modes) {
   Mat k = nullptr;
   check(EPSGetOperators(eps, &k, nullptr));
   const OwnedVec d = rightVector(k);
@@ -151,7 +151,7 @@ void solveByEps(const factor::AssociatedSystem& system, const Settings& settings
   check(EPSGetConverged(eps, &converged));
   check(EPSGetIterationNumber(eps, &iterations));
   requireConverged(converged, count, "a larger -modes_eps_max_it or -modes_eps_ncv");
-  takeModes(eps, count, modes);
+  extractModes(eps, count, modes);
   modes.iterations = iterations;
 }
 
@@ -170,11 +170,11 @@ bool solveByLanczos(const factor::AssociatedSystem& system, const Settings& sett
     check(EPSSetTolerances(eps, settings.tolerance, largest ? mostRestarts : restartsBeforeGrowth));
     setBlockLanczos(eps, blockSize, settings.sturm);
     setUp(eps);
-    const BlockLanczosFacts facts = solveBlockLanczos(eps);
+    const BlockLanczosResult facts = solveBlockLanczos(eps);
     PetscInt converged = 0;
     check(EPSGetConverged(eps, &converged));
     if (converged >= count) {
-      takeModes(eps, count, modes);
+      extractModes(eps, count, modes);
       modes.iterations = facts.restarts;
       modes.inertiaShift = facts.countedTo;
       modes.inertiaCount = facts.below;
@@ -186,8 +186,8 @@ bool solveByLanczos(const factor::AssociatedSystem& system, const Settings& sett
 
 /// Solves
 ///   M d = (1/λ) K d
-/// by LAPACK on rank 0, so that the ranks agree. This form gives the largest 1/λ, those of the
-/// lowest modes, with the highest accuracy.
+/// by LAPACK on rank 0, so the ranks agree. This form gives the largest 1/λ, those of the lowest
+/// modes, with the highest accuracy.
 void solveDense(const factor::AssociatedSystem& system, int count, Modes& modes) {
   const MPI_Comm comm = commOf(system.k0());
   const PetscInt n = rowsOf(system.k0());
@@ -259,7 +259,7 @@ bool lanczosFits(int count, int blockSize, PetscInt size) {
   return 2 * lanczosVectors(count, blockSize) <= size;
 }
 
-bool lanczosWanted(const Settings& settings, PetscInt size) {
+bool usesLanczos(const Settings& settings, PetscInt size) {
   const bool fits = lanczosFits(settings.count, settings.blockSize, size);
   if (settings.solver == Settings::Solver::blockLanczos && !fits)
     throw Error(formatted("option -modes_solver block_lanczos: %d modes of %" PetscInt_FMT
@@ -270,7 +270,7 @@ bool lanczosWanted(const Settings& settings, PetscInt size) {
 
 /// Returns true if most modes of a small problem are wanted, which leaves too few dimensions for
 /// Krylov methods.
-bool denseWanted(const Settings& settings, PetscInt size) {
+bool usesDense(const Settings& settings, PetscInt size) {
   return settings.solver == Settings::Solver::automatic && size <= 400 && 2 * settings.count > size;
 }
 
@@ -306,12 +306,12 @@ Modes computeBy(const factor::AssociatedSystem& system, const Settings& settings
   const PetscInt size = rowsOf(system.k0());
   const bool chosen = settings.solver != Settings::Solver::automatic || solverPrefix.given();
   Modes modes;
-  if (denseWanted(settings, size)) {
+  if (usesDense(settings, size)) {
     solveDense(system, settings.count, modes);
     examine(system, settings, modes);
     return modes;
   }
-  if (lanczosWanted(settings, size)) {
+  if (usesLanczos(settings, size)) {
     if (computeByLanczos(system, settings, stage, modes)) return modes;
     if (chosen) {
       requireConverged(modes.lambda.size(), settings.count,

@@ -8,7 +8,7 @@
 
 namespace squeal::modes {
 
-void exchange(checkpoint::Archive& archive, Modes& modes, Mat like) {
+void serialise(checkpoint::Archive& archive, Modes& modes, Mat like) {
   // This lists all members: a new one does not compile until it is added here.
   auto& [lambda, angularFrequency, relativeResidual, vectors, iterations, countConfirmed,
          inertiaCount, inertiaShift, rounding] = modes;

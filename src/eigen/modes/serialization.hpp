@@ -8,6 +8,6 @@ namespace squeal::modes {
 
 /// Collective. Writes or reads the modes, with vectors in the layout of the columns of `like`. An
 /// archive being written borrows the vectors.
-void exchange(checkpoint::Archive& archive, Modes& modes, Mat like);
+void serialise(checkpoint::Archive& archive, Modes& modes, Mat like);
 
 }  // namespace squeal::modes

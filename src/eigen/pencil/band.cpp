@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace squeal::pencil {
-double bandBelow(const std::vector<double>& w, double asked) {
+double bandBelow(const std::vector<double>& w, double requested) {
   constexpr double apart = 1 + 1e-4;
   // The edge lies between two modes of different frequency, so round-off does not decide whether an
   // eigenvalue is inside. The last mode may belong to an equal pair whose other mode is not in the
@@ -18,7 +18,7 @@ double bandBelow(const std::vector<double>& w, double asked) {
   };
   std::size_t last = w.size() - 1;
   while (last > 0 && !edge(last)) --last;
-  if (asked > 0) return std::min(asked, middle(last));
+  if (requested > 0) return std::min(requested, middle(last));
   std::size_t k = std::min(w.size() * 11 / 20 + 1, last);
   while (k < last && !edge(k)) ++k;
   return middle(k);

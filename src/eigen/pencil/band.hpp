@@ -12,7 +12,7 @@ namespace squeal::pencil {
 /// ascending and not empty. It is `requested` if that is positive, otherwise the frequency at 55 %
 /// of the list. In both cases it lies below the last mode, unless all modes are equal. Only found
 /// eigenvalues are corrected, so an eigenvalue above all modes could be missed without notice.
-double bandBelow(const std::vector<double>& frequencies, double asked = 0);
+double bandBelow(const std::vector<double>& frequencies, double requested = 0);
 
 /// The band and the guard zone around it [M.43], whose eigenvalues are tracked too.
 struct WatchedBand {

@@ -100,7 +100,7 @@ const char* text(Verdict verdict) {
   return "";
 }
 
-void judge(ComplexModes& point, Symmetry symmetry, const Criteria& criteria) {
+void setVerdicts(ComplexModes& point, Symmetry symmetry, const Criteria& criteria) {
   for (auto& e : point.eigenvalues) {
     const double growth = e.s.real(), size = std::abs(e.s), error = e.error,
                  excess = growth - criteria.unstable * size;
@@ -120,7 +120,7 @@ void judge(ComplexModes& point, Symmetry symmetry, const Criteria& criteria) {
   }
 }
 
-std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria) {
+std::vector<std::size_t> shapesToStore(const ComplexModes& point, const Criteria& criteria) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
     if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < criteria.shapesBelow)
@@ -132,8 +132,8 @@ std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria&
   return order;
 }
 
-void keepShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
-                std::vector<linalg::ComplexVector> modes) {
+void storeShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
+                 std::vector<linalg::ComplexVector> modes) {
   for (std::size_t k = 0; k < indices.size(); ++k) {
     Shape shape{};
     shape.index = indices[k];

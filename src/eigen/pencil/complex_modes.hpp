@@ -89,16 +89,16 @@ struct Sensitivity {
 struct ComplexModes {
   sweep::Parameters at;
   std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
-  std::vector<Shape> shapes;               ///< the fastest growing modes: keepShapes()
+  std::vector<Shape> shapes;               ///< the fastest growing modes: storeShapes()
   std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless requested
   /// Top of the band, rad/s: eigenvalues with |s| up to this value are listed and corrected. 0:
   /// none are corrected (direct method); infinite: the basis spans the whole space.
   double bandTop = 0;
-  int freeModesInBand = 0;  ///< free modes up to bandTop
-  bool damped = false;      ///< the reduced problem has terms in s; false with the direct method
-  double accuracy = 0;      ///< requested backward error
-  double tolerance = 0;     ///< requested estimate of |δs|/|s|; 0: none (direct method)
-  double askedTo = 0;       ///< upper end of the band of the direct method, rad/s; 0: none
+  int freeModesInBand = 0;   ///< free modes up to bandTop
+  bool damped = false;       ///< the reduced problem has terms in s; false with the direct method
+  double accuracy = 0;       ///< requested backward error
+  double tolerance = 0;      ///< requested estimate of |δs|/|s|; 0: none (direct method)
+  double directBandTop = 0;  ///< upper end of the band of the direct method, rad/s; 0: none
   /// All eigenvalues of that band with |s| below this value are listed, rad/s; 0 without a band.
   double coveredTo = 0;
   /// Returns the number of free modes in the band minus the number of listed eigenvalues, for a
@@ -123,14 +123,14 @@ struct ComplexModes {
 };
 
 /// Sets `verdict` and `unstable` of each eigenvalue of the point by [M.24].
-void judge(ComplexModes& point, Symmetry symmetry, const Criteria& criteria);
+void setVerdicts(ComplexModes& point, Symmetry symmetry, const Criteria& criteria);
 
 /// Returns the indices of the unstable eigenvalues whose shapes are stored, in order of descending
 /// growth rate: at most `shapes`, all below `shapesBelow`.
-std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria);
+std::vector<std::size_t> shapesToStore(const ComplexModes& point, const Criteria& criteria);
 /// Collective. Appends the shapes of the eigenvalues with these indices to the point. Takes
 /// `modes`, their vectors in the unknowns x, of any length; `trial` is T.
-void keepShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
-                std::vector<linalg::ComplexVector> modes);
+void storeShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
+                 std::vector<linalg::ComplexVector> modes);
 
 }  // namespace squeal::pencil

@@ -26,10 +26,10 @@ struct Term {
   /// term with an exponent of friction always does.
   bool ofFriction = false;
 
-  bool holdsFriction() const { return ofFriction || frictionExponent != 0; }
+  bool containsFriction() const { return ofFriction || frictionExponent != 0; }
   /// Returns true for a term of K0 and M0 [4.17], without friction, base motions and damping.
   bool isAssociated() const {
-    return power != 1 && !holdsFriction() && speedExponent == 0 && dampingExponent == 0;
+    return power != 1 && !containsFriction() && speedExponent == 0 && dampingExponent == 0;
   }
   double coefficient(const sweep::Parameters& at) const;
   /// Returns the derivative of the coefficient with respect to one parameter.

@@ -21,11 +21,11 @@ void fields(Stream& stream, Sensitivity& found) {
   stream(condition, separation, leftBackwardError, derivatives);
 }
 
-void exchange(checkpoint::Archive& archive, ComplexModes& point) {
+void serialise(checkpoint::Archive& archive, ComplexModes& point) {
   auto& [at, eigenvalues, shapes, sensitivities, bandTop, freeModesInBand, damped, accuracy,
-         tolerance, askedTo, coveredTo] = point;
+         tolerance, directBandTop, coveredTo] = point;
   archive.common(at, eigenvalues, sensitivities, bandTop, freeModesInBand, damped, accuracy,
-                 tolerance, askedTo, coveredTo);
+                 tolerance, directBandTop, coveredTo);
   std::size_t count = shapes.size();
   archive.common(count);
   shapes.resize(count);
@@ -33,7 +33,7 @@ void exchange(checkpoint::Archive& archive, ComplexModes& point) {
     archive.common(index);
     archive.vector(real);
     archive.vector(imaginary);
-    linalg::exchange(archive, unknowns);
+    linalg::serialise(archive, unknowns);
     archive.own(frictionWork);
   }
 }

@@ -7,6 +7,6 @@
 namespace squeal::pencil {
 
 /// Collective. Writes or reads the results of a point.
-void exchange(checkpoint::Archive& archive, ComplexModes& point);
+void serialise(checkpoint::Archive& archive, ComplexModes& point);
 
 }  // namespace squeal::pencil

@@ -53,7 +53,7 @@ ScaledSketches scaledSketches(const ProjectedBasis& basis,
 void Corrector::start(const PointProblem& point, const std::vector<double>& frequencies) {
   basis_.basis().add(
       forcesOnModes(basis_.basis(), point.pencil, point.at, frequencies, resolution));
-  estimator_.noteCorrection();
+  estimator_.recordCorrection();
 }
 
 CorrectionRequest Corrector::requestOf(const PointState& state) const {

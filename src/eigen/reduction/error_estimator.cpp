@@ -49,7 +49,7 @@ ErrorEstimator::ErrorEstimator(ProjectedBasis& basis, const std::vector<double>&
       lowestMode_(frequencies.front()),
       highestMode_(frequencies.back()) {}
 
-void ErrorEstimator::noteCorrection() {
+void ErrorEstimator::recordCorrection() {
   rightRatio_ = std::max(measuredRatio_, basis_.basis().lastEnergyRatio());
 }
 
@@ -186,7 +186,7 @@ std::vector<PointState*> ErrorEstimator::unconfirmed(std::vector<PointState>& st
   return open;
 }
 
-void ErrorEstimator::exchange(checkpoint::Archive& archive) {
+void ErrorEstimator::serialise(checkpoint::Archive& archive) {
   archive.common(lowestMode_, highestMode_, rightRatio_, leftRatio_, measuredRatio_, confirmed_);
 }
 

@@ -27,7 +27,7 @@ class ErrorEstimator {
   /// Records that the basis no longer contains the modes.
   void dropModes() { highestMode_ = 0; }
   /// Records a correction by residuals, whose ratio of norms the basis provides.
-  void noteCorrection();
+  void recordCorrection();
 
   /// Not collective. Sets the errors of the pairs of a point, whose projected problem is `problem`.
   void estimate(PointState& state, const linalg::DenseProblem& problem) const;
@@ -46,7 +46,7 @@ class ErrorEstimator {
   /// accurate.
   std::vector<PointState*> unconfirmed(std::vector<PointState>& states);
   /// Not collective. Writes or reads the ratios.
-  void exchange(checkpoint::Archive& archive);
+  void serialise(checkpoint::Archive& archive);
 
  private:
   double basisError(const PointSolution& solution, std::size_t pair) const;

@@ -86,7 +86,7 @@ std::vector<Complex> arnoldi(const Companion& companion, const Deflation& deflat
 }  // namespace
 
 std::optional<Complex> findMissing(const DenseProblem& problem, const std::vector<DensePair>& pairs,
-                                   Complex shift, const linalg::Wanted& wanted) {
+                                   Complex shift, const linalg::EigenvalueFilter& wanted) {
   const LoggedWork logged(Work::denseEigenvalues);
   const Companion companion(problem, largestSize(pairs));
   std::vector<const DensePair*> list;

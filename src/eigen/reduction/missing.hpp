@@ -15,6 +15,6 @@ namespace squeal::reduction {
 /// fails.
 std::optional<Complex> findMissing(const linalg::DenseProblem& problem,
                                    const std::vector<linalg::DensePair>& pairs, Complex shift,
-                                   const linalg::Wanted& wanted);
+                                   const linalg::EigenvalueFilter& wanted);
 
 }  // namespace squeal::reduction

@@ -18,7 +18,7 @@ class PointNorms {
   /// parameters. If there is none, computes the norms of this point.
   const Norms& nearby(const PointProblem& point);
   /// Not collective. Writes or reads all norms.
-  void exchange(checkpoint::Archive& archive) { archive.common(known_); }
+  void serialise(checkpoint::Archive& archive) { archive.common(known_); }
 
  private:
   std::vector<std::pair<sweep::Parameters, Norms>> known_;

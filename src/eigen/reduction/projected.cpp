@@ -106,7 +106,7 @@ void ProjectedTerms::extend(Part& part) const {
   constexpr PetscInt atOnce = 64;
   const PetscInt old = part.sketch.columns(), size = basis_.size();
   if (old == size) return;
-  const bool known = knownFrom(part, old), thin = !part.rows.all();
+  const bool known = hasProductsFrom(part, old), thin = !part.rows.all();
   if (thin) part.rowsOfV.append(part.rows.of(basis_.columns().columnRange(old, size)));
   const linalg::DenseView v = thin ? part.rowsOfV : basis_.columns();
   linalg::DenseMatrix right(size, size - old), below(part.adjoint ? size - old : 0, old);
@@ -142,7 +142,7 @@ void ProjectedTerms::extend(Part& part) const {
 }
 
 /// Returns true if A is K0 and the basis has K0 times the columns from `old` on.
-bool ProjectedTerms::knownFrom(const Part& part, PetscInt old) const {
+bool ProjectedTerms::hasProductsFrom(const Part& part, PetscInt old) const {
   return part.term.matrix == basis_.stiffness() && basis_.forces().columns() == basis_.size() - old;
 }
 

@@ -95,7 +95,7 @@ class ProjectedTerms {
   };
   Part partOf(pencil::Term term) const;
   void extend(Part& part) const;
-  bool knownFrom(const Part& part, PetscInt old) const;
+  bool hasProductsFrom(const Part& part, PetscInt old) const;
   const Basis& basis_;
   std::vector<Part> parts_;
 };

@@ -13,7 +13,7 @@ ProjectedBasis::ProjectedBasis(const pencil::Pencil& pencil, const factor::Assoc
     : basis_(modes, system, std::move(substructure)),
       terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(MatGetSize(basis_.stiffness(), &unknowns_, nullptr));
-  exchanged_ = basis_.size();
+  serialised_ = basis_.size();
 }
 
 int ProjectedBasis::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
@@ -114,7 +114,7 @@ void ProjectedBasis::combine(const linalg::DenseMatrix& directions) {
   for (auto& set : sets_) set->terms.combine(all);
 }
 
-void ProjectedBasis::exchange(checkpoint::Archive& archive) {
+void ProjectedBasis::serialise(checkpoint::Archive& archive) {
   for (auto& set : sets_) archive.common(set->top, set->modesInBand);
   double ratio = basis_.lastEnergyRatio();
   long solves = basis_.solves();
@@ -125,9 +125,9 @@ void ProjectedBasis::exchange(checkpoint::Archive& archive) {
     basis_.restore(columns, ratio, solves);
     extend({});
   } else {
-    linalg::borrow(archive.own, basis_.columns().columnRange(exchanged_, basis_.size()));
+    linalg::borrow(archive.own, basis_.columns().columnRange(serialised_, basis_.size()));
   }
-  exchanged_ = basis_.size();
+  serialised_ = basis_.size();
 }
 
 }  // namespace squeal::reduction

@@ -74,14 +74,14 @@ class ProjectedBasis {
   void combine(const linalg::DenseMatrix& directions);
   /// Collective. Writes the vectors that are new since the last call, or reads and appends them.
   /// All sets must have been added. An archive being written borrows the basis.
-  void exchange(checkpoint::Archive& archive);
+  void serialise(checkpoint::Archive& archive);
 
  private:
   Basis basis_;
   ProjectedTerms terms_;
   PetscInt unknowns_ = 0;
   std::vector<std::unique_ptr<PointSet>> sets_;
-  PetscInt exchanged_ = 0;  // vectors that the checkpoint contains
+  PetscInt serialised_ = 0;  // vectors that the checkpoint contains
 };
 
 }  // namespace squeal::reduction

@@ -87,24 +87,24 @@ void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
 /// Collective. Searches for missing eigenvalues at the points. Clears the spectra of the incomplete
 /// points and returns these points.
 std::vector<PointState*> ReducedProblem::incompleteStates(std::vector<PointState>& states) {
-  std::vector<PointState*> asked, open;
+  std::vector<PointState*> examined, open;
   std::vector<linalg::DenseProblem> problems;
   for (auto& state : states)
     if (state.solution.spectrum.improved) {
-      asked.push_back(&state);
+      examined.push_back(&state);
       state.ownTerms.extend();
       problems.push_back(basis_.project(state));
     }
   std::vector<SpectrumRequest> requests;
-  for (std::size_t i = 0; i < asked.size(); ++i)
-    requests.push_back({&problems[i], &asked[i]->solution.spectrum, {}});
+  for (std::size_t i = 0; i < examined.size(); ++i)
+    requests.push_back({&problems[i], &examined[i]->solution.spectrum, {}});
   const auto are = incomplete(basis().comm(), band_, requests);
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    Spectrum& spectrum = asked[i]->solution.spectrum;
+  for (std::size_t i = 0; i < examined.size(); ++i) {
+    Spectrum& spectrum = examined[i]->solution.spectrum;
     spectrum.improved = false;
     if (!are[i]) continue;
     spectrum = {};
-    open.push_back(asked[i]);
+    open.push_back(examined[i]);
   }
   return open;
 }
@@ -122,7 +122,7 @@ bool ReducedProblem::addCorrections(const std::vector<PointState*>& open) {
   std::vector<CorrectionRequest> requests;
   for (const auto* state : open) requests.push_back(corrector_.requestOf(*state));
   if (corrector_.correct(requests) == 0) return false;
-  estimator_.noteCorrection();
+  estimator_.recordCorrection();
   return true;
 }
 
@@ -174,12 +174,12 @@ void ReducedProblem::correct(std::vector<PointState>& states) {
   }
 }
 
-void ReducedProblem::exchange(checkpoint::Archive& archive) {
+void ReducedProblem::serialise(checkpoint::Archive& archive) {
   archive.common(started_);
-  estimator_.exchange(archive);
-  norms_.exchange(archive);
-  basis_.exchange(archive);
-  solved_.exchange(archive);
+  estimator_.serialise(archive);
+  norms_.serialise(archive);
+  basis_.serialise(archive);
+  solved_.serialise(archive);
   bool has = pending_.has_value();
   archive.common(has);
   if (archive.reads()) pending_.reset();
@@ -206,7 +206,7 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
     if (state.set->top != band_.top) truncateBand(state.solution, state.set->top);
   std::vector<pencil::ComplexModes> points;
   for (const auto& state : states) points.push_back(result(state));
-  keepShapes(points, states, trial);
+  storeShapes(points, states, trial);
   if (settings_.compressed) {
     pod_.take(states);
     if (pod_.compress(basis_)) estimator_.dropModes();
@@ -228,7 +228,7 @@ PointState ReducedProblem::associatedState(const PointProblem& point) {
 }
 
 /// Collective. Sets the top of the band of a set from the eigenvalues ω² of its free modes.
-void ReducedProblem::settleBand(std::vector<double> values, PointSet& set) const {
+void ReducedProblem::setBand(std::vector<double> values, PointSet& set) const {
   if (band_.top == 0 || !std::isfinite(band_.top)) return;
   values.resize(std::min(values.size(), frequencies_.size()));
   for (double& value : values) value = std::sqrt(std::max(value, 0.0));
@@ -245,7 +245,7 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
   modes::Modes modes = reduction::freeModes(basis(), state, associated);
   linalg::DenseProblem problem = basis_.project(state);
   const auto values = linalg::symmetricEigen(problem.stiffness, problem.mass);
-  settleBand(values, basis_.set(set));
+  setBand(values, basis_.set(set));
   if (count_)
     confirmCount(basis().comm(), *count_, {band_.top, values, state.set->space.boundary()}, modes);
   return modes;
@@ -268,7 +268,7 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
                            .error = estimator_.absoluteError(solution, j)});
     e.certified = e.backwardError <= point.accuracy && estimator_.isExactEnough(solution, e);
   }
-  pencil::judge(point, solution.symmetry, settings_.criteria);
+  pencil::setVerdicts(point, solution.symmetry, settings_.criteria);
   // All ranks compute the shapes together, so they must agree on the verdicts.
   mpi::broadcast(basis().comm(), point.eigenvalues);
   return point;
@@ -276,12 +276,12 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
 
 /// Collective. Stores the shapes of all points. It computes them together, since each product with
 /// the basis reads the whole basis.
-void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
-                                const std::vector<PointState>& states, Mat trial) const {
+void ReducedProblem::storeShapes(std::vector<pencil::ComplexModes>& points,
+                                 const std::vector<PointState>& states, Mat trial) const {
   std::vector<std::vector<std::size_t>> wanted;
   std::vector<std::vector<Complex>> lifted;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    wanted.push_back(pencil::shapesWanted(points[i], settings_.criteria));
+    wanted.push_back(pencil::shapesToStore(points[i], settings_.criteria));
     for (std::size_t index : wanted.back())
       lifted.push_back(states[i].set->space.lifted(states[i].solution.spectrum.band[index].q));
   }
@@ -290,7 +290,7 @@ void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
   auto next = std::make_move_iterator(all.begin());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::ptrdiff_t count = wanted[i].size();
-    pencil::keepShapes(points[i], trial, wanted[i], {next, next + count});
+    pencil::storeShapes(points[i], trial, wanted[i], {next, next + count});
     next += count;
   }
 }

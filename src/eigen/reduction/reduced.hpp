@@ -68,14 +68,14 @@ class ReducedProblem {
   /// responses belong to the first point of the first batch. `trial` (T, N×n) maps shapes to nodal
   /// displacements.
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
-  /// Returns true if the basis only grows, as exchange() requires.
+  /// Returns true if the basis only grows, as serialise() requires.
   bool grows() const { return !settings_.compressed; }
   /// Makes solve() call `action`, which is collective, whenever the basis has grown.
   void afterEachRound(std::function<void()> action) { afterRound_ = std::move(action); }
   /// Collective. Writes or reads the results since the last call and the state of the current batch
   /// of solve(). After reading, the next solve() must be of that batch. All sets must have been
   /// added. An archive being written borrows the basis.
-  void exchange(checkpoint::Archive& archive);
+  void serialise(checkpoint::Archive& archive);
   /// Collective. Returns the watched eigenpairs of a point with these parameters and boundary
   /// unknowns, with both vectors, in coordinates of the basis at the time of its solve. Pairs in
   /// the band are those of solve(); pairs in the guard zone may be less accurate. Returns none if
@@ -114,10 +114,10 @@ class ReducedProblem {
   void store(const std::vector<PointState>& states, const std::vector<PointState*>& open, int round,
              PetscInt largest);
   PointState associatedState(const PointProblem& point);
-  void settleBand(std::vector<double> values, PointSet& set) const;
+  void setBand(std::vector<double> values, PointSet& set) const;
   pencil::ComplexModes result(const PointState& state) const;
-  void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
-                  Mat trial) const;
+  void storeShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
+                   Mat trial) const;
 
   const Settings settings_;
   std::vector<double> frequencies_;  // of the free modes that start the basis, rad/s

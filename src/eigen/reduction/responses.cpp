@@ -30,7 +30,7 @@ linalg::Block forcesOnModes(const Basis& basis, const pencil::Pencil& pencil,
   std::vector<Forces> list;
   for (const bool transposed : {false, true})
     for (std::size_t t = 0; t < terms.size(); ++t)
-      if (terms[t].holdsFriction() || t >= pencil.affineCount())
+      if (terms[t].containsFriction() || t >= pencil.affineCount())
         list.push_back(forcesOf(terms[t], at, transposed));
   // Friction forces are nonzero only at the contact: the columns are stored by their common nonzero
   // rows.

@@ -34,12 +34,12 @@ std::optional<std::vector<linalg::DensePair>> SolvedPairs::at(const sweep::Param
   return {};
 }
 
-void SolvedPairs::exchange(checkpoint::Archive& archive) {
+void SolvedPairs::serialise(checkpoint::Archive& archive) {
   std::size_t count = entries_.size();
   archive.common(bytes_, count);
   entries_.resize(count);
-  for (; exchanged_ < count; ++exchanged_) {
-    auto& entry = entries_[exchanged_];
+  for (; serialised_ < count; ++serialised_) {
+    auto& entry = entries_[serialised_];
     archive.common(entry.at, entry.set, entry.owner);
     archive.own(entry.pairs);
   }

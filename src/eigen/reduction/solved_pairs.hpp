@@ -22,7 +22,7 @@ class SolvedPairs {
   /// Collective. Returns the pairs of a point with both vectors; none if they are not stored.
   std::optional<std::vector<linalg::DensePair>> at(const sweep::Parameters& at, int set) const;
   /// Not collective. Writes the pairs that are new since the last call, or reads and adds them.
-  void exchange(checkpoint::Archive& archive);
+  void serialise(checkpoint::Archive& archive);
 
  private:
   struct Entry {
@@ -33,8 +33,8 @@ class SolvedPairs {
   };
   MPI_Comm comm_;
   std::vector<Entry> entries_;
-  double bytes_ = 0;           // on all ranks
-  std::size_t exchanged_ = 0;  // entries that the checkpoint contains
+  double bytes_ = 0;            // on all ranks
+  std::size_t serialised_ = 0;  // entries that the checkpoint contains
 };
 
 }  // namespace squeal::reduction

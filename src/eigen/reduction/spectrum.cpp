@@ -47,8 +47,8 @@ std::vector<UnconvergedPair> openOf(const SpectrumRequest& request) {
 }
 
 /// Divides the pairs into those of the band and those of the guard zone.
-void keep(std::vector<linalg::DensePair> pairs, const pencil::WatchedBand& band,
-          Spectrum& spectrum) {
+void partition(std::vector<linalg::DensePair> pairs, const pencil::WatchedBand& band,
+               Spectrum& spectrum) {
   std::ranges::sort(pairs, [](const auto& a, const auto& b) {
     return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
   });
@@ -78,7 +78,7 @@ void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
       inFull.push_back(improvable[i]);
       continue;
     }
-    keep(std::move(pairs[i]), band, *improvable[i]->spectrum);
+    partition(std::move(pairs[i]), band, *improvable[i]->spectrum);
     improvable[i]->spectrum->improved = true;
   }
   auto solved = linalg::spread(comm, inFull.size(), linalg::Vectors::both, [&](std::size_t i) {
@@ -86,7 +86,7 @@ void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
                                   [&](Complex s) { return band.top == 0 || band.watches(s); });
   });
   for (std::size_t i = 0; i < inFull.size(); ++i) {
-    keep(std::move(solved[i]), band, *inFull[i]->spectrum);
+    partition(std::move(solved[i]), band, *inFull[i]->spectrum);
     inFull[i]->spectrum->improved = false;
   }
 }

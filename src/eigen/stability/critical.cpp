@@ -53,7 +53,7 @@ class Roots {
       if (event.low < event.high && event.kind != Event::Kind::contact)
         ends.insert(ends.end(), {event.low, event.high});
     }
-    family.know(ends);
+    family.addFrictions(ends);
     locate(indices(events.size()), true);
   }
 

@@ -36,22 +36,22 @@ bool areFreeModes(const Station& station, const std::vector<double>& angularFreq
 
 }  // namespace
 
-bool worthFollowing(const Line& line, bool requested) {
+bool worthTracking(const Line& line, bool requested) {
   return line.swept.size() > 1 || line.before || (line.swept.front() != 0 && requested);
 }
 
-std::string nothingToFollow(const reduction::ReducedProblem& reduced,
-                            const std::vector<Line>& lines) {
+std::string whyNotTracked(const reduction::ReducedProblem& reduced,
+                          const std::vector<Line>& lines) {
   if (reduced.band().top == 0) return "-flutter_basis modal corrects no eigenvalue";
   return lines.empty() ? "single frictions" : "";
 }
 
-bool Followed::complete() const {
+bool TrackedLine::complete() const {
   return std::all_of(branches.gaps.begin(), branches.gaps.end(),
                      [](const Gap& gap) { return gap.identityOnly; });
 }
 
-std::string Followed::statement() const {
+std::string TrackedLine::statement() const {
   const auto& stations = branches.stations;
   if (stations.empty()) return "completeness not shown: no reduced problem";
   const auto& first = stations.front();
@@ -71,7 +71,7 @@ std::string Followed::statement() const {
     text += "not all tracked:";
     for (const auto& gap : branches.gaps)
       if (!gap.identityOnly)
-        text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.what.c_str());
+        text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.reason.c_str());
   }
   if (const auto open = std::ranges::count(criticals, false, &Critical::converged); open > 0)
     text += formatted("; %td of %zu changes of stability %s located only within their bounds", open,
@@ -82,57 +82,57 @@ std::string Followed::statement() const {
                           "crosses the edge of the band";
 }
 
-std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
-                                  const std::vector<Line>& lines, const Settings& settings,
-                                  MPI_Comm comm,
-                                  const std::function<void(const std::string&)>& progress) {
-  std::vector<Followed> result;
+std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
+                                    const std::vector<Line>& lines, const Settings& settings,
+                                    MPI_Comm comm,
+                                    const std::function<void(const std::string&)>& progress) {
+  std::vector<TrackedLine> result;
   PetscInt unknowns = 0;
   check(MatGetSize(reduced.basis().stiffness(), &unknowns, nullptr));
   for (const auto& line : lines) {
-    Followed followed;
-    followed.line = line.at;
-    followed.wholeSpace = reduced.basisSize() == unknowns;
+    TrackedLine tracked;
+    tracked.line = line.at;
+    tracked.wholeSpace = reduced.basisSize() == unknowns;
     std::vector<std::unique_ptr<tracking::ReducedFamily>> families;
     std::vector<Piece> path;
     for (const auto& piece : line.pieces) {
       families.push_back(std::make_unique<tracking::ReducedFamily>(reduced, comm, line.at,
                                                                    piece.source, progress));
       path.push_back({families.back().get(), piece.frictions});
-      followed.activeSet.push_back(piece.activeSet);
+      tracked.activeSet.push_back(piece.activeSet);
     }
     auto& first = path.front().frictions;
     if (first.front() != 0) first.insert(first.begin(), 0);
     tracking::TrackLimits limits;
     limits.smallest = settings.smallest;
-    followed.branches = follow(path, reduced.band(), limits);
-    auto& stations = followed.branches.stations;
+    tracked.branches = track(path, reduced.band(), limits);
+    auto& stations = tracked.branches.stations;
     for (auto& station : stations)
       station.swept = std::ranges::binary_search(line.swept, station.friction);
     if (!stations.empty() && stations.front().friction == 0) {
       const auto& w = line.modes->angularFrequency;
-      const double top = followed.branches.band.top;
+      const double top = tracked.branches.band.top;
       const auto below =
           std::count_if(w.begin(), w.end(), [&](double omega) { return omega <= top; });
       const auto problem = families.front()->at(0);
-      followed.countExact = problem && problem->damping.empty() && line.modes->countConfirmed &&
-                            top * top <= line.modes->inertiaShift &&
-                            areFreeModes(stations.front(), w, below);
+      tracked.countExact = problem && problem->damping.empty() && line.modes->countConfirmed &&
+                           top * top <= line.modes->inertiaShift &&
+                           areFreeModes(stations.front(), w, below);
     }
-    renumber(followed.branches);
+    renumber(tracked.branches);
     if (settings.critical)
-      followed.criticals = criticalFrictions(path, followed.branches, settings.tolerance);
+      tracked.criticals = criticalFrictions(path, tracked.branches, settings.tolerance);
     if (line.before) {
-      followed.from = line.swept.front();
-      auto& gaps = followed.branches.gaps;
-      std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= followed.from; });
-      gaps.push_back({*line.before, followed.from,
+      tracked.from = line.swept.front();
+      auto& gaps = tracked.branches.gaps;
+      std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= tracked.from; });
+      gaps.push_back({*line.before, tracked.from,
                       "the active set changes, and the two sets have a basis each"});
-      std::erase_if(followed.criticals,
-                    [&](const Critical& critical) { return critical.friction < followed.from; });
+      std::erase_if(tracked.criticals,
+                    [&](const Critical& critical) { return critical.friction < tracked.from; });
     }
-    dropVectors(followed.branches);
-    result.push_back(std::move(followed));
+    dropVectors(tracked.branches);
+    result.push_back(std::move(tracked));
   }
   return result;
 }

@@ -37,7 +37,7 @@ struct Line {
 };
 
 /// The result for all frictions of one speed, pressure and damping that share a basis.
-struct Followed {
+struct TrackedLine {
   sweep::Parameters line;      ///< the other parameters; its friction has no meaning
   std::vector<int> activeSet;  ///< [piece of the path] its number in the results
   double from = 0;    ///< friction below which another active set applies; 0: there is none
@@ -54,19 +54,18 @@ struct Followed {
 
 /// Returns true if a line is worth tracking: single frictions are not, unless tracking is
 /// `requested`.
-bool worthFollowing(const Line& line, bool requested);
+bool worthTracking(const Line& line, bool requested);
 /// Returns the reason why no line can be tracked; empty if one can. Tracking is impossible in a
 /// basis of only the free modes.
-std::string nothingToFollow(const reduction::ReducedProblem& reduced,
-                            const std::vector<Line>& lines);
+std::string whyNotTracked(const reduction::ReducedProblem& reduced, const std::vector<Line>& lines);
 
 /// Collective. Tracks the eigenvalues of the lines from friction 0 on, in the present basis, and
 /// solves for the critical frictions if the settings request them, which may extend the basis.
 /// Eigenvalues jump at a change of the active set and are joined across it. A line whose first
 /// friction is not 0 starts at friction 0 with its first active set.
-std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
-                                  const std::vector<Line>& lines, const Settings& settings,
-                                  MPI_Comm comm,
-                                  const std::function<void(const std::string&)>& progress);
+std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
+                                    const std::vector<Line>& lines, const Settings& settings,
+                                    MPI_Comm comm,
+                                    const std::function<void(const std::string&)>& progress);
 
 }  // namespace squeal::stability

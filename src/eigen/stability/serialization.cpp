@@ -29,8 +29,8 @@ void fields(Stream& stream, Gap& gap) {
 
 namespace squeal::stability {
 
-void fields(Stream& stream, Followed& followed) {
-  auto& [line, activeSet, from, branches, criticals, countExact, wholeSpace] = followed;
+void fields(Stream& stream, TrackedLine& tracked) {
+  auto& [line, activeSet, from, branches, criticals, countExact, wholeSpace] = tracked;
   auto& [band, stations, events, gaps, count, entered, left] = branches;
   stream(line, activeSet, from, band, stations, events, gaps, count, entered, left, criticals,
          countExact, wholeSpace);

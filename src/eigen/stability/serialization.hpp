@@ -8,6 +8,6 @@
 namespace squeal::stability {
 
 /// Not collective. Writes or reads the tracked eigenvalues of a line, the same on all ranks.
-void fields(Stream& stream, Followed& followed);
+void fields(Stream& stream, TrackedLine& tracked);
 
 }  // namespace squeal::stability

@@ -39,14 +39,14 @@ linalg::DenseMatrix orthonormalising(linalg::DenseMatrix gram, double small) {
 
 /// Sets diagonal entries to zero if they are at most `small` times the total energy of their
 /// column, including its `parts` along V.
-void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts, double small) {
+void clearDependent(linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts, double small) {
   for (PetscInt j = 0; j < energy.columns(); ++j)
     if (energy(j, j) <= small * linalg::squaredLength(parts.column(j))) energy(j, j) = 0;
 }
 
 /// Returns true if energy-orthonormal vectors with the components `along` V are nearly orthogonal
 /// to V.
-bool isLittle(const linalg::DenseMatrix& along) {
+bool isNegligible(const linalg::DenseMatrix& along) {
   constexpr double little = 1e-8;  // 1e-4 of their length
   for (PetscInt j = 0; j < along.columns(); ++j)
     if (!(linalg::squaredLength(along.column(j)) < little)) return false;
@@ -137,7 +137,8 @@ void Basis::addConstraintModes() {
 }
 
 /// Sets the rows of the boundary to K z with z = K0⁻¹ r, which is −Yᵀr [M.60]; `answers` is Yᵀr.
-void Basis::answerAtBoundary(const linalg::DenseMatrix& answers, linalg::Block& residuals) const {
+void Basis::setBoundaryReactions(const linalg::DenseMatrix& answers,
+                                 linalg::Block& residuals) const {
   const auto& boundary = substructure_.boundary;
   for (PetscInt j = 0; j < residuals.columns(); ++j)
     for (std::size_t i = 0; i < boundary.size(); ++i)
@@ -169,10 +170,10 @@ PetscInt Basis::add(linalg::Block residuals) {
   const linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, residuals);
   ratio_ = ratio(residuals, energy);
   linalg::DenseMatrix parts = linalg::transposedProduct(comm_, columns_, residuals);  // VᵀK z
-  answerAtBoundary(linalg::rowRange(parts, 0, boundarySize()), residuals);
+  setBoundaryReactions(linalg::rowRange(parts, 0, boundarySize()), residuals);
   clearConstraintModes(parts, boundarySize());
   const PetscInt before = size();
-  if (!addAcross(z, residuals, energy, parts)) addOrthogonalised(z, parts);
+  if (!addOrthogonal(z, residuals, energy, parts)) addOrthogonalised(z, parts);
   sketchColumns(before);
   return size() - before;
 }
@@ -190,11 +191,11 @@ void Basis::restore(const linalg::DenseView& columns, double lastEnergyRatio, lo
 /// Collective. Adds z = K0⁻¹ R if it is nearly orthogonal to V: K0 z, VᵀK0z and zᵀK0z are then R,
 /// VᵀR and zᵀR. Returns false, without adding anything, if z is not nearly orthogonal or K0⁻¹ is
 /// not accurate enough.
-bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
-                      const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
+bool Basis::addOrthogonal(const linalg::Block& z, const linalg::Block& residuals,
+                          const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
   const linalg::DenseMatrix combinations = orthonormalising(energy, independent),
                             along = linalg::product(parts, combinations);
-  if (combinations.empty() || !isLittle(along) || !(solutionError(z, residuals) <= 1e-12))
+  if (combinations.empty() || !isNegligible(along) || !(solutionError(z, residuals) <= 1e-12))
     return false;
   append(linalg::product(z, combinations), linalg::product(residuals, combinations), along);
   return true;
@@ -228,11 +229,11 @@ void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts
     rest = linalg::transposedProduct(comm_, columns_, forces);
     clearConstraintModes(rest, boundarySize());
     linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, forces);
-    clearWhatVHolds(energy, parts, independent);
+    clearDependent(energy, parts, independent);
     const linalg::DenseMatrix combinations = orthonormalising(energy, independent),
                               along = linalg::product(rest, combinations);
     if (combinations.empty()) return;
-    if (!isLittle(along)) continue;
+    if (!isNegligible(along)) continue;
     append(linalg::product(z, combinations), linalg::product(forces, combinations), along);
     return;
   }

@@ -92,15 +92,15 @@ class Basis {
 
  private:
   double ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const;
-  bool addAcross(const linalg::Block& z, const linalg::Block& residuals,
-                 const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts);
+  bool addOrthogonal(const linalg::Block& z, const linalg::Block& residuals,
+                     const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts);
   void append(const linalg::Block& z, linalg::Block forces, const linalg::DenseMatrix& along);
   void addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts);
   double solutionError(const linalg::Block& z, const linalg::Block& residuals) const;
   void sketchColumns(PetscInt first);
 
   void addConstraintModes();
-  void answerAtBoundary(const linalg::DenseMatrix& answers, linalg::Block& residuals) const;
+  void setBoundaryReactions(const linalg::DenseMatrix& answers, linalg::Block& residuals) const;
 
   MPI_Comm comm_;
   Substructure substructure_;

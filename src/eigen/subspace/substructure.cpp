@@ -14,12 +14,13 @@ using linalg::DenseMatrix;
 PointSpace::PointSpace(const DenseMatrix& boundaryStiffness, const std::vector<unsigned char>& has)
     : all_(boundaryStiffness.rows()) {
   for (std::size_t i = 0; i < has.size(); ++i)
-    if (has[i]) kept_.push_back(i);
+    if (has[i]) boundary_.push_back(i);
   DenseMatrix stiffness(own(), own());
   turn_ = stiffness;
   for (PetscInt j = 0; j < own(); ++j) {
     turn_(j, j) = 1;
-    for (PetscInt i = 0; i < own(); ++i) stiffness(i, j) = boundaryStiffness(kept_[i], kept_[j]);
+    for (PetscInt i = 0; i < own(); ++i)
+      stiffness(i, j) = boundaryStiffness(boundary_[i], boundary_[j]);
   }
   PetscBLASInt n = own(), info = 0;
   const PetscScalar one = 1;
@@ -36,7 +37,7 @@ std::vector<Complex> PointSpace::lifted(const std::vector<Complex>& q) const {
   if (isWhole() || q.empty()) return q;
   std::vector<Complex> result(all_);
   for (PetscInt j = 0; j < own(); ++j)
-    for (PetscInt i = 0; i <= j; ++i) result[kept_[i]] += turn_(i, j) * q[j];
+    for (PetscInt i = 0; i <= j; ++i) result[boundary_[i]] += turn_(i, j) * q[j];
   result.insert(result.end(), q.begin() + own(), q.end());
   return result;
 }
@@ -46,13 +47,14 @@ DenseMatrix PointSpace::restricted(const DenseMatrix& a) const {
   const PetscInt m = a.rows(), k = own(), n = size(m);
   // A C, with C = (L⁻ᵀ on the unknowns of the point; the identity)
   DenseMatrix some(m, k);
-  for (PetscInt j = 0; j < k; ++j) std::ranges::copy(a.column(kept_[j]), some.column(j).begin());
+  for (PetscInt j = 0; j < k; ++j)
+    std::ranges::copy(a.column(boundary_[j]), some.column(j).begin());
   DenseMatrix right = linalg::product(some, turn_);
   if (k == 0) right = DenseMatrix(m);
   right.append(a.columnRange(all_, m));
   DenseMatrix top(k, n), result(n, n);
   for (PetscInt j = 0; j < n; ++j) {
-    for (PetscInt i = 0; i < k; ++i) top(i, j) = right(kept_[i], j);
+    for (PetscInt i = 0; i < k; ++i) top(i, j) = right(boundary_[i], j);
     for (PetscInt i = k; i < n; ++i) result(i, j) = right(all_ - k + i, j);
   }
   if (k == 0) return result;

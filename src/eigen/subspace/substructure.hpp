@@ -38,9 +38,9 @@ class PointSpace {
   /// Returns the number of coordinates of the point in a basis of this size.
   PetscInt size(PetscInt basisSize) const { return basisSize - all_ + own(); }
   /// Returns the number of boundary unknowns of the point.
-  PetscInt own() const { return std::ssize(kept_); }
+  PetscInt own() const { return std::ssize(boundary_); }
   /// Returns the boundary unknowns of the point, ascending.
-  const std::vector<PetscInt>& boundary() const { return kept_; }
+  const std::vector<PetscInt>& boundary() const { return boundary_; }
   /// Converts the coordinates q of the point to coordinates of the basis.
   std::vector<Complex> lifted(const std::vector<Complex>& q) const;
   /// Returns the problem of the point from its projections on the basis.
@@ -48,9 +48,9 @@ class PointSpace {
 
  private:
   linalg::DenseMatrix restricted(const linalg::DenseMatrix& a) const;
-  PetscInt all_ = 0;            // boundary unknowns of all points
-  std::vector<PetscInt> kept_;  // boundary unknowns of this point, ascending
-  linalg::DenseMatrix turn_;    // L⁻ᵀ with S = L Lᵀ of these
+  PetscInt all_ = 0;                // boundary unknowns of all points
+  std::vector<PetscInt> boundary_;  // boundary unknowns of this point, ascending
+  linalg::DenseMatrix turn_;        // L⁻ᵀ with S = L Lᵀ of these
 };
 
 }  // namespace squeal::subspace

@@ -11,7 +11,7 @@ namespace squeal::sweep_solver {
 bool Journal::restoreFinished() {
   auto entry = checkpoint_.next(name_ + "_finished");
   if (!entry) return false;
-  exchangeFinished(*entry);
+  serialiseFinished(*entry);
   pointsDone(plan_.points.size());
   return true;
 }
@@ -20,71 +20,71 @@ std::optional<modes::Modes> Journal::restoredModes() {
   auto entry = checkpoint_.next(name_ + "_modes");
   if (!entry) return {};
   modes::Modes modes;
-  modes::exchange(*entry, modes, problem_.system->k0());
+  modes::serialise(*entry, modes, problem_.system->k0());
   modesRecorded_ = true;
   return modes;
 }
 
 void Journal::restorePoints(reduction::ReducedProblem* basis) {
-  while (auto entry = checkpoint_.next(name_ + "_points")) exchangePoints(*entry, basis);
+  while (auto entry = checkpoint_.next(name_ + "_points")) serialisePoints(*entry, basis);
 }
 
 void Journal::record(modes::Modes& freeModes, reduction::ReducedProblem* basis) {
   if (!checkpoint_.due()) return;
   if (!modesRecorded_) {
     checkpoint::Archive archive(comm());
-    modes::exchange(archive, freeModes, problem_.system->k0());
+    modes::serialise(archive, freeModes, problem_.system->k0());
     checkpoint_.write(name_ + "_modes", archive);
     modesRecorded_ = true;
   }
   // A compressed basis does not only grow: a resumed run solves its points again.
   if (basis && !basis->grows()) return;
   checkpoint::Archive archive(comm());
-  exchangePoints(archive, basis);
+  serialisePoints(archive, basis);
   checkpoint_.write(name_ + "_points", archive);
 }
 
 void Journal::recordFinished() {
   if (!checkpoint_.isWorth(MPI_Wtime() - begin_)) return;
   checkpoint::Archive archive(comm());
-  exchangeFinished(archive);
+  serialiseFinished(archive);
   checkpoint_.write(name_ + "_finished", archive);
 }
 
 /// Collective. Writes the part of the basis and the points that are new since the last call, or
 /// reads and adds them.
-void Journal::exchangePoints(checkpoint::Archive& archive, reduction::ReducedProblem* basis) {
+void Journal::serialisePoints(checkpoint::Archive& archive, reduction::ReducedProblem* basis) {
   const std::size_t before = state_.solved;
   archive.common(state_.affine, state_.solved, state_.failures);
-  if (basis) basis->exchange(archive);
+  if (basis) basis->serialise(archive);
   bool withModes = state_.hasSetModes && !setModesRecorded_;
   archive.common(withModes);
   if (withModes) {
     for (auto& segment : state_.segments)
       if (!segment.points.empty())
-        modes::exchange(archive, segment.modes, problem_.substructure.stiffness);
+        modes::serialise(archive, segment.modes, problem_.substructure.stiffness);
     state_.hasSetModes = setModesRecorded_ = true;
   }
-  for (; exchanged_ < state_.solved; ++exchanged_) {
-    const PointPlace& place = plan_.places[plan_.order[exchanged_]];
-    pencil::exchange(archive, state_.segments[place.range].points[place.inRange]);
+  for (; serialised_ < state_.solved; ++serialised_) {
+    const PointPlace& place = plan_.places[plan_.order[serialised_]];
+    pencil::serialise(archive, state_.segments[place.range].points[place.inRange]);
   }
   if (archive.reads()) pointsDone(state_.solved - before);
 }
 
 /// Collective. Writes or reads all reported results.
-void Journal::exchangeFinished(checkpoint::Archive& archive) {
+void Journal::serialiseFinished(checkpoint::Archive& archive) {
   const Mat all = problem_.substructure.stiffness;  // of all unknowns; null: all are interior
   std::size_t count = state_.segments.size();
   archive.common(count);
   state_.segments.resize(count);
   for (auto& segment : state_.segments) {
-    archive.common(segment.openNodes, segment.unknowns, segment.solves, segment.followed);
-    modes::exchange(archive, segment.modes, all ? all : problem_.system->k0());
+    archive.common(segment.openNodes, segment.unknowns, segment.solves, segment.trackedLines);
+    modes::serialise(archive, segment.modes, all ? all : problem_.system->k0());
     std::size_t points = segment.points.size();
     archive.common(points);
     segment.points.resize(points);
-    for (auto& point : segment.points) pencil::exchange(archive, point);
+    for (auto& point : segment.points) pencil::serialise(archive, point);
   }
 }
 

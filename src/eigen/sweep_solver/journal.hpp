@@ -41,8 +41,8 @@ class Journal {
   void recordFinished();
 
  private:
-  void exchangePoints(checkpoint::Archive& archive, reduction::ReducedProblem* basis);
-  void exchangeFinished(checkpoint::Archive& archive);
+  void serialisePoints(checkpoint::Archive& archive, reduction::ReducedProblem* basis);
+  void serialiseFinished(checkpoint::Archive& archive);
   MPI_Comm comm() const { return problem_.pencil->comm(); }
 
   checkpoint::Checkpoint& checkpoint_;
@@ -52,7 +52,7 @@ class Journal {
   SweepState& state_;
   double begin_;  // s
   bool modesRecorded_ = false, setModesRecorded_ = false;
-  std::size_t exchanged_ = 0;  // solved points that the checkpoint contains
+  std::size_t serialised_ = 0;  // solved points that the checkpoint contains
 };
 
 }  // namespace squeal::sweep_solver

@@ -17,13 +17,13 @@ struct ModalSegment {
   PetscInt unknowns = 0;   ///< n
   modes::Modes modes;      ///< empty with the direct method; only those of the band if the basis is
                            ///< shared with other active sets
-  /// The first modes, Request::reportedModes of them, in nodal displacements, N entries each, with
-  /// a largest entry of magnitude 1.
+  /// The first Request::reportedModes modes in nodal displacements, N entries each, with a largest
+  /// entry of magnitude 1.
   std::vector<OwnedVec> shapes;
   std::vector<pencil::ComplexModes> points;  ///< for each damping factor all steady points
   /// One entry for each speed, pressure and damping whose first point is one of `points`, if
   /// eigenvalues are tracked.
-  std::vector<stability::Followed> followed;
+  std::vector<stability::TrackedLine> trackedLines;
   long solves = 0;  ///< number of right-hand sides for corrections of the basis and error estimates
 };
 

@@ -53,7 +53,7 @@ bool hasResults(const ModalSegment& segment) {
   return std::ranges::any_of(segment.points, isSolved);
 }
 
-/// The eigenvalues at the points of a problem, batch by batch, with one basis for all of them.
+/// The eigenvalues at the points of a problem, batch by batch, with a common basis.
 class SweepSolver {
  public:
   SweepSolver(SweepProblem& problem, const Request& request, checkpoint::Checkpoint& checkpoint,
@@ -115,10 +115,10 @@ class SweepSolver {
     if (modes) reduce(std::move(*modes));
     journal_.restorePoints(reduced_.get());
     record();
-    stopIfAsked(pencil_.comm());
+    stopIfRequested(pencil_.comm());
     if (sets_.size() > 1) findModes();
     solvePoints();
-    followPoints();
+    trackPoints();
   }
 
   void record() { journal_.record(freeModes(), reduced_.get()); }
@@ -151,7 +151,7 @@ class SweepSolver {
         pencil_, *problem_.system, modes, *request_.settings.reduction, problem_.substructure);
     reduced_->afterEachRound([this] {
       record();
-      stopIfAsked(pencil_.comm());
+      stopIfRequested(pencil_.comm());
     });
     std::string text = formatted("basis of %zu free modes", modes.angularFrequency.size());
     if (sets_.size() == 1) {
@@ -201,7 +201,7 @@ class SweepSolver {
       state_.solved = end;
       pointsDone(batch.size());
       record();
-      if (state_.solved < plan_.points.size()) stopIfAsked(pencil_.comm());
+      if (state_.solved < plan_.points.size()) stopIfRequested(pencil_.comm());
     }
     if (reduced_)
       for (auto& segment : state_.segments) segment.solves = reduced_->basis().solves();
@@ -270,18 +270,18 @@ class SweepSolver {
 
   /// Collective. Tracks the eigenvalues over the friction and finds critical frictions, if that is
   /// requested and possible.
-  void followPoints() {
+  void trackPoints() {
     const stability::Settings& settings = request_.settings.stability;
     if (!settings.track) return;
     std::vector<stability::Line> all;
     std::vector<std::size_t> begins;
     for (auto& [line, range] : lines()) {
-      if (!stability::worthFollowing(line, settings.requested)) continue;
+      if (!stability::worthTracking(line, settings.requested)) continue;
       all.push_back(std::move(line));
       begins.push_back(range);
     }
     const std::string nothing =
-        reduced_ ? stability::nothingToFollow(*reduced_, all) : "-flutter_method direct";
+        reduced_ ? stability::whyNotTracked(*reduced_, all) : "-flutter_method direct";
     if (!nothing.empty()) {
       if (settings.requested)
         printLine(pencil_.comm(), "track: nothing to track (" + nothing + ")");
@@ -293,17 +293,17 @@ class SweepSolver {
                        "track: omitted because the terms depend on the steady state; "
                        "-flutter_track on enables it");
     Stage stage(pencil_.comm(), "track");
-    auto followed = stability::followSweep(*reduced_, all, settings, pencil_.comm(),
-                                           [&](const std::string& text) {
-                                             stage.progress(text);
-                                             stopIfAsked(pencil_.comm());
-                                           });
+    auto tracked = stability::trackLines(*reduced_, all, settings, pencil_.comm(),
+                                         [&](const std::string& text) {
+                                           stage.progress(text);
+                                           stopIfRequested(pencil_.comm());
+                                         });
     std::size_t branches = 0, stations = 0, criticals = 0;
-    for (std::size_t i = 0; i < followed.size(); ++i) {
-      branches += followed[i].branches.count;
-      stations += followed[i].branches.stations.size();
-      criticals += followed[i].criticals.size();
-      state_.segments[begins[i]].followed.push_back(std::move(followed[i]));
+    for (std::size_t i = 0; i < tracked.size(); ++i) {
+      branches += tracked[i].branches.count;
+      stations += tracked[i].branches.stations.size();
+      criticals += tracked[i].criticals.size();
+      state_.segments[begins[i]].trackedLines.push_back(std::move(tracked[i]));
     }
     stage.finish(
         formatted("%zu branches tracked over %zu frictions, %zu critical frictions, basis of "
@@ -324,18 +324,18 @@ class SweepSolver {
     return points;
   }
 
-  void noteFailure(const sweep::Parameters& point, const std::string& what) {
+  void recordFailure(const sweep::Parameters& point, const std::string& what) {
     const std::string at = sweep::parameterText(point);
     state_.failures.push_back(what.find(at) == std::string::npos ? at + ": " + what : what);
   }
 
   /// Collective. Solves a point, or records the reason why it has no result.
-  void solveAlone(std::size_t i, const reduction::PointProblem& problem) try {
+  void solveSingle(std::size_t i, const reduction::PointProblem& problem) try {
     std::vector<reduction::PointProblem> single;
     single.push_back({problem.at, problem.pencil.with({}), problem.set});
     pointAt(i) = std::move(solved(single).front());
   } catch (const Error& error) {
-    noteFailure(problem.at, error.what());
+    recordFailure(problem.at, error.what());
   }
 
   /// Collective. Solves points together or, if that fails, one by one, so a failure affects only
@@ -349,9 +349,9 @@ class SweepSolver {
     } catch (const Error& error) {
       if (plan_.points.size() == 1) throw;
       if (batch.size() == 1) {
-        noteFailure(problems.front().at, error.what());
+        recordFailure(problems.front().at, error.what());
       } else {
-        for (std::size_t i = 0; i < batch.size(); ++i) solveAlone(batch[i], problems[i]);
+        for (std::size_t i = 0; i < batch.size(); ++i) solveSingle(batch[i], problems[i]);
       }
     }
     for (const std::size_t i : batch)

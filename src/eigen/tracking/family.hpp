@@ -39,7 +39,7 @@ class Family {
     return linalg::Spectrum(*at(friction), pairs);
   }
   /// Collective. Makes these frictions known to near().
-  virtual void know(const std::vector<double>&) {}
+  virtual void addFrictions(const std::vector<double>&) {}
   /// Reports progress; called on all ranks.
   virtual void progress(const std::string&) {}
   /// Collective. Corrects the basis by the residuals of these pairs, all together, and makes their

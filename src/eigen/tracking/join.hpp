@@ -40,7 +40,7 @@ std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Sp
                                   const Group& group);
 /// Returns the same for two lists of equal length by their order: ascending frequency, then
 /// descending growth rate. At a change between neutral and split this is the convention of
-/// follow().
+/// track().
 std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here,
                                  const std::vector<linalg::DensePair>& there);
 

@@ -42,7 +42,7 @@ std::optional<linalg::DenseProblem> ReducedFamily::at(double friction) {
   Node node{friction, reduced_.basisSize(), reduced_.projectOwn(*problem)};
   linalg::DenseProblem sum = ofAll(friction);
   add(sum, 1, node.own);
-  if (nodes_.size() < most) keep(std::move(node));
+  if (nodes_.size() < most) storeNode(std::move(node));
   return sum;
 }
 
@@ -66,16 +66,16 @@ bool ReducedFamily::known(double friction) const {
   });
 }
 
-void ReducedFamily::know(const std::vector<double>& frictions) {
+void ReducedFamily::addFrictions(const std::vector<double>& frictions) {
   if (source_.local) return;
   for (double friction : frictions)
     if (!known(friction))
       if (const auto problem = source_.at(point(friction)))
-        keep({friction, reduced_.basisSize(), reduced_.projectOwn(*problem)});
+        storeNode({friction, reduced_.basisSize(), reduced_.projectOwn(*problem)});
 }
 
 /// Stores the node. It replaces one at the same friction, which belongs to a smaller basis.
-void ReducedFamily::keep(Node node) {
+void ReducedFamily::storeNode(Node node) {
   std::erase_if(nodes_, [&](const Node& other) { return other.friction == node.friction; });
   nodes_.push_back(std::move(node));
 }

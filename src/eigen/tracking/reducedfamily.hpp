@@ -42,7 +42,7 @@ class ReducedFamily : public Family {
   }
   std::optional<linalg::DenseProblem> near(double friction) override;
   linalg::Spectrum shared(double friction, const std::vector<linalg::DensePair>& pairs) override;
-  void know(const std::vector<double>& frictions) override;
+  void addFrictions(const std::vector<double>& frictions) override;
   void progress(const std::string& text) override { progress_(text); }
   reduction::Improvement improve(const std::vector<PairsAtFriction>& located) override;
 
@@ -56,7 +56,7 @@ class ReducedFamily : public Family {
   sweep::Parameters point(double friction) const;
   bool known(double friction) const;
   linalg::DenseProblem ofAll(double friction) const;
-  void keep(Node node);
+  void storeNode(Node node);
   std::vector<const Node*> nodesFor(double friction) const;
   double closest() const;
 

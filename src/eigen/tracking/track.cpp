@@ -16,10 +16,10 @@ namespace squeal::tracking {
 namespace {
 
 /// Tracks eigenvalues along a path, in batches of its frictions.
-class Follower {
+class Tracker {
  public:
-  Follower(const std::vector<Piece>& path, const pencil::WatchedBand& band,
-           const TrackLimits& limits)
+  Tracker(const std::vector<Piece>& path, const pencil::WatchedBand& band,
+          const TrackLimits& limits)
       : path_(path), limits_(limits) {
     result_.band = band;
   }
@@ -64,7 +64,7 @@ class Follower {
         last = &next;
       }
       if (!row.empty())
-        family().progress(formatted("%d branches followed to friction %g", result_.count,
+        family().progress(formatted("%d branches tracked to friction %g", result_.count,
                                     row.back().station.friction));
       if (!row.empty()) row.erase(row.begin(), std::prev(row.end()));
     }
@@ -173,14 +173,14 @@ int Branches::inBandAt(const Station& station) const {
   return std::ranges::count(station.inBand, 1);
 }
 
-Branches follow(const std::vector<Piece>& path, const pencil::WatchedBand& band,
-                const TrackLimits& limits) {
-  return Follower(path, band, limits).run();
+Branches track(const std::vector<Piece>& path, const pencil::WatchedBand& band,
+               const TrackLimits& limits) {
+  return Tracker(path, band, limits).run();
 }
 
-Branches follow(Family& family, const std::vector<double>& frictions,
-                const pencil::WatchedBand& band, const TrackLimits& limits) {
-  return follow({{&family, frictions}}, band, limits);
+Branches track(Family& family, const std::vector<double>& frictions,
+               const pencil::WatchedBand& band, const TrackLimits& limits) {
+  return track({{&family, frictions}}, band, limits);
 }
 
 }  // namespace squeal::tracking

@@ -42,7 +42,7 @@ struct Event {
 /// A range of frictions with an uncertain continuation.
 struct Gap {
   double from = 0, to = 0;
-  std::string what;           ///< the reason
+  std::string reason;
   bool identityOnly = false;  ///< no eigenvalue is missing, but they cannot be distinguished
 };
 
@@ -76,12 +76,12 @@ struct Piece {
 /// By convention, where two neutral branches merge, the one of lower frequency becomes the growing
 /// one; where a growing and a decaying branch become neutral, the growing one gets the lower
 /// frequency. Equal eigenvalues are ordered by frequency, then by growth rate.
-Branches follow(Family& family, const std::vector<double>& frictions,
-                const pencil::WatchedBand& band, const TrackLimits& limits = {});
+Branches track(Family& family, const std::vector<double>& frictions,
+               const pencil::WatchedBand& band, const TrackLimits& limits = {});
 /// Collective. Does the same along a path. Eigenvalues jump from one piece to the next. The same
 /// projectors join them, in common coordinates of the families, without frictions in between. A
 /// jump across the imaginary axis is an event, and an uncertain jump is a gap.
-Branches follow(const std::vector<Piece>& path, const pencil::WatchedBand& band,
-                const TrackLimits& limits = {});
+Branches track(const std::vector<Piece>& path, const pencil::WatchedBand& band,
+               const TrackLimits& limits = {});
 
 }  // namespace squeal::tracking

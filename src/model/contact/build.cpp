@@ -96,7 +96,7 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, interfac
                   .periodic = std::move(periodic),
                   .kinematics = std::move(kinematics),
                   .sliding = std::move(sliding)};
-  rejectLooseBodies(mesh, contact, bodies.springs);
+  rejectRigidBodyModes(mesh, contact, bodies.springs);
   return contact;
 }
 

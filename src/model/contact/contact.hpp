@@ -65,7 +65,7 @@ struct Contact {
   Transformation transformation(const ActiveSet& set) const;
   /// Returns true if the slip is the same at all points of a sweep, that is, without convective
   /// terms and with a constant friction law.
-  bool slipIsGiven() const { return !sliding.convected && law.constant(); }
+  bool slipIsConstant() const { return !sliding.convected && law.constant(); }
   /// Collective. Returns the slip, [contact node], at the speed factor v, from the part of
   ///   w = −v (V + D u_D)   [2.15]
   /// in the tangent plane. If `displacement` u is null, or without convective terms, w = −v V.

@@ -73,7 +73,7 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
 /// Returns the Gram matrix Σ cᵀc over the rows c of all supports, applied to rigid motions. Springs
 /// count as supports, however soft. The null space contains the rigid-body modes.
 linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                         const RigidMotions& motions, const HoldingContact& holding) {
+                         const RigidMotions& motions, const SupportingContact& holding) {
   const int n = motions.size();
   linalg::DenseMatrix g(n, n);
   std::vector<double> row(n);
@@ -133,8 +133,8 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
 
 }  // namespace
 
-std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                                   const HoldingContact& holding) {
+std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact& contact,
+                                           Vec springs, const SupportingContact& holding) {
   const RigidMotions motions = rigidMotions(mesh);
   linalg::DenseMatrix g = gram(mesh, contact, springs, motions, holding);
   const auto eigenvalues = linalg::symmetricEigen(g);
@@ -160,13 +160,13 @@ std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contac
       if (sign == 0) sign = std::copysign(1, part);
       motion += formatted(motion.empty() ? "%s: %.3g" : ", %s: %.3g", names[k], sign * part);
     }
-  return LooseBody{mesh.partName[worst], motion};
+  return RigidBodyMode{mesh.partName[worst], motion};
 }
 
-void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact, Vec springs) {
-  if (const auto loose = looseBody(mesh, contact, springs, {}))
-    throw Error("singular problem: body '" + loose->body +
-                "' can move rigidly with closed frictionless contact (" + loose->motion +
+void rejectRigidBodyModes(const mesh::Mesh& mesh, const Contact& contact, Vec springs) {
+  if (const auto mode = rigidBodyMode(mesh, contact, springs, {}))
+    throw Error("singular problem: body '" + mode->body +
+                "' can move rigidly with closed frictionless contact (" + mode->motion +
                 "); support it with -constraint_<group>_clamped or -ground_<group>_stiffness");
 }
 

@@ -11,12 +11,12 @@
 namespace squeal::contact {
 
 /// A connected part of the mesh that can move without strain.
-struct LooseBody {
+struct RigidBodyMode {
   std::string body, motion;  ///< names of its bodies, and the rigid motion in words
 };
 
 /// The frictionless contact that supports bodies.
-struct HoldingContact {
+struct SupportingContact {
   bool any = true;     ///< false: contact supports nothing
   Mask closed = {};    ///< [contact node] 0 if it is open; empty: all are closed
   Mask released = {};  ///< [contact node] 1 if a sticking node is free along the
@@ -26,11 +26,11 @@ struct HoldingContact {
 /// Collective. Returns the part with the rigid-body mode of the least support by constraints,
 /// springs (Bodies::springs, may be null) and this contact. Returns none if all parts are
 /// supported.
-std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                                   const HoldingContact& holding);
+std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact& contact,
+                                           Vec springs, const SupportingContact& holding);
 
 /// Collective. Throws Error, naming the body, if a body has a rigid-body mode with closed
 /// frictionless contact.
-void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact, Vec springs);
+void rejectRigidBodyModes(const mesh::Mesh& mesh, const Contact& contact, Vec springs);
 
 }  // namespace squeal::contact

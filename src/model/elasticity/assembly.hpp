@@ -75,7 +75,7 @@ void addLoad(Vec load, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
 /// Not collective. Returns the coordinates of local nodes, [node], m.
 std::vector<Point> pointsOf(const mesh::Mesh& mesh, std::span<const PetscInt> nodes);
 
-/// A CellName names a cell for messages, in integers only, so that ranks can send it.
+/// Identifies a cell in messages by integers, which ranks can exchange.
 struct CellName {
   PetscInt tag, type, body;
   auto operator<=>(const CellName&) const = default;

@@ -274,7 +274,7 @@ void apply(const mesh::Mesh& mesh, int component, const Elimination& elimination
 
 }  // namespace
 
-void carryHeld(const mesh::Mesh& mesh, Interfaces& all) {
+void transferSupports(const mesh::Mesh& mesh, Interfaces& all) {
   PetscInt count = 0;
   for (const auto& tied : all.tied)
     for (int d = 0; d < mesh.dimension; ++d)

@@ -13,7 +13,7 @@ namespace squeal::interfaces {
 /// support holds the tied node and constrains no master: TiedNode::apart. Sets
 /// InterfaceReport::carried. Throws Error, naming support, tie and position, for contradictory
 /// displacements, and for a component that would depend on contact nodes.
-void carryHeld(const mesh::Mesh& mesh, Interfaces& all);
+void transferSupports(const mesh::Mesh& mesh, Interfaces& all);
 
 /// The least weight of a pivot in its equation. With a smaller bound, nodes between the held ones
 /// would be held too, by equations that differ only by quadrature errors.

@@ -21,8 +21,8 @@ void requireComponents(const std::string& group, const std::string& components, 
 }
 
 /// Collective. Warns of displacements of components that are not held.
-void warnOfUnheld(MPI_Comm comm, const std::string& group, const std::string& components,
-                  const mesh::Point& displacement) {
+void warnOfFreeComponents(MPI_Comm comm, const std::string& group, const std::string& components,
+                          const mesh::Point& displacement) {
   for (const char letter : std::string("xyz"))
     if (displacement[letter - 'x'] != 0 && components.find(letter) == std::string::npos)
       printWarning(comm, "option " + displacementName(group) + ": the displacement of " + letter +
@@ -45,7 +45,7 @@ Constraints constraintsOf(const mesh::Mesh& mesh,
     const std::string& components = clamp.components;
     const auto values = clamp.displacement.in(dimension);
     requireComponents(group, components, dimension);
-    warnOfUnheld(mesh.comm, group, components, values);
+    warnOfFreeComponents(mesh.comm, group, components, values);
     for (PetscInt node : mesh.nodeGroups.at(group))
       for (char letter : components) {
         const PetscInt component = letter - 'x', at = dimension * node + component;

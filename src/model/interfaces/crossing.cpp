@@ -24,7 +24,7 @@ constexpr double facets = 0.2;
 constexpr double negligible = 0.01;
 
 /// Integrals over the faces around each node, [local node].
-struct Around {
+struct NodalIntegrals {
   std::vector<double> flux,  ///< ∫ V·n dA
       magnitude,             ///< ∫ |V·n| dA
       speed,                 ///< ∫ |V| dA
@@ -32,10 +32,10 @@ struct Around {
 };
 
 /// Collective. Returns the integrals over the faces in contact of one interface.
-Around integrals(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
-                 const elasticity::Bodies& bodies, const Interfaces& all, int interface) {
+NodalIntegrals integrals(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                         const elasticity::Bodies& bodies, const Interfaces& all, int interface) {
   const std::vector<double> zeros(mesh.localNodes(), 0.0);
-  Around around{zeros, zeros, zeros, zeros};
+  NodalIntegrals around{zeros, zeros, zeros, zeros};
   for (const auto& node : all.nodes)
     if (node.interface == interface) around.body[node.node] = node.discBody + 1;
   exchange.largest(around.body);
@@ -87,7 +87,7 @@ struct Crossing {
 
 /// Collective. Returns the crossing of one interface, with zero as mean if there is none.
 Crossing crossingOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
-                    const Around& around) {
+                    const NodalIntegrals& around) {
   std::array<double, 3> sums{};
   struct {
     double value = 0;

@@ -210,7 +210,7 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, M
   checkCrossing(mesh, exchange, bodies, all);
   setLevels(mesh, all);
   warnOfLost(mesh, exchange, all, Role::sliding);
-  carryHeld(mesh, all);
+  transferSupports(mesh, all);
   return all;
 }
 

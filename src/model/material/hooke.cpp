@@ -45,7 +45,7 @@ Hooke isotropic(double young, double poisson, int dimension, bool planeStress) {
   return hooke;
 }
 
-std::string brokenRule(const EngineeringConstants& c) {
+std::string violatedRule(const EngineeringConstants& c) {
   if (!(std::min({c.e1, c.e2, c.e3, c.g12, c.g13, c.g23}) > 0)) return "all moduli must be > 0";
   if (!(std::abs(c.nu12) < std::sqrt(c.e1 / c.e2))) return "|nu12| must be < sqrt(E1/E2)";
   if (!(std::abs(c.nu13) < std::sqrt(c.e1 / c.e3))) return "|nu13| must be < sqrt(E1/E3)";

@@ -24,13 +24,13 @@ struct Hooke {
 Hooke isotropic(double young, double poisson, int dimension, bool planeStress);
 
 /// The engineering constants of an orthotropic material, moduli in Pa. νij is the contraction along
-/// j divided by the stretch along i in tension along i, so that νij/Ei = νji/Ej.
+/// j divided by the stretch along i in tension along i: νij/Ei = νji/Ej.
 struct EngineeringConstants {
   double e1, e2, e3, nu12, nu13, nu23, g12, g13, g23;
 };
 /// Returns the first violated rule if the strain energy is not positive for every strain; otherwise
 /// an empty text.
-std::string brokenRule(const EngineeringConstants& constants);
+std::string violatedRule(const EngineeringConstants& constants);
 /// Returns the law, 6×6, in the axes 1, 2, 3 of the material, from constants that violate no rule.
 Hooke orthotropic(const EngineeringConstants& constants);
 

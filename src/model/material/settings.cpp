@@ -85,7 +85,7 @@ EngineeringConstants constants(const std::string& body) {
     c = {v[0], v[0], v[1], v[2], v[3], v[3], v[0] / (2 * (1 + v[2])), v[4], v[4]};
   else
     c = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]};
-  const std::string rule = brokenRule(c);
+  const std::string rule = violatedRule(c);
   if (!rule.empty())
     throw Error("option -" + option.fullName(body) +
                 ": the strain energy is not positive for every strain: " + rule +

@@ -96,7 +96,8 @@ void setQuadrilateral(FaceShape& shape, const FaceType& type, const Reference& x
   const bool full = type.type == quad9;
   for (std::size_t i = 0; i < type.reference.size(); ++i) {
     const auto& [a, b] = type.reference[i];
-    // A mid-edge node of the quad8 is quadratic along its edge and linear across.
+    // The function of a mid-edge node of the quad8 is quadratic along its edge and linear across
+    // it.
     setProduct(shape, i, full || a == 0 ? quadratic(a, x[0]) : linear(a, x[0]),
                full || b == 0 ? quadratic(b, x[1]) : linear(b, x[1]));
   }
@@ -120,8 +121,8 @@ const FaceType& faceType(int gmshType) {
   const auto found = types.find(gmshType);
   if (found == types.end())
     throw Error("faces of gmsh's element type " + std::to_string(gmshType) +
-                " cannot be coupled where meshes do not match: lines, triangles and quadrilaterals "
-                "of the orders 1 and 2 can");
+                " cannot be coupled if the meshes do not match: use lines, triangles and "
+                "quadrilaterals of order 1 or 2");
   return found->second;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The shape functions φ of a face at any point, and the basis φ̃ = Eᵀφ of the
-/// slave side, whose integrals are positive. Displacements follow from those of φ̃ by u = E ũ, edge
-/// by edge with a parameter α:
+/// The shape functions φ of a face at any point, and the basis φ̃ = Eᵀφ of the slave side with
+/// positive integrals. Displacements in φ and φ̃ satisfy u = E ũ, edge by edge with a parameter α:
 ///   u_c = ũ_c at corners,   u_e = (1 − 2α) ũ_e + α (ũ_a + ũ_b) between the corners a and b,
-/// so that neighbouring faces agree on ũ wherever they agree on α. Nothing here is collective.
-/// Source: Popp, Wohlmuth, Gee and Wall, SIAM J. Sci. Comput. 34 (2012).
+/// so neighbouring faces with the same α agree on ũ. Not collective. Source: Popp, Wohlmuth, Gee
+/// and Wall, SIAM J. Sci. Comput. 34 (2012).
 #include <array>
 #include <span>
 #include <vector>
@@ -14,7 +13,7 @@ namespace squeal::mortar {
 
 inline constexpr std::size_t mostNodes = 9;  ///< of a face
 
-/// Reference coordinates of a face, those of gmsh. The second one of a line is zero.
+/// Reference coordinates of a face, as in gmsh. The second coordinate of a line is zero.
 using Reference = std::array<double, 2>;
 using NodeValues = std::array<double, mostNodes>;  ///< [node]; zero beyond the nodes of the face
 
@@ -24,8 +23,8 @@ struct MidEdge {
   std::array<int, 2> corners;
 };
 
-/// A FaceType holds what the faces of one gmsh element type have in common. Nodes come in gmsh's
-/// order: corners, mid-edge nodes, centre.
+/// The common properties of the faces of one gmsh element type. Nodes are in gmsh's order: corners,
+/// mid-edge nodes, centre.
 struct FaceType {
   int type, dimension, order, nodes, corners;
   /// Edges with a node between their corners. A line3 has one.
@@ -45,26 +44,25 @@ struct FaceShape {
   std::array<Reference, mostNodes> gradient{};  ///< [node], with respect to the reference point
 };
 
-/// Returns the shape functions at a point, inside or outside of the face.
+/// Returns the shape functions at a point, inside or outside the face.
 FaceShape faceShape(const FaceType& type, const Reference& point);
 
 /// The nodes that carry a multiplier: all, or the corners, where the multiplier is (bi)linear.
 enum class Multiplier { nodes, corners };
 
-/// How much of a slave face the master faces cover.
+/// The cover of a slave face by the master faces.
 enum class Cover { full, partial };
 
-/// Returns α for the edges of a face, where no other type of face shares them. On fully covered
-/// faces ∫φ̃ is then positive for all pivots; on partly covered faces of the types tri6 and quad8,
-/// φ̃ itself is nowhere negative. It is 0 on line3 and quad9, where ∫φ̃ is positive only if the
-/// whole face is covered. With multipliers at the corners of a straight tri6, ψ_p are its linear
-/// functions.
+/// Returns α for the edges of a face that no other type of face shares. On fully covered faces, ∫φ̃
+/// is then positive for all pivots; on partly covered tri6 and quad8 faces, φ̃ itself is
+/// nonnegative. α is 0 on line3 and quad9, where ∫φ̃ is positive only for a fully covered face.
+/// With multipliers at the corners of a straight tri6, ψ_p are its linear functions.
 double usualAlpha(const FaceType& type, Cover cover, Multiplier multiplier = Multiplier::nodes);
 
 /// Returns φ̃ from φ at the same point:
 ///   φ̃_c = φ_c + Σ α_e φ_e over the edges e at the corner c,   φ̃_e = (1 − 2α_e) φ_e,
-/// and the function of a centre node stays. `alpha` is that of each edge, in the order of
-/// FaceType::edges.
+/// and the function of a centre node does not change. `alpha` contains α of each edge, in the order
+/// of FaceType::edges.
 NodeValues slaveBasis(const FaceType& type, const NodeValues& shape, std::span<const double> alpha);
 
 }  // namespace squeal::mortar

@@ -19,8 +19,8 @@ double size(const PlanePoint& a) { return std::hypot(a[0], a[1]); }
 bool isSegment(const Region& region) { return region.size() == 2; }
 
 /// Returns the half-planes whose intersection is the region; for a segment, those through its ends.
-/// Rounding decides the direction of an edge that is very short. It is left out, which adds about
-/// the square of its length.
+/// Omits very short edges, whose direction is round-off; this adds about the square of their
+/// length.
 std::vector<HalfPlane> sides(const Region& region) {
   std::vector<HalfPlane> sides;
   const std::size_t n = region.size();
@@ -39,9 +39,9 @@ std::vector<HalfPlane> sides(const Region& region) {
 /// A Gauss rule on the line from 0 to 1, or on the triangle (0, 0), (1, 0), (0, 1).
 using Rule = std::vector<WeightedPoint>;
 
-/// Returns the rule of Gauss and Legendre. gmsh has none of more than 20 points, which strongly
-/// distorted faces need. Its points are the roots of the polynomial P_n, by Newton's method from
-/// their asymptotes (Abramowitz and Stegun, 25.4.29), with
+/// Returns the rule of Gauss and Legendre. gmsh has no rule with more than 20 points, which
+/// strongly distorted faces need. Its points are the roots of the polynomial P_n, by Newton's
+/// method from their asymptotes (Abramowitz and Stegun, 25.4.29), with
 ///   k P_k = (2k − 1) x P_{k−1} − (k − 1) P_{k−2}.
 Rule makeLineRule(int degree) {
   const int n = degree / 2 + 1;
@@ -61,8 +61,8 @@ Rule makeLineRule(int degree) {
 }
 
 /// Returns the rule of a square that is collapsed into a triangle, x = s and y = (1 − s) t. It is
-/// exact to rounding for any degree, whereas gmsh tabulates its rules on triangles to 12 digits
-/// from the degree 10 on.
+/// exact within round-off for any degree, whereas gmsh tabulates triangle rules of degree 10 and
+/// above with only 12 digits.
 Rule makeTriangleRule(int degree) {
   Rule rule;
   const Rule line = makeLineRule(degree + 1);
@@ -72,7 +72,7 @@ Rule makeTriangleRule(int degree) {
   return rule;
 }
 
-/// Returns a rule, made on first use.
+/// Returns a rule, computed on first use.
 const Rule& ruleOf(Rule (*make)(int), std::map<int, Rule>& rules, int degree) {
   const auto found = rules.find(degree);
   return found != rules.end() ? found->second : rules.emplace(degree, make(degree)).first->second;
@@ -109,7 +109,7 @@ void appendTriangle(std::vector<WeightedPoint>& points, int degree, const PlaneP
 double measure(const Region& region) {
   if (region.size() < 2) return 0;
   if (isSegment(region)) return size(from(region[0], region[1]));
-  double twice = 0;  // from a vertex on, so that no distance from the origin is cancelled
+  double twice = 0;  // relative to a vertex, which avoids cancellation far from the origin
   for (std::size_t i = 2; i < region.size(); ++i)
     twice += cross(from(region[0], region[i - 1]), from(region[0], region[i]));
   return twice / 2;
@@ -146,7 +146,7 @@ Region clip(const Region& region, const HalfPlane& half) {
     const double s = fa / (fa - fb);
     kept.push_back({a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])});
   }
-  // What a corner leaves of a polygon, or an end of a segment, has no measure.
+  // A remaining corner of a polygon, or end of a segment, has no measure.
   const std::size_t fewest = isSegment(region) ? 2 : 3;
   return kept.size() < fewest ? Region{} : kept;
 }

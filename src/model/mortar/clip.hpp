@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Cuts of convex regions of a plane, which are polygons, or segments of a line. None
-/// is collective.
+/// Cuts of convex regions of a plane: polygons, or segments of a line. Not collective.
 #include <array>
 #include <vector>
 
 namespace squeal::mortar {
 
 using PlanePoint = std::array<double, 2>;
-/// The vertices of a convex region, anticlockwise. Two vertices are a segment.
+/// The vertices of a convex region, anticlockwise. Two vertices form a segment.
 using Region = std::vector<PlanePoint>;
 
 /// The half-plane normal·y + offset ≥ 0.
@@ -23,15 +22,15 @@ struct HalfPlane {
 /// Returns the area of a polygon, or the length of a segment; 0 for fewer than two vertices.
 double measure(const Region& region);
 PlanePoint centroid(const Region& region);
-/// Returns true for polygons without a corner that points inwards, and for segments.
+/// Returns true for convex polygons, and for segments.
 bool isConvex(const Region& region);
 /// Returns the part of a region in the half-plane.
 Region clip(const Region& region, const HalfPlane& half);
-/// Returns the part of a region in another one, both polygons or both segments of one line. The
-/// sides of the other one are moved outwards by `margin` first.
+/// Returns the part of a region inside another one, both polygons or both segments of one line.
+/// First moves the sides of the other region outwards by `margin`.
 Region intersection(const Region& region, const Region& other, double margin = 0);
-/// Returns the part of a region outside of another one, in convex pieces. Pieces of no more than
-/// this measure are left out.
+/// Returns the part of a region outside another one, in convex pieces. Omits pieces whose measure
+/// is at most `smallest`.
 std::vector<Region> difference(const Region& region, const Region& other, double smallest);
 
 /// A point of a quadrature rule and its weight, in the unit of the area of the region, or of its

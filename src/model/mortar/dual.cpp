@@ -19,13 +19,13 @@ namespace {
 using linalg::DenseMatrix;
 
 /// Dual functions are at most about 7 in magnitude on a whole face, and about 60 on a quarter of a
-/// quad8. Above this bound, which thin strips pass whose far nodes are not dropped, they are not
-/// used: rows of M would be large and cancel.
+/// quad8. Above this bound, which thin strips exceed if their far nodes are not dropped, they are
+/// not used: rows of M would be large and cancel.
 constexpr double largestDual = 100;
 
 /// Returns the functions of all nodes, or the (bi)linear ones of the corners, in terms of φ̃.
 ///   χ_c = φ̃_c + Σ φ̃_e / 2 over the edges at the corner + φ̃_centre / 4
-/// holds for any α, since φ_c + α Σ φ_e and (1 − 2α) φ_e / 2 sum up to φ_c + Σ φ_e / 2.
+/// for any α, since φ_c + α Σ φ_e and (1 − 2α) φ_e / 2 add up to φ_c + Σ φ_e / 2.
 DenseMatrix baseFunctions(const FaceType& type, Multiplier multiplier) {
   const PetscInt count = multiplier == Multiplier::nodes ? type.nodes : type.corners;
   DenseMatrix functions(count, type.nodes);
@@ -64,7 +64,7 @@ std::vector<double> product(const DenseMatrix& a, std::span<const double> x) {
   return y;
 }
 
-/// Returns whether functions, [function][coefficient of φ], are nowhere too large.
+/// Returns true if no function, [function][coefficient of φ], is too large anywhere.
 bool areSmall(const DenseMatrix& functions, const FaceType& type,
               std::span<const Reference> points) {
   return std::ranges::all_of(points, [&](const Reference& at) {
@@ -76,13 +76,13 @@ bool areSmall(const DenseMatrix& functions, const FaceType& type,
 
 /// Returns the dual functions in terms of φ, [pivot][node],
 ///   ψ = diag(d) Me⁻¹ χ,   Me_ip = ∫ χ_i φ̃_p dA,   d_p = ∫ φ̃_p dA,
-/// or an empty matrix where they would be too large. `chi` are the functions χ in terms of φ, and
+/// or an empty matrix if they would be too large. `chi` are the functions χ in terms of φ, and
 /// `integrals` are ∫ χ_i φ̃_j dA of all nodes j.
 DenseMatrix dualFunctions(const DenseMatrix& chi, const DenseMatrix& integrals,
                           const FaceMoments& moments, const Pivots& pivots,
                           std::span<const double> covered) {
   const PetscInt n = pivots.nodes.size();
-  // Columns relative to d, so that the pivots of a small function do not look like zero:
+  // Columns relative to d, since the pivots of a small function would look like zero:
   //   ψ = (Me diag(d)⁻¹)⁻¹ χ
   DenseMatrix me(n, n);
   for (PetscInt p = 0; p < n; ++p)
@@ -156,7 +156,8 @@ FaceTerms integrate(const FaceMoments& moments, std::span<const double> alpha,
 std::vector<double> coveredIntegrals(const FaceMoments& moments, std::span<const double> alpha) {
   NodeValues sum{};
   std::ranges::copy(moments.value, sum.begin());
-  const NodeValues basis = slaveBasis(faceType(moments.type), sum, alpha);  // which is linear
+  const NodeValues basis =
+      slaveBasis(faceType(moments.type), sum, alpha);  // slaveBasis() is linear
   return {basis.begin(), basis.begin() + moments.value.size()};
 }
 

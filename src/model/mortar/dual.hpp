@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Integrals of the dual functions of one slave face against both sides. A dual function
-/// ψ_p is orthogonal to all φ̃_q of other pivots q, so that each pivot has a condition of its own.
-/// Sources: Wohlmuth, SIAM J. Numer. Anal. 38 (2000); Popp, Wohlmuth, Gee and Wall, SIAM J. Sci.
-/// Comput. 34 (2012).
+/// Integrals of the dual functions of one slave face against both sides. A dual function ψ_p is
+/// orthogonal to all φ̃_q of other pivots q, so each pivot has its own condition. Sources:
+/// Wohlmuth, SIAM J. Numer. Anal. 38 (2000); Popp, Wohlmuth, Gee and Wall, SIAM J. Sci. Comput. 34
+/// (2012).
 #include <span>
 #include <vector>
 
@@ -20,19 +20,19 @@ struct Pivots {
   linalg::DenseMatrix functions;
 };
 
-/// Returns the pivots of a face. Not collective. `dropped` says of each node whether it carries no
-/// multiplier although its kind does; the functions of those are shared out evenly among the
-/// pivots. There are no pivots if all are dropped.
+/// Returns the pivots of a face. Not collective. `dropped` marks nodes that have no multiplier
+/// although nodes of their kind do; their functions are distributed equally among the pivots. If
+/// all are dropped, there are no pivots.
 Pivots pivots(const FaceType& type, Multiplier multiplier, const std::vector<bool>& dropped);
 
-/// What couples a slave face to one master face:
+/// The coupling of a slave face to one master face:
 ///   M: ∫ ψ_p φ_l dA and C: ∫ ψ_p V·∇_S φ_l dA with the velocity V, [pivot][node of the master
 ///   face].
 using MasterTerms = MasterMoments;
 
 /// The integrals over one slave face, in m² (m in the plane) unless noted. With D = diag(slave),
 ///   D ũ_p + B ũ_o − M u_l
-/// is the jump of displacements that a pivot sees, times W.
+/// is the jump of displacements at a pivot, times W.
 struct FaceTerms {
   std::vector<double> slave;   ///< D: ∫ ψ_p φ̃_p dA, [pivot]
   std::vector<double> weight;  ///< W: ∫ ψ_p dA, [pivot]; W = Σ of the rows of D and B, and of M
@@ -41,16 +41,16 @@ struct FaceTerms {
   std::vector<MasterTerms> masters;
   std::vector<double> covered;  ///< ∫ φ̃_i dA over the covered part, [node]
   std::vector<Point> normal;  ///< ∫ φ̃_i n dA over the covered part, [node], n out of the slave
-  /// False if ψ would be large because the covered part is too small or too thin to tell the
-  /// functions apart. Then χ_p itself stands for ψ_p, and ∫ χ_p φ̃ dA of all nodes is lumped on the
-  /// pivot: D = W = ∫ χ_p dA and B = 0. Uniform pressures and displacements stay exact, and so does
-  /// the total force, but linear displacements do not.
+  /// False if ψ would be large because the covered part is too small or too thin to distinguish the
+  /// functions. Then χ_p replaces ψ_p, and ∫ χ_p φ̃ dA of all nodes is lumped on the pivot: D = W =
+  /// ∫ χ_p dA and B = 0. Uniform pressures, uniform displacements and the total force stay exact,
+  /// but linear displacements do not.
   bool dual = true;
 };
 
-/// Integrates over the covered part of a slave face. `alpha` is that of each edge, in the order of
-/// FaceType::edges. If nothing is covered or without pivots there are no terms of masters, and D
-/// and W are zero. Not collective.
+/// Integrates over the covered part of a slave face. `alpha` contains α of each edge, in the order
+/// of FaceType::edges. Without cover or pivots there are no terms of masters, and D and W are zero.
+/// Not collective.
 FaceTerms integrate(const FaceMoments& moments, std::span<const double> alpha,
                     const Pivots& pivots);
 

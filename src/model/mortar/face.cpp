@@ -10,8 +10,8 @@
 namespace squeal::mortar {
 namespace {
 
-/// A CellFinder finds the cell of this rank that a face bounds. One pass over the cells lists those
-/// at the first node of each face; a face then compares itself with these few.
+/// Finds the cell of this rank that a face bounds. One pass over the cells lists the cells at the
+/// first node of each face; a face is then compared with these few cells.
 class CellFinder {
  public:
   CellFinder(const mesh::Mesh& mesh, int surface) {

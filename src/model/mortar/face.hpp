@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A Face is a boundary face of the mesh with its geometry, apart from the mesh, so that it can be
-/// sent to the rank that integrates over it.
+/// A boundary face with its geometry, independent of the mesh: it can be sent to the rank that
+/// integrates over it.
 #include <string>
 #include <vector>
 
@@ -24,8 +24,8 @@ struct Face {
 void fields(Stream& stream, Face& face);
 
 /// Returns the faces of a surface group on this rank, each with the body of the cell that it
-/// bounds. Images of periodic nodes keep their own numbers. Not collective. Throws Error if options
-/// name no such surface.
+/// bounds. Images of periodic nodes have their own numbers. Not collective. Throws Error if no
+/// option names the surface.
 std::vector<Face> facesOf(const mesh::Mesh& mesh, const std::string& surface);
 
 }  // namespace squeal::mortar

@@ -19,12 +19,12 @@ using mesh::unit;
 
 namespace {
 
-/// Edges count as straight up to this part of their length, which is rounding of coordinates.
+/// Edges count as straight within this fraction of their length, which is round-off of coordinates.
 constexpr double straightness = 1e-11;
 
-/// Number of straight pieces that stand for a curved edge. Errors of the coupling fall with its
-/// fourth power: with 4 pieces, the nodal loads of a uniform pressure between flat rings of 8 quad8
-/// a quarter are wrong by 1e-4 of a face, with 2 pieces by 2e-3.
+/// Number of straight pieces per curved edge. Errors of the coupling fall with its fourth power:
+/// with 4 pieces, the nodal loads of a uniform pressure between flat rings of 8 quad8 per quarter
+/// have errors of 1e-4 of a face, with 2 pieces 2e-3.
 constexpr int splits = 4;
 
 Facet makeFacet(const Face& face, std::vector<Reference> reference, bool whole) {
@@ -44,8 +44,8 @@ bool hasStraightEdges(const Face& face, const FaceType& type, const Point& direc
   });
 }
 
-/// Returns the corners of the equal triangles into which a triangle or a square is split, with
-/// `splits` of them along each edge.
+/// Returns the corners of the equal triangles into which a triangle or a square is split, `splits`
+/// along each edge.
 std::vector<std::vector<Reference>> triangles(const FaceType& type) {
   const bool triangle = type.corners == 3;
   const double low = triangle ? 0 : -1, high = 1;
@@ -62,7 +62,7 @@ std::vector<std::vector<Reference>> triangles(const FaceType& type) {
   return parts;
 }
 
-/// Returns twice the area of the projection of a facet, in the sense of its order.
+/// Returns twice the area of the projection of a facet, with the sign of its order.
 double projectedArea(const Facet& facet, const Point& a, const Point& direction) {
   double twice = 0;
   for (std::size_t i = 2; i < facet.corners.size(); ++i)
@@ -70,7 +70,7 @@ double projectedArea(const Facet& facet, const Point& a, const Point& direction)
   return twice;
 }
 
-/// Returns true if the projection has no corner that points inwards, seen from either side.
+/// Returns true if the projection is convex, seen from either side.
 bool isConvexAlong(const Facet& facet, const Point& direction) {
   const std::size_t n = facet.corners.size();
   const double side = projectedArea(facet, facet.corners[0], direction);
@@ -92,7 +92,7 @@ Point Facet::centre() const {
 
 Point Facet::normal() const {
   if (corners.size() == 2) return unit(cross(minus(corners[1], corners[0]), {0, 0, 1}));
-  Point sum{};  // vector area, of which no corner is special
+  Point sum{};  // the vector area, which treats all corners equally
   for (std::size_t i = 2; i < corners.size(); ++i)
     sum = plus(sum, cross(minus(corners[i - 1], corners[0]), minus(corners[i], corners[0])));
   return unit(sum);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Replacement of a face by flat facets, which can be projected and cut.
+/// Replacement of a face by flat facets, for projection and clipping.
 #include <vector>
 
 #include "model/mortar/basis.hpp"
@@ -9,7 +9,7 @@
 
 namespace squeal::mortar {
 
-/// A Facet is a flat part of a face, or nearly flat: a polygon, or a segment in the plane.
+/// A flat, or nearly flat, part of a face: a polygon, or a segment in the plane.
 struct Facet {
   std::vector<Point> corners;        ///< anticlockwise, seen from outside of the body
   std::vector<Reference> reference;  ///< [corner]
@@ -20,24 +20,23 @@ struct Facet {
   Point normal() const;  ///< unit vector out of the body
 };
 
-/// Returns the whole face without its mid-edge nodes. The normal of this facet is the mean normal
-/// of the face. Not collective.
+/// Returns the whole face without its mid-edge nodes. Its normal is the mean normal of the face.
+/// Not collective.
 Facet wholeFacet(const Face& face);
-/// Returns the facets of a face to be projected along a unit vector. Not collective. That is the
-/// whole face if its edges are straight in the projection and if it is convex there. Otherwise
-/// there are equal triangles in the reference coordinates, 16 of a triangle and 32 of a
-/// quadrilateral.
+/// Returns the facets of a face for projection along a unit vector. Not collective. If the
+/// projection has straight edges and is convex, the result is the whole face; otherwise equal
+/// triangles in the reference coordinates, 16 for a triangle and 32 for a quadrilateral.
 std::vector<Facet> facets(const Face& face, const Point& direction);
 
-/// Returns how far the edges of the face leave those of its facet in the projection along a unit
-/// vector, m. Not collective.
+/// Returns the largest distance of the edges of the face from those of its facet in the projection
+/// along a unit vector, m. Not collective.
 double sag(const Face& face, const Facet& facet, const Point& direction);
 
-/// A plane with coordinates, of which the first axis is the line of a segment.
+/// A plane with coordinates; for a segment, the first axis is its line.
 class Frame {
  public:
   explicit Frame(const Facet& facet);
-  const Point& normal() const { return normal_; }  ///< that of the facet
+  const Point& normal() const { return normal_; }  ///< normal of the facet
   PlanePoint flat(const Point& x) const;           ///< the projection along the normal
   Point lifted(const PlanePoint& y) const;         ///< the point of the plane
   /// Returns a facet in the projection, anticlockwise for a normal along that of the frame.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Integrals of products of the shape functions of a slave face and of its masters. All
-/// terms of the coupling are linear in these, whatever the basis and the pivots, so that nobody
-/// needs to keep the integration points.
+/// Integrals of products of the shape functions of a slave face and of its masters. All terms of
+/// the coupling are linear in these integrals for any basis and pivots, so the integration points
+/// need not be stored.
 #include <functional>
 #include <span>
 #include <vector>
@@ -29,16 +29,16 @@ struct FaceMoments {
   linalg::DenseMatrix products;    ///< ∫ φ_i φ_j dA, [node][node]
   std::vector<MasterMoments> masters;
   double covered = 0, largestGap = 0;  ///< area, m² (m); largest |gap|, m
-  /// The integration points, where dual functions must not be large. May be cleared for a face that
-  /// is fully covered, where they cannot be.
+  /// The integration points, at which dual functions must not be large. May be cleared for a fully
+  /// covered face, where they are never large.
   std::vector<Reference> points;
 };
 
 /// Returns the velocity at a point of a master face, m/s.
 using Velocity = std::function<Point(std::size_t masterFace, const Point& x)>;
 
-/// Integrates over the covered part of a slave face, whose `points` are those of overlap(). An
-/// empty `velocity` leaves out the convected terms. Not collective.
+/// Integrates over the covered part of a slave face, with the `points` of overlap(). An empty
+/// `velocity` omits the convected terms. Not collective.
 FaceMoments moments(const Face& slave, std::span<const Face* const> masters,
                     std::span<const OverlapPoint> points, const Velocity& velocity = {});
 

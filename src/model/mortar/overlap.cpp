@@ -21,14 +21,15 @@ using mesh::unit;
 
 namespace {
 
-/// Pieces below this part of a facet of the slave face are left out; rounding makes such slivers.
+/// Pieces below this fraction of a facet of the slave face are omitted; such slivers are round-off.
 constexpr double sliver = 1e-13;
 /// A face whose normal turns by more than about 84° from its mean cannot be projected.
 constexpr double leastCosine = 0.1;
 
-/// Rims of both sides that are one in truth differ by the sag of edges, and in the projection by
-/// the gap between facets that are not parallel. Master facets reach beyond their edges by that
-/// much, up to this part of the slave facet, if they are parallel to it up to 60°.
+/// Coinciding rims of both sides differ by the sag of edges and, in the projection, by the gap
+/// between facets that are not parallel. Master facets are extended beyond their edges by this
+/// difference, up to this fraction of the slave facet, if the angle between the facets is at most
+/// 60°.
 constexpr double farthestReach = 0.1, leastParallel = 0.5;
 
 /// A master facet in the projection along the mean normal of the slave face.
@@ -42,11 +43,11 @@ struct Shadow {
 
 /// The part of a slave facet that one master facet covers.
 struct Piece {
-  Region region;   ///< inside of the slave facet
-  Region outline;  ///< of what the master facet covers, also outside of the slave facet
+  Region region;   ///< inside the slave facet
+  Region outline;  ///< of the part that the master facet covers, also outside the slave facet
   std::size_t master;
   bool whole;       ///< true if the facet is all of the master face
-  bool beyond;      ///< true if it reaches beyond the edges of the master facet
+  bool beyond;      ///< true if it extends beyond the edges of the master facet
   double distance;  ///< magnitude at the centroid, m
 };
 
@@ -72,7 +73,7 @@ Region clipDistance(const Region& region, const HalfPlane& g, double limit) {
   return clip(above, {{-slope[0], -slope[1]}, limit - offset});  // g ≤ limit
 }
 
-/// Returns how far a master facet counts beyond its edges.
+/// Returns the extension of a master facet beyond its edges.
 double reach(const Region& slave, double slaveSag, const Shadow& shadow, double searchDistance) {
   if (shadow.tilt < 0) return 0;
   double gap = 0, extent = 0;
@@ -93,8 +94,8 @@ bool boxesTouch(const Region& a, const Region& b) {
   return true;
 }
 
-/// Returns what the master facets cover of a slave facet within the distance. With a slave's sag
-/// they reach beyond their edges.
+/// Returns the parts of a slave facet that master facets cover within the distance. With a positive
+/// sag of the slave, they extend beyond their edges.
 std::vector<Piece> pieces(const Region& slave, const std::vector<Shadow>& shadows,
                           double searchDistance, std::optional<double> slaveSag) {
   std::vector<Piece> pieces;
@@ -116,8 +117,8 @@ std::vector<Piece> pieces(const Region& slave, const std::vector<Shadow>& shadow
   return pieces;
 }
 
-/// Returns the pieces without what a nearer one covers, so that no place counts twice. Those that
-/// reach beyond edges come last.
+/// Returns the pieces without the parts that a nearer piece covers, so no place counts twice.
+/// Pieces that extend beyond edges come last.
 std::vector<Piece> nearest(std::vector<Piece> pieces, double smallest) {
   std::ranges::stable_sort(
       pieces, {}, [](const Piece& piece) { return std::pair(piece.beyond, piece.distance); });
@@ -147,9 +148,8 @@ double openPart(const Region& slave, const std::vector<Piece>& tiles) {
   return open;
 }
 
-/// Returns the pieces of a slave facet, which do not overlap. What is open counts as covered if
-/// masters that reach beyond their edges close all of it. Otherwise it is an overhang, which ends
-/// where the masters end.
+/// Returns the pieces of a slave facet, which do not overlap. An open part counts as covered if
+/// extended masters close all of it. Otherwise it is an overhang.
 std::vector<Piece> tiles(const Region& slave, const std::vector<Shadow>& shadows,
                          double searchDistance, double slaveSag) {
   const double smallest = sliver * measure(slave);
@@ -174,8 +174,8 @@ struct SlavePoint {
       "distorted that its normal turns by more than 84 degrees: refine it");
 }
 
-/// Returns the point over one of the projection of the whole face. All points move along the mean
-/// normal, so that straight edges stay straight.
+/// Returns the point of the face above a point of the projection of the whole face. All points move
+/// along the mean normal, so straight edges stay straight.
 SlavePoint above(const Face& slave, const Frame& frame, const PlanePoint& y,
                  const Reference& start) {
   SlavePoint at;
@@ -187,8 +187,8 @@ SlavePoint above(const Face& slave, const Frame& frame, const PlanePoint& y,
   return at;
 }
 
-/// Returns the point for one of the projection of a triangle. Reference coordinates are linear on
-/// it, so that triangles tile the face also where its edges are curved.
+/// Returns the point of the face for a point of the projection of a triangle. Reference coordinates
+/// are linear on the triangle, so triangles tile the face even at curved edges.
 SlavePoint within(const Face& slave, const Facet& triangle, const Region& flat,
                   const PlanePoint& y) {
   const double area = measure(flat);
@@ -218,7 +218,7 @@ std::vector<OverlapPoint> overlap(const Face& slave, std::span<const Face* const
     const double slaveSag = sag(slave, facet, frame.normal());
     for (const Piece& tile : tiles(flat, projected, searchDistance, slaveSag)) {
       const Face& master = *masters[tile.master];
-      // The points of a tile are near each other.
+      // The points of a tile are close together: each solve starts from the previous one.
       Reference onSlave = faceType(slave.type).centre(), onMaster = faceType(master.type).centre();
       for (const auto& [y, weight] :
            overlapRule(tile.region, frame, slave, master, facet.whole && tile.whole)) {

@@ -16,23 +16,23 @@ using mesh::dot;
 
 namespace {
 
-/// Integrals over flat faces with straight edges are wrong by at most this part of a face, as
-/// estimated; in tests of all types of faces the error was below a thousandth of it.
+/// The largest estimated error of integrals over flat faces with straight edges, relative to a
+/// face; tests of all face types show errors below a thousandth of it.
 constexpr double estimatedError = 1e-10;
-/// The spread of the Jacobian over one triangle counts up to this, which takes the degree 69.
+/// Upper bound of the considered spread of the Jacobian over one triangle, which needs the degree
+/// 69.
 constexpr double worstSpread = 0.7;
 
-/// Returns the degree of the rule for products of shape functions of both faces, and some more for
-/// faces that are not affine, where these are no polynomials. On parts of faces that are split the
-/// functions are nearly polynomials of their order, and the area of a flat one has the degree 6.
+/// Returns the degree of the rule for products of shape functions of both faces, increased for
+/// faces that are not affine, where these are not polynomials. On parts of split faces the
+/// functions are nearly polynomials of their order, and the area of a flat face has the degree 6.
 int degree(const FaceType& slave, const FaceType& master, bool whole) {
   const int order = std::max(slave.order, master.order);
   const bool triangles = slave.corners == 3 && master.corners == 3;
   return 2 * (triangles || !whole ? order : 2 * order) + 2;
 }
 
-/// Returns (largest − smallest) / (largest + smallest) of the values, or 1 if not all have one
-/// sign.
+/// Returns (largest − smallest) / (largest + smallest) of the values, or 1 if their signs differ.
 double spread(std::span<const double> values) {
   const auto [low, high] = std::ranges::minmax(values);
   return low * high > 0 ? (high - low) / std::abs(high + low) : 1;
@@ -43,21 +43,21 @@ double projectedJacobian(const Face& face, const Reference& at, const Point& dir
   return dot(facePoint(face, at).normal, direction);
 }
 
-/// Returns whether the reference coordinates of a face are linear in the projection. Otherwise
-/// shape functions are no polynomials there.
+/// Returns true if the reference coordinates of a face are linear in the projection. Otherwise
+/// shape functions are not polynomials there.
 bool isAffine(const Face& face, const Point& direction) {
   std::vector<double> jacobian;
   for (const Reference& node : faceType(face.type).reference)
     jacobian.push_back(projectedJacobian(face, node, direction));
-  return spread(jacobian) < 1e-6;  // its square is below rounding
+  return spread(jacobian) < 1e-6;  // its square is below round-off
 }
 
-/// Returns the degree at which shape functions of a face are integrated to the estimated error over
-/// a triangle of the projection.
+/// Returns the degree that integrates shape functions of a face over a triangle of the projection
+/// with the estimated error.
 ///
-/// Let J be the Jacobian and κ its spread over the triangle. On a line, x = ξ + κ ξ²/2 is inverted
-/// by a square root that is singular at x = −1/(2κ). That is on the ellipse of Bernstein whose axes
-/// add up to 1/κ times the length, so that the error of a rule of degree d falls as κ^d.
+/// Let J be the Jacobian and κ its spread over the triangle. On a line, the inverse of x = ξ + κ
+/// ξ²/2 is a square root that is singular at x = −1/(2κ). This point is on the Bernstein ellipse
+/// whose axes add up to 1/κ times the length, so the error of a rule of degree d falls like κ^d.
 int degreeOverTriangle(const Face& face, const Frame& frame, const Region& triangle) {
   std::array<double, 6> jacobian;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -17,12 +17,13 @@ using mesh::scaled;
 
 namespace {
 
-/// How far outside of the face a line may meet it, in the size of the reference cell.
+/// The largest distance outside the face at which a line may meet it, relative to the reference
+/// cell.
 constexpr double margin = 0.25;
 constexpr int mostSteps = 50;
 
-/// Returns the point of the reference cell, enlarged by `extra` of its size, that is next to a
-/// point, or one that is close to it.
+/// Returns a point of the reference cell, enlarged by `extra` of its size, that is nearest, or
+/// close to nearest, to a given point.
 Reference clamped(const FaceType& type, const Reference& x, double extra) {
   if (type.dimension == 1) return {std::clamp(x[0], -1 - 2 * extra, 1 + 2 * extra), 0};
   if (type.corners == 4)
@@ -49,8 +50,8 @@ Point solve(const Point& a, const Point& b, const Point& c, const Point& right) 
 double largest(const Reference& x) { return std::max(std::abs(x[0]), std::abs(x[1])); }
 
 /// Newton's method on x(ξ) − from − g n = 0, for ξ and g together. Steps stay within twice the
-/// margin, so that a distorted face cannot send the iteration far away. Returns false if the
-/// iteration does not come to rest within the margin.
+/// margin, so the iteration cannot diverge on a distorted face. Returns false if it does not
+/// converge within the margin.
 bool newton(const Face& face, const FaceType& type, const Point& from, const Point& direction,
             Foot& at) {
   for (int step = 0; step < mostSteps; ++step) {
@@ -63,13 +64,13 @@ bool newton(const Face& face, const FaceType& type, const Point& from, const Poi
     const Reference wanted{before[0] - change[0], type.dimension == 1 ? 0 : before[1] - change[1]};
     at.reference = clamped(type, wanted, 2 * margin);
     const double moved = largest({at.reference[0] - before[0], at.reference[1] - before[1]});
-    // Convergence is quadratic: after a step this small only rounding remains.
+    // Convergence is quadratic: after a step this small only round-off remains.
     const double size = largest({change[0], change[1]});
     if (size < 1e-8) {
       const Reference inside = clamped(type, at.reference, margin);
       return largest({inside[0] - at.reference[0], inside[1] - at.reference[1]}) < 1e-9;
     }
-    if (moved == 0) return false;  // held by the limit
+    if (moved == 0) return false;  // stopped by the limit
   }
   return false;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Maps between the reference coordinates of a face and space. None is collective.
+/// Maps between the reference coordinates of a face and space. Not collective.
 #include "model/mortar/basis.hpp"
 #include "model/mortar/face.hpp"
 
@@ -20,25 +20,26 @@ inline FacePoint facePoint(const Face& face, const Reference& at) {
   return facePoint(face, faceShape(faceType(face.type), at));
 }
 
-/// Where a straight line meets a face.
+/// The point where a straight line meets a face.
 struct Foot {
   Reference reference{};
   double distance = 0;  ///< from the start of the line along its direction, m
   /// False if the line misses the face, or passes it at more than a quarter of its size. Then
-  /// `reference` is a point on the rim, and `distance` is that of its foot on the line.
+  /// `reference` is a point on the rim, and `distance` belongs to its foot on the line.
   bool met = true;
 };
 
-/// Returns where the line through `from` along the unit vector `direction` meets the face,
+/// Returns the point where the line through `from` along the unit vector `direction` meets the
+/// face,
 ///   x(ξ) = from + distance · direction,
-/// to rounding. Points outside of the face count up to a quarter of its size: cells of straight
-/// edges end there where the rim is curved.
+/// within round-off. Points outside the face count up to a quarter of its size, since
+/// straight-edged cells end before a curved rim.
 Foot project(const Face& face, const Point& from, const Point& direction);
-/// The same, where the point is known to be near `start`.
+/// The same for a point that is known to be near `start`.
 Foot project(const Face& face, const Point& from, const Point& direction, const Reference& start);
 
-/// Returns Σ V_S · ∇_S φ_i, the derivative of each shape function along a velocity, 1/s for m/s, as
-/// far as the velocity is tangential to the face.
+/// Returns Σ V_S · ∇_S φ_i, the derivative of each shape function along a velocity, 1/s for m/s;
+/// only the tangential part of the velocity counts.
 NodeValues derivativeAlong(const FacePoint& point, const FaceShape& shape, const Point& velocity);
 
 }  // namespace squeal::mortar

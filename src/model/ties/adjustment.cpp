@@ -24,7 +24,7 @@ namespace {
 using mesh::length;
 using mesh::plus;
 
-/// The moves of the masters of this rank's tied nodes, wherever they are.
+/// The moves of the masters of this rank's tied nodes, on any rank.
 class MasterMoves {
  public:
   /// Collective.
@@ -72,10 +72,10 @@ std::vector<Point> picked(const std::vector<Point>& all, std::span<const PetscIn
   return some;
 }
 
-/// The way of each node from its place in the file, [local node], m.
+/// The displacement of each node from its position in the file, [local node], m.
 using Moves = std::vector<Point>;
 
-/// Collective. Gives all ranks and all images the moves of the primaries that their owners have.
+/// Collective. Sends the moves of the primaries from their owners to all ranks and images.
 void share(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Moves& moves) {
   std::vector<double> values(moves.size());
   for (std::size_t d = 0; d < 3; ++d) {
@@ -105,7 +105,7 @@ Moves movesOfTied(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange
 }
 
 /// Collective. Adds the moves of the nodes that follow the corners of their cells.
-void follow(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Moves& moves) {
+void moveWithCorners(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Moves& moves) {
   std::vector<double> onSurface(mesh.localNodes(), 0.0);
   for (const auto& block : mesh.faces)
     for (PetscInt node : block.nodes) onSurface[node] = 1;
@@ -128,8 +128,8 @@ struct Folded {
   std::string cell;                           ///< the cell of this tag in words
 };
 
-/// Returns the cells of this rank that are folded but were not in the file, by the tie,
-/// [interface], of the node that has moved most.
+/// Returns the cells of this rank that have become folded, by the tie, [interface], of the node
+/// with the largest move.
 std::vector<Folded> foldedCells(const mesh::Mesh& mesh, const std::vector<Point>& file,
                                 const Moves& moves, const std::vector<double>& tieOf,
                                 std::size_t interfaces) {
@@ -179,16 +179,16 @@ void rejectFolded(const mesh::Mesh& mesh, const std::vector<Point>& file, const 
   }
 }
 
-/// The cell of one rank that a tie has stretched or compressed most.
+/// The most stretched or compressed cell of a tie on one rank.
 struct Strain {
   double change = 0;   ///< largest change of a distance of two corners, relative to it
   Point where{};       ///< their middle in the file, m
   PetscInt count = 0;  ///< cells with a change that is worth a warning
 };
 
-constexpr double largestChange = 0.1;  // of a distance; round cuts leave less on usual meshes
+constexpr double largestChange = 0.1;  // of a distance; curved cuts on usual meshes cause less
 
-/// Returns the strains by the tie, [interface], of the node that has moved most in each cell.
+/// Returns the strains by the tie, [interface], of the node with the largest move in each cell.
 std::vector<Strain> strainsOf(const mesh::Mesh& mesh, const std::vector<Point>& file,
                               const Moves& moves, const std::vector<double>& tieOf,
                               std::size_t interfaces) {
@@ -257,7 +257,7 @@ void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange, I
   }
   for (auto& report : ties.reports)
     report.largestAdjustment = mpi::max(mesh.comm, report.largestAdjustment);
-  follow(mesh, exchange, moves);
+  moveWithCorners(mesh, exchange, moves);
   for (std::size_t i = 0; i < moves.size(); ++i) mesh.coordinates[i] = plus(file[i], moves[i]);
   std::vector<double> tieOf(mesh.localNodes(), 0.0);  // one more than the index of the tie
   for (const auto& node : ties.tied) tieOf[node.connection.node] = node.interface + 1;

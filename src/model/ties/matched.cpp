@@ -25,14 +25,14 @@ struct Edge {
   Point place;   // of the node
 };
 
-/// A node that had better follow no other one.
-struct Wish {
+/// A node that should preferably follow no other one.
+struct Preference {
   PetscInt node;  // global
   enum Kind { other, slides, rests } kind;
   PetscInt partner;  // of the contact, where its meshes match; otherwise −1
 };
 
-/// Returns the edges of all ranks, tie by tie, in the order of places, which no partition changes.
+/// Returns the edges of all ranks, tie by tie, ordered by position, independent of the partition.
 std::vector<Edge> edgesOf(const mesh::Mesh& mesh, const Interfaces& all) {
   std::vector<Edge> own;
   for (const auto& pair : mesh.pairs)
@@ -47,22 +47,23 @@ std::vector<Edge> edgesOf(const mesh::Mesh& mesh, const Interfaces& all) {
   return edges;
 }
 
-/// Collective. Returns the wishes of all ranks.
-std::vector<Wish> wishesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
-                           const Interfaces& all) {
-  std::vector<Wish> own;
+/// Collective. Returns the preferences of all ranks.
+std::vector<Preference> preferencesOf(const mesh::Mesh& mesh,
+                                      const coupling::NodeExchange& exchange,
+                                      const Interfaces& all) {
+  std::vector<Preference> own;
   for (const auto& tied : all.tied)
-    own.push_back({mesh.firstNode + tied.connection.node, Wish::rests, -1});
+    own.push_back({mesh.firstNode + tied.connection.node, Preference::rests, -1});
   for (const auto& pair : mesh.pairs)
     if (const Role role = all.options[pair.interface].role; role != Role::tied)
-      own.push_back({mesh.firstNode + pair.node, role == Role::sliding ? Wish::slides : Wish::other,
-                     pair.master});
+      own.push_back({mesh.firstNode + pair.node,
+                     role == Role::sliding ? Preference::slides : Preference::other, pair.master});
   for (int i = 0; i < std::ssize(all.options); ++i) {
     const Role role = all.options[i].role;
     if (mesh.interfaces[i].matching || role == Role::tied) continue;
     for (const PetscInt node : slaveNodesOf(mesh, exchange, slaveSurface(mesh, all.options[i])))
-      own.push_back(
-          {mesh.firstNode + node, role == Role::sliding ? Wish::slides : Wish::other, -1});
+      own.push_back({mesh.firstNode + node,
+                     role == Role::sliding ? Preference::slides : Preference::other, -1});
   }
   return concatenated(mesh.comm, own);
 }
@@ -97,13 +98,14 @@ std::vector<Equal> setsOf(const std::vector<Edge>& edges) {
   return sets;
 }
 
-/// Returns the nodes of a set that follow no other one: all that rest on several nodes, or one.
-std::vector<PetscInt> independentOf(const Equal& set,
-                                    const std::map<PetscInt, std::vector<Wish>>& wishes) {
+/// Returns the nodes of a set that follow no other one: all nodes with several masters or, without
+/// these, one node.
+std::vector<PetscInt> independentOf(
+    const Equal& set, const std::map<PetscInt, std::vector<Preference>>& preferences) {
   std::vector<PetscInt> resting;
   PetscInt chosen = -1;
   int best = -1;
-  // Ends of chains first, then in the order of the edges, which no partition changes.
+  // Ends of chains first, then in the order of the edges, independent of the partition.
   std::vector<PetscInt> order;
   for (const Edge* edge : set.edges) order.push_back(edge->master), order.push_back(edge->node);
   std::stable_partition(order.begin(), order.end(), [&](PetscInt node) {
@@ -112,26 +114,27 @@ std::vector<PetscInt> independentOf(const Equal& set,
   });
   for (const PetscInt node : order) {
     int most = 0;
-    const auto found = wishes.find(node);
-    if (found != wishes.end())
-      for (const auto& wish : found->second)
-        // A gap between nodes that are tied stays closed by itself.
-        if (!set.nodes.count(wish.partner)) most = std::max(most, 1 + wish.kind);
-    if (most == 1 + Wish::rests && std::find(resting.begin(), resting.end(), node) == resting.end())
+    const auto found = preferences.find(node);
+    if (found != preferences.end())
+      for (const auto& preference : found->second)
+        // A gap between tied nodes stays closed automatically.
+        if (!set.nodes.count(preference.partner)) most = std::max(most, 1 + preference.kind);
+    if (most == 1 + Preference::rests &&
+        std::find(resting.begin(), resting.end(), node) == resting.end())
       resting.push_back(node);
     if (most > best) best = most, chosen = node;
   }
   return resting.empty() ? std::vector{chosen} : resting;
 }
 
-/// A node that follows another one by an edge, against its direction or along it.
+/// A node that follows another one by an edge, in either direction.
 struct Follower {
   PetscInt node, leader;
   const Edge* edge;
 };
 
-/// Returns the followers of a set, and the edges that tie nodes of different leaders: those cannot
-/// be met. Edges that follow from others are neither.
+/// Returns the followers of a set, and the edges between nodes of different leaders, which cannot
+/// be satisfied. Redundant edges are in neither list.
 std::pair<std::vector<Follower>, std::vector<const Edge*>> spanned(
     const Equal& set, const std::vector<PetscInt>& independent) {
   std::vector<Follower> followers;
@@ -165,12 +168,12 @@ TiedNode tiedNode(const mesh::Mesh& mesh, const Follower& follower) {
   return tied;
 }
 
-/// Throws Error for a tie all of whose edges follow from others.
+/// Throws Error for a tie whose edges are all redundant.
 void rejectRepeated(const std::vector<Equal>& sets, const Interfaces& all) {
   std::vector<PetscInt> edges(all.options.size(), 0), repeated(edges);
   std::vector<std::set<int>> others(all.options.size());
   for (const auto& set : sets) {
-    // An edge of a later tie is met if the edges before it connect its nodes.
+    // An edge of a later tie is redundant if earlier edges connect its nodes.
     std::map<PetscInt, PetscInt> root;
     for (const PetscInt node : set.nodes) root[node] = node;
     for (const Edge* edge : set.edges) {
@@ -189,9 +192,9 @@ void rejectRepeated(const std::vector<Equal>& sets, const Interfaces& all) {
     if (edges[i] == 0 || repeated[i] < edges[i] || others[i].empty()) continue;
     std::vector<std::string> labels;
     for (const int other : others[i]) labels.push_back(all.options[other].label());
-    throw Error(all.options[i].label() + ": all of its " + std::to_string(edges[i]) +
-                " nodes are tied by " + joined(labels, " and ") +
-                " already; give these surfaces in one tie only");
+    throw Error(all.options[i].label() + ": all " + std::to_string(edges[i]) +
+                " nodes are already tied by " + joined(labels, " and ") +
+                "; use these surfaces in only one tie");
   }
 }
 
@@ -200,13 +203,14 @@ void rejectRepeated(const std::vector<Equal>& sets, const Interfaces& all) {
 void tieMatched(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all) {
   const auto edges = edgesOf(mesh, all);
   if (edges.empty()) return;
-  std::map<PetscInt, std::vector<Wish>> wishes;
-  for (const auto& wish : wishesOf(mesh, exchange, all)) wishes[wish.node].push_back(wish);
+  std::map<PetscInt, std::vector<Preference>> preferences;
+  for (const auto& preference : preferencesOf(mesh, exchange, all))
+    preferences[preference.node].push_back(preference);
   const auto sets = setsOf(edges);
   rejectRepeated(sets, all);
   for (const auto& edge : edges) ++all.reports[edge.interface].nodes;
   for (const auto& set : sets) {
-    const auto [followers, lost] = spanned(set, independentOf(set, wishes));
+    const auto [followers, lost] = spanned(set, independentOf(set, preferences));
     for (const auto& follower : followers)
       if (follower.node >= mesh.firstNode && follower.node < mesh.firstNode + mesh.ownedNodes)
         all.tied.push_back(tiedNode(mesh, follower));

@@ -24,7 +24,7 @@ namespace {
 
 /// Collective. Fills the tied nodes, with their levels, and the reports of the ties.
 void coupleTies(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all) {
-  // A node that rests on several nodes of a master has no choice, those of pairs have.
+  // First the nodes with several masters, since only nodes of pairs have a choice.
   Claims claims(mesh, exchange);
   for (int i = 0; i < std::ssize(all.options); ++i) {
     if (!all.options[i].isTied() || mesh.interfaces[i].matching) continue;
@@ -40,7 +40,7 @@ void coupleTies(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, 
   setLevels(mesh, all);
 }
 
-/// Collective. Fills what coupleTies() leaves open of the reports of the ties.
+/// Collective. Sets the members of the reports of the ties that coupleTies() does not set.
 void report(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all) {
   for (int i = 0; i < std::ssize(all.options); ++i) {
     if (!all.options[i].isTied()) continue;
@@ -68,13 +68,12 @@ void warnOfLittleCover(const mesh::Mesh& mesh, const Interfaces& all) {
     const auto& options = all.options[i];
     const auto& report = all.reports[i];
     if (!options.isTie() || report.coveredArea >= 0.5 * report.slave.area) continue;
-    printWarning(
-        mesh.comm,
-        formatted("warning: %s ties %.3g %% of the area of its slave '%s', %.4g of %.4g m2; "
-                  "nothing of '%s' faces the rest within %s",
-                  options.label().c_str(), 100 * report.coveredArea / report.slave.area,
-                  options.surfaces.pad.name.c_str(), report.coveredArea, report.slave.area,
-                  options.surfaces.disc.name.c_str(), searchText(options).c_str()));
+    printWarning(mesh.comm,
+                 formatted("warning: %s ties %.3g %% of the area of its slave '%s', %.4g of %.4g "
+                           "m2; no part of '%s' faces the rest within %s",
+                           options.label().c_str(), 100 * report.coveredArea / report.slave.area,
+                           options.surfaces.pad.name.c_str(), report.coveredArea, report.slave.area,
+                           options.surfaces.disc.name.c_str(), searchText(options).c_str()));
   }
 }
 

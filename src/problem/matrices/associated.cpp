@@ -15,24 +15,24 @@ namespace {
 
 constexpr double symmetric = 1e-10;  // printed digits of exports
 
-bool joins(const pencil::Term& term, int power) {
-  return term.power == power && !term.holdsFriction() && term.speedExponent == 0 &&
+bool isAssociated(const pencil::Term& term, int power) {
+  return term.power == power && !term.containsFriction() && term.speedExponent == 0 &&
          term.dampingExponent == 0;
 }
 
 std::string namesOf(const std::vector<NamedTerm>& terms, int power) {
   std::vector<std::string> names;
   for (const auto& [name, term] : terms)
-    if (joins(term, power)) names.push_back("'" + name + "'");
+    if (isAssociated(term, power)) names.push_back("'" + name + "'");
   return joined(names);
 }
 
-/// Collective. Returns the sum of the terms that joins() accepts, with their factors. Throws Error
-/// if there is none.
+/// Collective. Returns the sum of the terms that isAssociated() accepts, with their factors. Throws
+/// Error if there is none.
 OwnedMat sum(const std::vector<NamedTerm>& terms, int power) {
   OwnedMat total;
   for (const auto& [name, term] : terms) {
-    if (!joins(term, power)) continue;
+    if (!isAssociated(term, power)) continue;
     if (!total) {
       check(MatDuplicate(term.matrix, MAT_COPY_VALUES, total.out()));
       check(MatScale(total, term.factor));

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const char* const heading = "# Matrices of one problem, for squeal -options_file";
-std::string blame(const ExportSettings& settings) {
+std::string errorHead(const ExportSettings& settings) {
   return "option -report_matrices " + settings.folder + ": ";
 }
 
@@ -79,11 +79,11 @@ matrixfile::Entries entriesOf(Mat matrix) {
 
 /// Collective. Writes a matrix: in Matrix Market format if the name ends with .mtx, otherwise in
 /// that of PETSc.
-void writeMatrix(Mat matrix, const fs::path& path, const std::string& blame) {
+void writeMatrix(Mat matrix, const fs::path& path, const std::string& errorHead) {
   const MPI_Comm comm = commOf(matrix);
   if (path.extension() == ".mtx") {
     const OwnedMat whole = linalg::onRankZero(matrix);
-    onFirstRank(comm, blame, [&] { matrixfile::writeMatrixMarket(path, entriesOf(whole)); });
+    onFirstRank(comm, errorHead, [&] { matrixfile::writeMatrixMarket(path, entriesOf(whole)); });
     return;
   }
   // The file consists of header, row lengths, columns and values. On a full disk PETSc would abort
@@ -94,7 +94,7 @@ void writeMatrix(Mat matrix, const fs::path& path, const std::string& blame) {
   check(MatGetSize(matrix, &rows, nullptr));
   const unsigned long long entries = info.nz_used;
   const auto bytes = (4 + entries + rows) * sizeof(PetscInt) + entries * sizeof(PetscScalar);
-  onFirstRank(comm, blame, [&] { output::reserve(path, bytes); });
+  onFirstRank(comm, errorHead, [&] { output::reserve(path, bytes); });
   OwnedViewer viewer;
   check(PetscViewerCreate(comm, viewer.out()));
   check(PetscViewerSetType(viewer, PETSCVIEWERBINARY));
@@ -161,7 +161,7 @@ void requireExportFolder(MPI_Comm comm, const ExportSettings& settings, const fs
     return fs::weakly_canonical(fs::absolute(folder)) / "";
   };
   if (place(results) == place(settings.folder))  // the results have their own options.txt
-    throw Error(blame(settings) + "is the folder of the results; name another one");
+    throw Error(errorHead(settings) + "is the folder of the results; name another one");
   const output::Folder folder(comm, naming(settings), settings.folder);
 }
 
@@ -178,11 +178,11 @@ void exportPencil(const pencil::Pencil& pencil, const ExportSettings& settings,
   for (const auto& term : pencil.terms()) {
     const std::string name = nameOf(term, taken);
     const auto path = folder.staging() / (name + extension);
-    writeMatrix(term.matrix, path, blame(settings));
+    writeMatrix(term.matrix, path, errorHead(settings));
     text += optionsOf(name, term, path.filename());
   }
   text += carriedOptions();
-  onFirstRank(pencil.comm(), blame(settings),
+  onFirstRank(pencil.comm(), errorHead(settings),
               [&] { output::writeFile(folder.staging() / "options.txt", text); });
   folder.commit();
   stage.finish(formatted("%zu matrices in %s", pencil.terms().size(), folder.path().c_str()));

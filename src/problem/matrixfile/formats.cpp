@@ -100,7 +100,7 @@ int indexBits(const std::string& head) {
 }
 
 /// Throws Error for a file of another format, naming the format if it is known.
-[[noreturn]] void refuse(const std::string& head) {
+[[noreturn]] void rejectFormat(const std::string& head) {
   if (begins(head, "PK"))
     throw Error(
         "an archive of numpy or scipy.sparse.save_npz: convert it to .mtx or .h5 by "
@@ -192,7 +192,7 @@ Format formatOf(const std::filesystem::path& path) {
   if (isMatlab5(head)) return Format::matlab;
   if (indexBits(head) == ownIndexBits) return Format::petscBinary;
   if (path.extension() == ".mat" && isMatlab4(head)) return Format::matlab;
-  refuse(head);
+  rejectFormat(head);
 }
 
 }  // namespace squeal::matrixfile

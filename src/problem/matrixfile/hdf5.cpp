@@ -214,20 +214,20 @@ Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
   const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * std::filesystem::file_size(path),
                            availableMemory(), "it requires more memory than is free",
                            "the HDF5 library"};
-  const auto exchange = [](Stream& stream, Entries& entries) {
+  const auto serialise = [](Stream& stream, Entries& entries) {
     stream(entries.row, entries.column, entries.value);
   };
   Stream result(inChild(limits, [&](const Warn&) {
     Entries entries = readHere(path, name);
     Stream stream;
     stream(entries.rows, entries.columns);
-    exchange(stream, entries);
+    serialise(stream, entries);
     return std::move(stream).bytes();
   }));
   PetscInt rows = 0, columns = 0;
   result(rows, columns);
   Entries entries(rows, columns);
-  exchange(result, entries);
+  serialise(result, entries);
   return entries;
 }
 

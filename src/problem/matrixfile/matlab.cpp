@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// MATLAB files are read by hand: in a truncated file, matio 1.5 replaces missing values by zeros
-// and omits the variables after them.
+// This reads MATLAB files without matio: in a truncated file, matio 1.5 replaces missing values by
+// zeros and omits the variables after them.
 #include "problem/matrixfile/matlab.hpp"
 
 #include "base/petsc/check.hpp"
@@ -64,7 +64,7 @@ bool isVersion5(BinaryFile& file) {
 }
 
 /// Returns true if the file begins with the text of version 5, even without a byte-order mark.
-bool claimsVersion5(BinaryFile& file) {
+bool beginsLikeVersion5(BinaryFile& file) {
   char text[6] = {};
   file.seek(0);
   file.read(text, std::min<std::size_t>(sizeof text, file.size()));
@@ -76,7 +76,7 @@ bool claimsVersion5(BinaryFile& file) {
 Entries readMatlab(const std::filesystem::path& path, const std::string& name) {
   BinaryFile file(path);
   const bool version5 = isVersion5(file);
-  if (!version5 && claimsVersion5(file))
+  if (!version5 && beginsLikeVersion5(file))
     throw Error("the header of the MATLAB file is truncated or damaged");
   const auto variables = version5 ? variablesOfVersion5(file) : variablesOfVersion4(file);
   const Variable& variable = chosen(variables, name);

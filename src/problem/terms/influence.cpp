@@ -16,11 +16,11 @@ constexpr double step = 1e-4;
 
 /// Returns true if the terms of the point depend on the steady state by the direction and law of
 /// slip, by friction damping or by prestress.
-bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters& at, Mat prestress,
-                        const Settings& settings) {
+bool dependsOnSteadyState(const contact::Contact& contact, const sweep::Parameters& at,
+                          Mat prestress, const Settings& settings) {
   const bool damping =
       settings.frictionDamping && (contact.mesh->dimension == 3 || !contact.law.constant());
-  return prestress || (contact.hasFriction(at.friction) && (damping || !contact.slipIsGiven()));
+  return prestress || (contact.hasFriction(at.friction) && (damping || !contact.slipIsConstant()));
 }
 
 }  // namespace
@@ -80,16 +80,15 @@ std::vector<Influences::Influence> Influences::influences(const BodyPoint& state
       list.push_back({.name = (density ? "density_" : "young_") + mesh_.bodies[body],
                       .body = body,
                       .density = density});
-  if (!followsSteadyState(contact_, state.at, state.prestress, settings_)) return list;
+  if (!dependsOnSteadyState(contact_, state.at, state.prestress, settings_)) return list;
   const steady::Problem problem(mesh_, bodies_, contact_);
   for (auto& influence : list)
-    if (influence.member != &sweep::Parameters::damping)
-      followSteadyState(state, problem, influence);
+    if (influence.member != &sweep::Parameters::damping) addSteadyChange(state, problem, influence);
   return list;
 }
 
-void Influences::followSteadyState(const BodyPoint& state, const steady::Problem& problem,
-                                   Influence& influence) const {
+void Influences::addSteadyChange(const BodyPoint& state, const steady::Problem& problem,
+                                 Influence& influence) const {
   const double v = state.at.speed;
   const OwnedVec force = elasticity::nodalVector(mesh_);
   steady::Cause cause;

@@ -49,8 +49,8 @@ class Influences {
   struct Influence;
   struct Projected;
   std::vector<Influence> influences(const BodyPoint& state);
-  void followSteadyState(const BodyPoint& state, const steady::Problem& problem,
-                         Influence& influence) const;
+  void addSteadyChange(const BodyPoint& state, const steady::Problem& problem,
+                       Influence& influence) const;
   Complex materialForm(const Influence& influence, const BodyPoint& state,
                        const Projected& pair) const;
   Complex steadyForm(const Influence& influence, const BodyPoint& state,

@@ -91,7 +91,8 @@ std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
                                        const contact::CoupledSystem& system,
                                        const std::vector<unsigned char>& slides) {
   std::vector<pencil::Term> terms;
-  if (contact.slipIsGiven()) addFriction(terms, contact, system, contact.slip(1, nullptr), slides);
+  if (contact.slipIsConstant())
+    addFriction(terms, contact, system, contact.slip(1, nullptr), slides);
   return terms;
 }
 
@@ -101,7 +102,7 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const Settings& settings) {
   std::vector<pencil::Term> terms;
   const bool friction = contact.hasFriction(solution.at.friction);
-  if (friction && !contact.slipIsGiven())
+  if (friction && !contact.slipIsConstant())
     addFriction(terms, contact, system, solution.slip, solution.closed);
   if (friction && settings.frictionDamping)
     addVelocityResponse(terms, contact, system, solution, settings);

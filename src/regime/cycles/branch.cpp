@@ -43,9 +43,9 @@ std::string endAt(const ShootingResult& motion, const ContinuationLimits& limits
 
 }  // namespace
 
-Route follow(const Period& period, const ShootingResult& first, bool upwards,
-             const ContinuationLimits& limits, const Progress& progress,
-             const std::function<void(const ShootingResult&)>& inspect) {
+Route continueBranch(const Period& period, const ShootingResult& first, bool upwards,
+                     const ContinuationLimits& limits, const Progress& progress,
+                     const std::function<void(const ShootingResult&)>& inspect) {
   Route route;
   ShootingResult last = first;
   Direction tangent(2 * period.model().modes() + 2);

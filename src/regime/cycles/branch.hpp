@@ -26,8 +26,8 @@ struct Route {
 /// Collective. Follows the branch through a converged periodic motion by pseudo-arclength
 /// continuation, first towards larger friction if `upwards`. The step is adaptive, and halved if
 /// Newton's method fails. It calls `inspect` for each motion found, except the first.
-Route follow(const Period& period, const ShootingResult& first, bool upwards,
-             const ContinuationLimits& limits, const Progress& progress,
-             const std::function<void(const ShootingResult&)>& inspect);
+Route continueBranch(const Period& period, const ShootingResult& first, bool upwards,
+                     const ContinuationLimits& limits, const Progress& progress,
+                     const std::function<void(const ShootingResult&)>& inspect);
 
 }  // namespace squeal::cycles

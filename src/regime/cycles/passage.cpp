@@ -32,7 +32,7 @@ class Meter {
       sticking += rests;
       if (open) opened_[node] = 1;
       if (rests) rested_[node] = 1;
-      if (open == at.pressed() || (!open && at.rubs() && rests != at.sticks()))
+      if (open == at.pressed() || (!open && at.hasFriction() && rests != at.sticks()))
         measures_.linear = false;
       normal_ += state.force[row];
       if (!at.sticks()) along_ -= state.force[row + 1];
@@ -82,18 +82,18 @@ double change(const ReducedModel& model, const InitialState& start, const Initia
 Period::Period(MPI_Comm comm, ReducedModel model, double friction, int steps)
     : comm_(comm), model_(std::move(model)), modelFriction_(friction), steps_(steps) {}
 
-march::Massless Period::schemeOf(const Orbit& orbit, const StopAsked& asked) const {
+march::Massless Period::schemeOf(const Orbit& orbit, const StopRequested& stopRequested) const {
   march::Massless scheme(model_, orbit.start, orbit.period / steps_,
                          orbit.friction - modelFriction_);
   scheme.setAccuracy(forceAccuracy);
-  scheme.setStop(asked);
+  scheme.setStop(stopRequested);
   return scheme;
 }
 
 Passage Period::pass(const Orbit& orbit, int steps) const {
   Passage passage;
-  workApart(comm_, [&](const StopAsked& asked) {
-    march::Massless scheme = schemeOf(orbit, asked);
+  workIndependently(comm_, [&](const StopRequested& stopRequested) {
+    march::Massless scheme = schemeOf(orbit, stopRequested);
     Meter meter(model_);
     for (int i = 0; i < steps; ++i) scheme.step(), meter.inspect(scheme);
     passage = meter.result(scheme, steps * orbit.period / steps_);
@@ -108,8 +108,8 @@ Passage Period::pass(const Orbit& orbit, int steps) const {
 /// start, which is the last one of a period if the motion is periodic.
 std::vector<PetscInt> Period::stuckAtStart(const Orbit& orbit) const {
   std::vector<PetscInt> rows;
-  workApart(comm_, [&](const StopAsked& asked) {
-    march::Massless before = schemeOf(orbit, asked);
+  workIndependently(comm_, [&](const StopRequested& stopRequested) {
+    march::Massless before = schemeOf(orbit, stopRequested);
     for (int i = 0; i < steps_; ++i) before.step();
     const auto stuck = before.stuck();
     for (PetscInt row = 0; row < model_.rows(); ++row)
@@ -135,8 +135,8 @@ DenseMatrix Period::variationsAtEnd(const Orbit& orbit, const std::vector<PetscI
     else
       x.z(stuck[entry - 2 * k], j) = 1;
   }
-  workApart(comm_, [&](const StopAsked& asked) {
-    march::Massless scheme = schemeOf(orbit, asked);
+  workIndependently(comm_, [&](const StopRequested& stopRequested) {
+    march::Massless scheme = schemeOf(orbit, stopRequested);
     for (int i = 0; i < steps_; ++i) scheme.step(), scheme.propagate(x);
   });
   DenseMatrix part(2 * k + rows, own), all(2 * k + rows, order);

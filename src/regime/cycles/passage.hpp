@@ -71,7 +71,7 @@ class Period {
   Monodromy derivative(const Orbit& orbit) const;
 
  private:
-  march::Massless schemeOf(const Orbit& orbit, const StopAsked& asked) const;
+  march::Massless schemeOf(const Orbit& orbit, const StopRequested& stopRequested) const;
   std::vector<PetscInt> stuckAtStart(const Orbit& orbit) const;
   DenseMatrix variationsAtEnd(const Orbit& orbit, const std::vector<PetscInt>& stuck) const;
   MPI_Comm comm_;

@@ -27,7 +27,7 @@ bool isLinear(const ReducedModel& model, const march::Massless& scheme) {
     const auto& node = model.nodes[i];
     const PetscInt row = i * model.dimension;
     const bool open = scheme.state().force[row] == 0;
-    if (open == node.pressed() || (!open && node.rubs() && stuck[row + 1] != node.sticks()))
+    if (open == node.pressed() || (!open && node.hasFriction() && stuck[row + 1] != node.sticks()))
       return false;
   }
   return true;

@@ -71,9 +71,9 @@ double StepSolver::sweep(const std::vector<double>& friction,
 
 int StepSolver::solve(const std::vector<double>& friction, const std::vector<unsigned char>& active,
                       double tolerance, std::vector<double>& r, std::vector<double>& d,
-                      const StopAsked& asked) const {
+                      const StopRequested& stopRequested) const {
   for (int count = 1; count <= mostSweeps; ++count) {
-    if (asked && asked()) throw Interrupted();
+    if (stopRequested && stopRequested()) throw Interrupted();
     // The tolerance of forces far above those of steady sliding is their round-off.
     double largest = 0;
     for (const double force : r) largest = std::max(largest, std::abs(force));

@@ -24,10 +24,11 @@ class StepSolver {
   /// Improves forces R to a `tolerance`, N, and updates d = b + W R, which must be given for the
   /// initial forces. active[node] is false for a node that is known to be open; its forces are
   /// zero. Returns the number of sweeps of the projected Gauss–Seidel method. Throws Error after
-  /// the largest number of sweeps. Throws Interrupted, only on this rank, once asked() is true.
+  /// the largest number of sweeps. Throws Interrupted, only on this rank, once stopRequested() is
+  /// true.
   int solve(const std::vector<double>& friction, const std::vector<unsigned char>& active,
             double tolerance, std::vector<double>& r, std::vector<double>& d,
-            const StopAsked& asked = {}) const;
+            const StopRequested& stopRequested = {}) const;
 
  private:
   double sweep(const std::vector<double>& friction, const std::vector<unsigned char>& active,

@@ -130,7 +130,8 @@ Massless::StepArrays Massless::predict() {
 /// Solves for the contact forces, and sets y, z, ż, R* and C_z z.
 void Massless::solveContact(StepArrays& step) {
   const PetscInt m = model_.rows();
-  sweeps_ = solver_.solve(friction_, active_, tolerance_, state_.force, increments_, stopAsked_);
+  sweeps_ =
+      solver_.solve(friction_, active_, tolerance_, state_.force, increments_, stopRequested_);
   step.z.resize(m), step.rate.resize(m), step.change.resize(m), step.damped.resize(m);
   for (PetscInt i = 0; i < m; ++i) {
     step.jump[i] = increments_[i] - known(i);
@@ -161,8 +162,7 @@ void Massless::update(StepArrays& step) {
     v_[i] += h_ * acceleration[i];
     q_[i] += h_ * v_[i];
   }
-  if (!std::isfinite(state_.kinetic))
-    throw Error("the motion is not finite: reduce the time step");
+  if (!std::isfinite(state_.kinetic)) throw Error("the motion is not finite: reduce the time step");
 }
 
 /// Adds the work of the step, and sets the velocities of the contact.

@@ -24,7 +24,7 @@ class Linearised {
       for (int c = 0; c < model.dimension; ++c) {
         const Node& node = model.nodes[i];
         const PetscInt row = i * model.dimension + c;
-        const bool held = node.pressed() && (c == 0 || (node.sticks() && node.rubs()));
+        const bool held = node.pressed() && (c == 0 || (node.sticks() && node.hasFriction()));
         if (held || !model.moves[row])
           held_.push_back(row);
         else
@@ -112,7 +112,7 @@ class Linearised {
   /// to its virtual work.
   void addFriction(PetscInt i, Complex s, const ComplexMatrix& h, ComplexMatrix& a) const {
     const Node& node = model_.nodes[i];
-    if (!node.pressed() || node.sticks() || !node.rubs()) return;
+    if (!node.pressed() || node.sticks() || !node.hasFriction()) return;
     const PetscInt normal = i * model_.dimension, along = normal + 1, across = normal + 2;
     const PetscInt k = model_.modes();
     const double speed = std::hypot(node.velocity[0], node.velocity[1]);
@@ -169,7 +169,7 @@ double coefficient(const ReducedModel& model, const Node& node, double speed, do
   return sweptChange == 0 ? node.friction : node.friction + node.sweptFriction * sweptChange;
 }
 
-LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& asked) {
+LinearMode nearestMode(const ReducedModel& model, Complex s, const StopRequested& stopRequested) {
   const Linearised linearised(model);
   // A(s) is quadratic in s, so three values define it. They are taken at the magnitude of s to
   // avoid cancellation.
@@ -179,7 +179,7 @@ LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& as
   const PetscInt n = constant.rows();
   std::vector<Complex> right(n, 1), left(n, 1);
   for (int step = 0; step < 30; ++step) {
-    if (asked && asked()) throw Interrupted();
+    if (stopRequested && stopRequested()) throw Interrupted();
     const Complex ratio = s / scale0;
     ComplexMatrix a(n, n), slope(n, n);
     for (std::size_t i = 0; i < a.size(); ++i) {

@@ -38,7 +38,7 @@ struct Node {
   std::array<double, 2> shear{};     ///< steady friction force on the pad along the tangents, N
   std::array<double, 2> velocity{};  ///< steady relative velocity of the pad, m/s; 0: it sticks
   bool pressed() const { return normalForce > 0; }
-  bool rubs() const { return friction > 0 || lawCoefficient > 0; }
+  bool hasFriction() const { return friction > 0 || lawCoefficient > 0; }
   bool sticks() const { return velocity[0] == 0 && velocity[1] == 0; }
 };
 
@@ -78,8 +78,9 @@ struct LinearMode {
 /// method from s. Closed nodes stay closed, and sliding ones obey
 ///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7],
 /// sticking nodes stick, and open nodes are free. Throws Error if the method does not converge.
-/// Throws Interrupted, only on this rank, once asked() is true.
-LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& asked = {});
+/// Throws Interrupted, only on this rank, once stopRequested() is true.
+LinearMode nearestMode(const ReducedModel& model, Complex s,
+                       const StopRequested& stopRequested = {});
 
 /// Not collective. Returns the largest step, s, at which the leapfrog rule is stable with all nodes
 /// held: 2/ω of the highest frequency.

@@ -174,7 +174,8 @@ class Moreau : public Scheme {
 
   /// Solves for the contact forces, and corrects v_{n+1}.
   void solveContact(std::vector<double>& v) {
-    sweeps_ = solver_.solve(friction_, active_, tolerance_, state_.force, increments_, stopAsked_);
+    sweeps_ =
+        solver_.solve(friction_, active_, tolerance_, state_.force, increments_, stopRequested_);
     std::vector<double> change(model_.rows()), correction(order_);
     for (PetscInt i = 0; i < model_.rows(); ++i) change[i] = state_.force[i] - guess_[i];
     addProduct(whole_.jumps, change, correction, h_);

@@ -55,7 +55,7 @@ Onset firstEvent(std::span<const Node> nodes, std::span<const NodeMotion> motion
     if (!node.pressed()) continue;
     if (const double size = std::abs(motion[i].normalForce); size > 0)
       consider(node.normalForce / size, OnsetEvent::opens, i);
-    if (!node.rubs()) continue;
+    if (!node.hasFriction()) continue;
     if (node.sticks()) {
       consider(slides(node, motion[i]), OnsetEvent::slides, i);
     } else if (const double size = std::abs(motion[i].rate[0]); size > 0) {

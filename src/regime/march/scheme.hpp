@@ -37,7 +37,7 @@ class Scheme {
   /// finite. Throws Interrupted, only on this rank, once the function of setStop() returns true.
   virtual void step() = 0;
   /// Sets the function that requests a stop during a step.
-  void setStop(StopAsked asked) { stopAsked_ = std::move(asked); }
+  void setStop(StopRequested stopRequested) { stopRequested_ = std::move(stopRequested); }
   const State& state() const { return state_; }
   const MechanicalWork& work() const { return work_; }
   int sweeps() const { return sweeps_; }  ///< of the last step
@@ -68,7 +68,7 @@ class Scheme {
   std::vector<double> steadyForce_, steadyVelocity_, steadyGap_;  // [row], zero in the other rows
   std::vector<double> increments_;                                // d of the last step
   std::vector<double> stiffness_;  // [node] weight of gaps in a defect, N/m
-  StopAsked stopAsked_;            // empty: never
+  StopRequested stopRequested_;    // empty: never
 };
 
 /// The start of a march: q, z and their rates at one instant, and the accelerations of q (empty:

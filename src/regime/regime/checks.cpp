@@ -14,7 +14,7 @@ namespace squeal::regime {
 
 void checkOptions(const Settings& settings, const pencil::Settings& pencil,
                   const terms::Settings* terms) {
-  if (!settings.followed()) return;
+  if (!settings.enabled()) return;
   checkSteps(settings.march);
   if (!terms)
     throw Error(
@@ -36,18 +36,18 @@ void checkOptions(const Settings& settings, const pencil::Settings& pencil,
 
 void requireSupported(const Settings& settings, const elasticity::Bodies& bodies,
                       const contact::Contact& contact) {
-  const auto refuse = [](const std::string& why) {
+  const auto reject = [](const std::string& why) {
     throw Error("option -regime_friction: " + why);
   };
-  if (contact.interfaces.totalNodes == 0) refuse("there is no contact");
+  if (contact.interfaces.totalNodes == 0) reject("there is no contact");
   if (bodies.gyroscopic || bodies.rotationStiffness || contact.sliding.convected)
-    refuse("the time integration does not support convective terms; remove -motion_convective");
+    reject("the time integration does not support convective terms; remove -motion_convective");
   if (bodies.settings.prestress)
-    refuse(
+    reject(
         "the time integration does not support the geometric stiffness of the steady stress; "
         "remove -elasticity_prestress");
   if (settings.cycles.wanted && !contact.law.constant())
-    refuse(
+    reject(
         "the derivative of a step omits -friction_law, so periodic motions are not computed with "
         "it; remove -regime_cycle");
 }

@@ -91,7 +91,7 @@ DenseMatrix ownJumps(const contact::Contact& contact, const std::vector<Node>& n
   DenseMatrix rows(std::ssize(nodes) * dimension);
   OwnedVec jump = elasticity::nodalVector(*contact.mesh);
   for (PetscInt j = 0; j < u.columns(); ++j) {
-    if (j % blockColumns == 0) stopIfAsked(contact.mesh->comm);
+    if (j % blockColumns == 0) stopIfRequested(contact.mesh->comm);
     check(MatMult(contact.sliding.jump, borrowedVector(contact.mesh->comm, u.column(j)), jump));
     std::vector<double> column(nodes.size() * dimension);
     const ReadArray values(jump);
@@ -128,7 +128,7 @@ Order::Order(MPI_Comm comm, const std::vector<Node>& own) : comm_(comm), ranks_(
 }
 
 DenseMatrix Order::gathered(const DenseView& own, PetscInt perNode) const {
-  // Node by node, so that the part of a rank is in one piece.
+  // Node by node, so the part of a rank is contiguous.
   const PetscInt columns = own.columns(), entries = perNode * columns;
   std::vector<double> packed(own.size());
   for (PetscInt j = 0; j < columns; ++j)

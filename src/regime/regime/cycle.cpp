@@ -40,7 +40,7 @@ std::string describe(const PeriodicMotion& motion) {
 }
 
 /// Returns the bound that the steps of a period violate; empty if there is none.
-std::string stepBroken(const march::ReducedModel& model, double period, int steps) {
+std::string violatedStepBound(const march::ReducedModel& model, double period, int steps) {
   const double longest = march::longestStep(model);
   if (period / steps <= longest) return "";
   return formatted(
@@ -70,9 +70,9 @@ cycles::ShootingResult shootFrom(const cycles::Period& period,
 }
 
 /// Collective. Adds the motions of the branch through the first motion.
-void followBranch(const cycles::Period& period, const cycles::ShootingResult& first,
-                  const CycleSettings& settings, const cycles::Progress& progress, Stage& stage,
-                  Cycles& cycles) {
+void addBranch(const cycles::Period& period, const cycles::ShootingResult& first,
+               const CycleSettings& settings, const cycles::Progress& progress, Stage& stage,
+               Cycles& cycles) {
   const auto& range = *settings.range;
   const cycles::ContinuationLimits limits{range[0], range[1], settings.motions, settings.tolerance};
   const auto inspect = [&](const cycles::ShootingResult& found) {
@@ -80,7 +80,8 @@ void followBranch(const cycles::Period& period, const cycles::ShootingResult& fi
     stage.printLine(describe(cycles.motions.back()));
   };
   for (const bool upwards : {false, true}) {
-    cycles.routes.push_back(cycles::follow(period, first, upwards, limits, progress, inspect));
+    cycles.routes.push_back(
+        cycles::continueBranch(period, first, upwards, limits, progress, inspect));
     const auto& route = cycles.routes.back();
     for (const double fold : route.folds)
       stage.printLine(
@@ -127,12 +128,12 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSe
   const cycles::Period period(comm, model, start.friction, settings.steps);
   auto orbits = cycles::firstOrbits(start.passes, start.step, period.steps());
   for (auto& orbit : orbits) orbit.friction = start.friction;
-  cycles.failure = stepBroken(model, orbits.front().period, settings.steps);
+  cycles.failure = violatedStepBound(model, orbits.front().period, settings.steps);
   if (!cycles.failure.empty()) return cycles;
   const auto progress = [&](const cycles::Iteration& now) {
     stage.progress(formatted("shooting: change over a period %.1e, %d linearisations", now.change,
                              now.derivatives));
-    stopIfAsked(comm);
+    stopIfRequested(comm);
   };
   const cycles::ShootingResult first =
       shootFrom(period, orbits, {settings.tolerance, progress}, cycles.failure);
@@ -150,7 +151,7 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSe
               "ends with a change of %.1e over a period, above the %.1e of -regime_cycle_tolerance",
               first.change, settings.tolerance));
     if (first.converged && settings.range)
-      followBranch(period, first, settings, progress, stage, cycles);
+      addBranch(period, first, settings, progress, stage, cycles);
   } catch (const Error& error) {
     cycles.failure = error.what();
   }

@@ -28,13 +28,13 @@ std::vector<double> withoutDrift(std::span<const double> peaks) {
 
 /// Returns the largest autocorrelation after its first negative value: the fraction of the variance
 /// that repeats later, also for modulations by several frequencies. Throws Interrupted, only on
-/// this rank, once asked() is true.
-double repetition(const std::vector<double>& swing, const StopAsked& asked) {
+/// this rank, once stopRequested() is true.
+double repetition(const std::vector<double>& swing, const StopRequested& stopRequested) {
   const std::size_t count = swing.size();
   double best = 0;
   bool forgotten = false;
   for (std::size_t shift = 1; shift <= count / 3; ++shift) {
-    if (asked && asked()) throw Interrupted();  // a long march has many cycles
+    if (stopRequested && stopRequested()) throw Interrupted();  // a long march has many cycles
     double both = 0, a = 0, b = 0;
     for (std::size_t i = 0; i + shift < count; ++i) {
       both += swing[i] * swing[i + shift];
@@ -168,7 +168,7 @@ std::size_t Recorder::samplesUsed() const {
 }
 
 /// Returns the kind of the regime, and sets the deviation of its peaks and its modulation.
-Kind Recorder::classify(Regime& regime, const StopAsked& asked) const {
+Kind Recorder::classify(Regime& regime, const StopRequested& stopRequested) const {
   const auto peaks = lastPeaks(windowsUsed());
   const auto& windows = recorder_.windows();
   const double level = mean(peaks);
@@ -182,7 +182,7 @@ Kind Recorder::classify(Regime& regime, const StopAsked& asked) const {
   std::vector<double> power;
   sound::addPower(swing, power);
   const double place = peakPlace(power, 1);
-  if (repetition(swing, asked) < 0.5) return Kind::irregular;
+  if (repetition(swing, stopRequested) < 0.5) return Kind::irregular;
   regime.modulation = place / (peaks.size() * period_);
   return Kind::modulated;
 }
@@ -210,14 +210,14 @@ void Recorder::addMeans(Regime& regime) const {
   regime.largestKinetic = *std::ranges::max_element(lastPeaks(used));
 }
 
-Regime Recorder::result(const Scheme& scheme, const StopAsked& asked) const {
+Regime Recorder::result(const Scheme& scheme, const StopRequested& stopRequested) const {
   Regime regime;
   regime.duration = scheme.state().time;
   if (recorder_.windows().empty()) return regime;
   regime.settled = settled();
   regime.spectrum = signals_.spectrum(samplesUsed());
   regime.carrier = signals_.carrier(samplesUsed());
-  regime.kind = classify(regime, asked);
+  regime.kind = classify(regime, stopRequested);
   regime.cyclePeaks = peaks_.values();
   // The linear range ends before a cycle approaches the first event.
   regime.growth = peaks_.growthBelow(0.9 * linearTo_);

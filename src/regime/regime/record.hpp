@@ -82,8 +82,8 @@ class Recorder {
   /// Returns the number of latest windows for the averages: two thirds of the windows since the
   /// last linear one.
   std::size_t windowsUsed() const;
-  /// Throws Interrupted, only on this rank, once asked() is true.
-  Regime result(const Scheme& scheme, const StopAsked& asked = {}) const;
+  /// Throws Interrupted, only on this rank, once stopRequested() is true.
+  Regime result(const Scheme& scheme, const StopRequested& stopRequested = {}) const;
   /// Returns the modal velocities of the spectrum, samples × modes.
   DenseMatrix velocities() const { return signals_.latest(samplesUsed()); }
   double sampleTime() const { return signals_.sampleTime(); }
@@ -93,7 +93,7 @@ class Recorder {
  private:
   std::span<const double> lastPeaks(std::size_t windows) const;
   bool decayed() const;
-  Kind classify(Regime& regime, const StopAsked& asked) const;
+  Kind classify(Regime& regime, const StopRequested& stopRequested) const;
   void addMeans(Regime& regime) const;
   std::size_t nonlinearWindows() const;
   std::size_t samplesUsed() const;

@@ -29,7 +29,7 @@ std::vector<double> orthonormalise(const FullModel& full, MPI_Comm comm, Block& 
     linalg::multiplyAdd(v, along, x, -1);
   };
   for (PetscInt j = 0; j < further.columns(); ++j) {
-    stopIfAsked(comm);
+    stopIfRequested(comm);
     Block column{DenseView(further.columnRange(j, j + 1))};
     const auto length = [&] {
       return std::sqrt(linalg::transposedProduct(comm, column, productOf(mass, column))(0, 0));
@@ -98,7 +98,7 @@ std::vector<unsigned char> movingRows(const std::vector<Node>& nodes,
   std::vector<unsigned char> moves(jumps.rows(), 1);
   for (PetscInt i = 0; i < jumps.rows(); ++i)
     if (i % dimension > 0 &&
-        (!nodes[i / dimension].rubs() || size[i] <= 1e-10 * largest[i % dimension]))
+        (!nodes[i / dimension].hasFriction() || size[i] <= 1e-10 * largest[i % dimension]))
       moves[i] = 0;
   return moves;
 }
@@ -144,7 +144,7 @@ Block constraintModes(const ContactResponses& responses, const std::vector<unsig
 DenseMatrix form(MPI_Comm comm, const Block& x, Mat a, const Block& z, double factor = 1) {
   DenseMatrix result(x.columns());
   for (PetscInt begin = 0; begin < z.columns(); begin += blockColumns) {
-    stopIfAsked(comm);
+    stopIfRequested(comm);
     const PetscInt end = std::min(z.columns(), begin + blockColumns);
     result.append(linalg::transposedProduct(comm, x, productOf(a, z.columnRange(begin, end))));
   }

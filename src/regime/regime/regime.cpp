@@ -97,8 +97,8 @@ UnstableModes unstableModes(const StudiedPoint& point, const ReducedModel& model
         formatted("mode %zu (%.5g Hz)", shape->index + 1, certified.imag() / (2 * M_PI));
     NumberedMode one{shape->index + 1, {}};
     try {
-      workApart(point.comm(), [&](const StopAsked& asked) {
-        one.mode = march::nearestMode(model, certified, asked);
+      workIndependently(point.comm(), [&](const StopRequested& stopRequested) {
+        one.mode = march::nearestMode(model, certified, stopRequested);
       });
     } catch (const Error& error) {
       result.failure =
@@ -227,7 +227,7 @@ void addRuns(const StudiedPoint& point, linalg::Block free, Study& study) {
                      point.settings.sound);
   std::string last;  // the result of the stage
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    stopIfAsked(comm);
+    stopIfRequested(comm);
     study.runs.push_back(runOf(model, tasks[i]));
     Run& run = study.runs.back();
     run.failure = tasks[i].failure;

@@ -55,11 +55,11 @@ const IntegerOption mostOption("regime", "regime_cycle_motions", 20, 1, 10'000,
 }
 
 /// Throws Error for unused options of periodic motions.
-void rejectIdleCycleOptions(bool followed, bool wanted) {
+void rejectIdleCycleOptions(bool enabled, bool wanted) {
   for (const Option* option : std::initializer_list<const Option*>{
            &cycleOption, &stepsOption, &toleranceOption, &rangeOption, &mostOption}) {
     if (!option->given()) continue;
-    if (!followed) rejectIdle(*option);
+    if (!enabled) rejectIdle(*option);
     if (!wanted && option != &cycleOption)
       throw Error("option -" + option->name +
                   ": periodic motions are not computed without -regime_cycle");
@@ -115,9 +115,9 @@ Settings Settings::given() {
   Settings settings{.frictions = frictionOption.get()};
   std::ranges::sort(settings.frictions);
   const bool massless = boundaryOption.get() == "massless", wanted = cycleOption.get();
-  rejectIdleCycleOptions(settings.followed(), wanted);
+  rejectIdleCycleOptions(settings.enabled(), wanted);
   if (wanted) settings.cycles = cyclesGiven(massless);
-  if (!settings.followed()) {
+  if (!settings.enabled()) {
     rejectIdleMarchOptions();
     return settings;
   }

@@ -41,7 +41,7 @@ struct Settings {
   MarchSettings march = {};
   CycleSettings cycles = {};
   sound::Settings sound = {};
-  bool followed() const { return !frictions.empty(); }
+  bool enabled() const { return !frictions.empty(); }
 
   /// Returns the settings that the options give. Throws Error for unused options and for options
   /// that exclude each other.

@@ -36,7 +36,7 @@ Block StaticResponses::all(const std::vector<PetscInt>& order) const {
   for (int c = 0; c < dimension; ++c) {
     const auto& impedance = *impedances_[std::max(0, c - 1)];
     for (std::size_t begin = 0; begin < order.size(); begin += blockColumns) {
-      stopIfAsked(impedance.comm());
+      stopIfRequested(impedance.comm());
       const std::size_t count = std::min<std::size_t>(order.size() - begin, blockColumns);
       appendResponses(impedance, std::span(order).subspan(begin, count), c, result);
     }

@@ -21,7 +21,7 @@ constexpr int fewestSteps = 16;
 double frequencyOf(const Task& task) { return task.mode.s.imag() / (2 * M_PI); }
 
 /// Returns the bound that the number of steps violates; empty if there is none.
-std::string stepsBroken(double step, double time) {
+std::string violatedStepsBound(double step, double time) {
   const double steps = time / step;
   if (steps <= mostSteps) return "";
   const std::string number =
@@ -33,9 +33,9 @@ std::string stepsBroken(double step, double time) {
 }
 
 /// Returns the bound that the step or the time of a task violates; empty if there is none.
-std::string boundBroken(const ReducedModel& model, const MarchSettings& settings, const Task& task,
-                        double stableStep) {
-  if (const auto broken = stepsBroken(task.step, task.time); !broken.empty())
+std::string violatedBound(const ReducedModel& model, const MarchSettings& settings,
+                          const Task& task, double stableStep) {
+  if (const auto broken = violatedStepsBound(task.step, task.time); !broken.empty())
     return broken + (settings.step > 0 || task.step > 0.01 * task.shortestPeriod / 128
                          ? ""
                          : "; the stable step of the reduced model is short; a smaller "
@@ -102,7 +102,7 @@ void setStepAndTime(const ReducedModel& model, const MarchSettings& settings, do
   task.time = settings.time;
   if (task.time == 0)
     task.time = std::min(4000 * period, std::max(400 * period, 10 / task.mode.s.real()));
-  task.failure = boundBroken(model, settings, task, stableStep);
+  task.failure = violatedBound(model, settings, task, stableStep);
 }
 
 /// Returns the march that starts on the sum of the modes of the feasible tasks.
@@ -131,7 +131,7 @@ Task sumOf(const std::vector<Task>& tasks) {
 
 void checkSteps(const MarchSettings& settings) {
   if (!(settings.step > 0) || !(settings.time > 0)) return;
-  if (const auto broken = stepsBroken(settings.step, settings.time); !broken.empty())
+  if (const auto broken = violatedStepsBound(settings.step, settings.time); !broken.empty())
     throw Error("option " + broken);
 }
 

@@ -14,19 +14,20 @@
 namespace squeal::regime {
 namespace {
 
-/// Not collective. Computes one march. Throws Interrupted, only on this rank, once asked() is true.
+/// Not collective. Computes one march. Throws Interrupted, only on this rank, once stopRequested()
+/// is true.
 Trajectory trajectoryOf(const ReducedModel& model, const Settings& settings, const Task& task,
-                        const StopAsked& asked, Stage& stage) {
+                        const StopRequested& stopRequested, Stage& stage) {
   const auto start = march::startOn(task.mode, settings.march.startFactor);
   const auto scheme = settings.march.massless ? march::masslessScheme(model, start, task.step)
                                               : march::moreauScheme(model, start, task.step);
-  scheme->setStop(asked);
+  scheme->setStop(stopRequested);
   Recorder recorder(model, task.mode.s, task.step, largestKinetic(task.mode));
   sound::RecentHistory history(model, settings.sound, 2 * M_PI / task.mode.s.imag(), task.step);
   std::optional<SectionRecord> section;
   if (settings.cycles.wanted) section.emplace(model, task.mode);
   while (scheme->state().time < task.time) {
-    if (asked()) throw Interrupted();
+    if (stopRequested()) throw Interrupted();
     scheme->step();
     recorder.inspect(*scheme);
     history.inspect(*scheme);
@@ -37,7 +38,7 @@ Trajectory trajectoryOf(const ReducedModel& model, const Settings& settings, con
                              1e3 * scheme->state().time, 1e3 * task.time));
     if (settings.march.time == 0 && recorder.settled()) break;
   }
-  Trajectory trajectory{recorder.result(*scheme, asked), {}, {}};
+  Trajectory trajectory{recorder.result(*scheme, stopRequested), {}, {}};
   if (!trajectory.regime.measured()) return trajectory;
   trajectory.trace = {recorder.velocities(), recorder.sampleTime(), history.samples()};
   if (section) trajectory.passes = section->last(recorder.windowsUsed());
@@ -53,12 +54,12 @@ std::vector<Trajectory> trajectories(MPI_Comm comm, const ReducedModel& model,
                                      Stage& stage) {
   const int rank = mpi::rank(comm);
   std::vector<Trajectory> all(tasks.size());
-  workApart(comm, [&](const StopAsked& asked) {
+  workIndependently(comm, [&](const StopRequested& stopRequested) {
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       Task& task = tasks[i];
       if (rankOf(comm, i) != rank || !task.failure.empty()) continue;
       try {
-        all[i] = trajectoryOf(model, settings, task, asked, stage);
+        all[i] = trajectoryOf(model, settings, task, stopRequested, stage);
         if (!all[i].regime.measured())
           task.failure =
               formatted("the march of %g s ended before its first window", all[i].regime.duration);

@@ -39,11 +39,11 @@ void WindowRecorder::inspectNode(std::size_t i, const Scheme& scheme) {
   }
   // The friction force of a sliding node is on the cone, within the accuracy of the forces.
   const bool open = normal == 0,
-             sticks = !open && node.rubs() &&
+             sticks = !open && node.hasFriction() &&
                       std::sqrt(shear) < scheme.friction()[i] * (normal - 1e-5 * meanForce_);
   means.open += open, means.stick += sticks, means.slip += !open && !sticks;
   all.open += open, all.sticking += sticks;
-  if (open == node.pressed() || (!open && node.rubs() && sticks != node.sticks()))
+  if (open == node.pressed() || (!open && node.hasFriction() && sticks != node.sticks()))
     all.linear = false;
   means.pressure += normal;
   means.largestGap = std::max(means.largestGap, node.gap + state.jump[row]);

@@ -85,7 +85,7 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms,
 }
 
 void checkModel(const Model& model, const Settings& settings, const sweep::Sweep& sweep) {
-  if (settings.regime.followed())
+  if (settings.regime.enabled())
     regime::requireSupported(settings.regime, model.bodies, model.contact);
   requireFiniteSweep(model.bodies, model.contact, sweep);
   rejectIdleFactors(model.bodies, model.contact, settings.pencil, sweep);

@@ -35,7 +35,7 @@ void CondensedSweep::solve(StateLog& log) {
   std::vector<steady::Solution>& solutions = states_.solutions;
   if (solutions.size() < points.size()) closed_.solver();
   while (solutions.size() < points.size()) {
-    stopIfAsked(comm_);
+    stopIfRequested(comm_);
     const std::size_t begin = solutions.size(), end = std::min(begin + largestBatch, points.size());
     solveBatch({points.begin() + begin, points.begin() + end});
     if (isExact_) {
@@ -82,7 +82,7 @@ void CondensedSweep::solveAgain(std::size_t point) {
 /// been found, and solves again from the end of the path; if the path ends before, says where and
 /// why.
 void CondensedSweep::continueTo(const steady::Solution& from, steady::Solution& solution) {
-  auto path = condensed::followContact(*condensed_, from, solution.at);
+  auto path = condensed::traceContact(*condensed_, from, solution.at);
   const std::string way = "followed from " + sweep::parameterText(from.at);
   if (!path.obstacle.empty()) {
     solution.existsTo = path.end;
@@ -90,7 +90,7 @@ void CondensedSweep::continueTo(const steady::Solution& from, steady::Solution& 
     return;
   }
   const std::string before = solution.reason;
-  condensed_->beginWith(std::move(path.gaps), std::move(path.sticking));
+  condensed_->startFrom(std::move(path.gaps), std::move(path.sticking));
   solution = condensed_->solve(solution.at);
   if (solution.converged)
     solution.reason += ", " + way + " after " + before;
@@ -184,10 +184,10 @@ std::vector<CondensedSweep::Step> CondensedSweep::stepsToFollow(std::size_t begi
 void CondensedSweep::anticipate(const std::vector<Step>& steps) {
   Stage stage(comm_, "steady");
   const long before = condensed_->solves();
-  std::vector<condensed::ContactWay> ends;
+  std::vector<condensed::ContactInterval> ends;
   for (const Step& step : steps)
     ends.push_back({&states_.solutions[step.from], &states_.solutions[step.to]});
-  condensed::anticipateContact(*condensed_, ends);
+  condensed::precomputeContact(*condensed_, ends);
   if (const long more = condensed_->solves() - before; more > 0)
     stage.finish(formatted("contact between the points: %ld right-hand sides", more));
 }
@@ -196,8 +196,8 @@ void CondensedSweep::anticipate(const std::vector<Step>& steps) {
 /// solutions, the one that the path leads to becomes that of its end.
 void CondensedSweep::followPath(const Step& step) {
   Stage stage(comm_, "steady");
-  auto path = condensed::followContact(*condensed_, states_.solutions[step.from],
-                                       states_.solutions[step.to].at);
+  auto path = condensed::traceContact(*condensed_, states_.solutions[step.from],
+                                      states_.solutions[step.to].at);
   if (!path.obstacle.empty())
     printWarning(comm_, stepText(step) + "followed up to " + endText(path));
   for (auto& event : path.events) {
@@ -218,7 +218,7 @@ void CondensedSweep::takeSolutionOfPath(condensed::ContactPath& path, const Step
   steady::Solution& solution = states_.solutions[step.to];
   const PetscInt others = contact::countDifferent(comm_, path.closed, solution.closed);
   if (others == 0) return;
-  condensed_->beginWith(std::move(path.gaps), std::move(path.sticking));
+  condensed_->startFrom(std::move(path.gaps), std::move(path.sticking));
   auto ahead = condensed_->solve(solution.at);
   if (!ahead.converged || contact::countDifferent(comm_, ahead.closed, path.closed) != 0) return;
   solution = std::move(ahead);

@@ -77,7 +77,7 @@ std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const Settings& set
 Flutter matrixFlutter(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep,
                       const sweep_solver::Request& request, checkpoint::Checkpoint& checkpoint) {
   Flutter found;
-  found.complete = completed([&] { stopIfAsked(comm); });
+  found.complete = completed([&] { stopIfRequested(comm); });
   if (!found.complete) return found;
   auto named = readMatrices(comm, settings, sweep);
   const matrices::SymmetricPart symmetric = symmetricPart(comm, named);

@@ -90,8 +90,8 @@ Flutter solveGroup(const SlidingBrake& brake, MeshSweep& problem,
       sweep_solver::solveSweep(problem, request, checkpoint, "sets_" + std::to_string(before + 1));
   Flutter found{.segments = std::move(solved.segments), .complete = solved.complete};
   for (auto& segment : found.segments)
-    for (auto& followed : segment.followed)
-      for (int& activeSet : followed.activeSet)
+    for (auto& tracked : segment.trackedLines)
+      for (int& activeSet : tracked.activeSet)
         if (activeSet > 0) activeSet += before;
   for (const auto& failure : solved.failures)
     found.addFailure(brake.comm(), groupText(brake, problem.group()) + ": " + failure);
@@ -109,7 +109,7 @@ void followAfterFlutter(const SlidingBrake& brake, const MeshSweep& problem, Cur
     for (const auto& segment : found.segments)
       for (const auto& point : segment.points) {
         if (!isFollowed(brake, point.at)) continue;
-        stopIfAsked(brake.comm());
+        stopIfRequested(brake.comm());
         addRegime(brake, problem, current, segment, point, found);
       }
   });
@@ -138,7 +138,7 @@ Flutter meshFlutter(const SlidingBrake& brake, const sweep_solver::Request& requ
   std::string firstReason;
   for (const PointGroup& group : groupsOf(brake)) {
     const auto solve = [&] {
-      stopIfAsked(brake.comm());
+      stopIfRequested(brake.comm());
       MeshSweep problem(brake, group, current, influences);
       exportPencil(brake, problem);
       Flutter found = solveGroup(brake, problem, request, checkpoint, std::ssize(all.segments));

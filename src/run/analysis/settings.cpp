@@ -45,7 +45,7 @@ void settleFriction(const interfaces::Settings& interfaces, const regime::Settin
                 ": no interface has this coefficient of friction, since each sliding one has a "
                 "-contact_<interface>_friction; leave one of them out");
   };
-  if (regime.followed() && regime.frictions != none) refuse("regime_friction");
+  if (regime.enabled() && regime.frictions != none) refuse("regime_friction");
   if (givenOptions().contains("flutter_friction") && sweep.frictions != none)
     refuse("flutter_friction");
   sweep.frictions = none;

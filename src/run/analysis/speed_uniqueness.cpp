@@ -12,10 +12,10 @@ UniquenessStudy examineUniqueness(const Model& model, const sweep::Sweep& sweep,
   UniquenessStudy study;
   if (!settings.wanted || model.contact.interfaces.totalNodes == 0) return study;
   std::vector<double> speeds = sweep.speeds;
-  if (model.contact.slipIsGiven()) speeds.resize(1);
+  if (model.contact.slipIsConstant()) speeds.resize(1);
   study.complete = completed([&] {
     for (const double speed : speeds) {
-      stopIfAsked(model.mesh->comm);
+      stopIfRequested(model.mesh->comm);
       Stage stage(model.mesh->comm, "steady");
       study.speeds.push_back({speed, uniqueness::examine(model.bodies, model.contact, speed,
                                                          sweep.frictions, settings)});

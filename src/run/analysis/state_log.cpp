@@ -29,7 +29,7 @@ void StateLog::serialise(checkpoint::Archive& archive) {
   std::size_t count = states_.solutions.size();
   archive.common(count, states_.events);
   states_.solutions.resize(count);
-  for (; logged_ < count; ++logged_) steady::exchange(archive, states_.solutions[logged_]);
+  for (; logged_ < count; ++logged_) steady::serialise(archive, states_.solutions[logged_]);
   archive.own(states_.path);  // the whole path, which is short
 }
 

@@ -26,7 +26,7 @@ void fullSweep(const SteadyInput& input, StateLog& log, CurrentSystem& system,
       if (states.solutions[k].converged) active.back() = steady::activeSet(states.solutions[k]);
       continue;
     }
-    stopIfAsked(model.mesh->comm);
+    stopIfRequested(model.mesh->comm);
     const auto& current = system.of(active.back());
     current.solver();
     Stage stage(model.mesh->comm, "steady");
@@ -50,7 +50,7 @@ SteadyStates steadyStates(const SteadyInput& input, checkpoint::Checkpoint& chec
   const MPI_Comm comm = input.model.mesh->comm;
   SteadyStates states;
   states.complete = completed([&] {
-    stopIfAsked(comm);
+    stopIfRequested(comm);
     StateLog log(comm, checkpoint, states);
     if (input.settings.full)
       fullSweep(input, log, system, states);

@@ -41,8 +41,9 @@ hid_t openOrMake(hid_t file, const std::string& object) {
 /// Throws output::WriteError, on rank 0, if the preceding call of the library was not `done`, or if
 /// the driver has recorded an error or refused to open the file.
 void require(bool done, const std::filesystem::path& path) {
-  if (!done && !keptRefusal().empty()) throw output::WriteError(keptRefusal());
-  if (!done || keptError() != 0) throw output::WriteError(output::cannotWrite(path, keptError()));
+  if (!done && !refusalReason().empty()) throw output::WriteError(refusalReason());
+  if (!done || recordedError() != 0)
+    throw output::WriteError(output::cannotWrite(path, recordedError()));
 }
 
 /// Writes a table [row][column] in blocks of rows, on one rank. The constructor and write() throw
@@ -142,7 +143,7 @@ void Hdf5File::onFirst(const Action& action) {
 Hdf5File::Hdf5File(MPI_Comm comm, const std::filesystem::path& path, const std::string& option)
     : comm_(comm), path_(path), head_("option " + option + ": ") {
   onFirst([&] {
-    const hdf5::PropertiesId access(keepingErrorsProperties());
+    const hdf5::PropertiesId access(errorRecordingProperties());
     return (file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)) >= 0;
   });
 }

@@ -133,7 +133,7 @@ H5FD_class_t driver() {
 
 }  // namespace
 
-hid_t keepingErrorsProperties() {
+hid_t errorRecordingProperties() {
   static const H5FD_class_t description = driver();
   static const hid_t registered = H5FDregister(&description);
   const hid_t properties = H5Pcreate(H5P_FILE_ACCESS);
@@ -144,8 +144,8 @@ hid_t keepingErrorsProperties() {
   return properties;
 }
 
-int keptError() { return firstError; }
+int recordedError() { return firstError; }
 
-const std::string& keptRefusal() { return refusal; }
+const std::string& refusalReason() { return refusal; }
 
 }  // namespace squeal::fieldfile

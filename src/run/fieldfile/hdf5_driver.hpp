@@ -12,12 +12,12 @@ namespace squeal::fieldfile {
 ///
 /// After a write that fails HDF5 1.10 cannot close its file, and crashes when the program ends.
 /// This driver (one rank, one file at a time) therefore reports success to the library, discards
-/// all writes after the failure, and stores the reason for keptError().
-hid_t keepingErrorsProperties();
+/// all writes after the failure, and stores the reason for recordedError().
+hid_t errorRecordingProperties();
 /// Not collective. Returns errno of the first failed call on the file since its creation (write,
 /// truncate or close); 0 if there is none.
-int keptError();
+int recordedError();
 /// Not collective. Returns why the file could not be opened; empty if it was.
-const std::string& keptRefusal();
+const std::string& refusalReason();
 
 }  // namespace squeal::fieldfile

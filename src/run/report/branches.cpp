@@ -25,9 +25,9 @@ const char* kindName(tracking::Event::Kind kind) {
 
 /// Calls `action` for each tracked line.
 template <class Action>
-void forAllFollowed(const analysis::Analysis& analysis, const Action& action) {
+void forEachTrackedLine(const analysis::Analysis& analysis, const Action& action) {
   for (const auto& segment : analysis.flutter.segments)
-    for (const auto& followed : segment.followed) action(followed);
+    for (const auto& tracked : segment.trackedLines) action(tracked);
 }
 
 std::string parametersAt(sweep::Parameters at, double friction) {
@@ -39,14 +39,14 @@ std::string parametersAt(sweep::Parameters at, double friction) {
 
 std::vector<std::vector<double>> branchRows(const analysis::Analysis& analysis) {
   std::vector<std::vector<double>> rows;
-  forAllFollowed(analysis, [&](const stability::Followed& followed) {
-    const auto& line = followed.line;
-    for (int branch = 1; branch <= followed.branches.count; ++branch)
-      for (const auto& station : followed.branches.stations)
+  forEachTrackedLine(analysis, [&](const stability::TrackedLine& tracked) {
+    const auto& line = tracked.line;
+    for (int branch = 1; branch <= tracked.branches.count; ++branch)
+      for (const auto& station : tracked.branches.stations)
         for (std::size_t i = 0; i < station.pairs.size(); ++i) {
-          if (station.branch[i] != branch || station.friction < followed.from) continue;
+          if (station.branch[i] != branch || station.friction < tracked.from) continue;
           const auto s = station.pairs[i].s;
-          rows.push_back({double(followed.activeSet[station.piece]), double(branch),
+          rows.push_back({double(tracked.activeSet[station.piece]), double(branch),
                           station.friction, line.speed, line.pressure, line.damping, s.real(),
                           s.imag(), station.overlap[i], double(station.inBand[i]),
                           station.swept ? 1.0 : 0.0});
@@ -70,24 +70,24 @@ std::string branchTable(const analysis::Analysis& analysis) {
 std::string criticalTable(const analysis::Analysis& analysis) {
   std::string table = "active_set,branch,partner,kind,direction," + sweep::parameterColumns() +
                       ",frequency_hz,slope,friction_error_estimate,backward_error,converged\n";
-  forAllFollowed(analysis, [&](const stability::Followed& followed) {
-    for (const auto& c : followed.criticals)
-      table += formatted("%d,%d,%d,%s,%s,", followed.activeSet[c.piece], c.branch, c.partner,
+  forEachTrackedLine(analysis, [&](const stability::TrackedLine& tracked) {
+    for (const auto& c : tracked.criticals)
+      table += formatted("%d,%d,%d,%s,%s,", tracked.activeSet[c.piece], c.branch, c.partner,
                          kindName(c.kind), c.loss ? "loss" : "regain") +
-               parametersAt(followed.line, c.friction) +
+               parametersAt(tracked.line, c.friction) +
                formatted(",%.15e,%.6e,%.1e,%.1e,%d\n", c.angularFrequency / (2 * M_PI), c.slope,
                          c.errorEstimate, c.backwardError, c.converged ? 1 : 0);
   });
   return table;
 }
 
-std::string followedText(const analysis::Analysis& analysis) {
+std::string trackingText(const analysis::Analysis& analysis) {
   constexpr int shown = 8;
   std::string text;
-  forAllFollowed(analysis, [&](const stability::Followed& followed) {
+  forEachTrackedLine(analysis, [&](const stability::TrackedLine& tracked) {
     const auto list = [&](bool converged, const char* head, const auto& item, const char* more) {
       int count = 0;
-      for (const auto& c : followed.criticals)
+      for (const auto& c : tracked.criticals)
         if (c.converged == converged && ++count <= shown)
           text += (count > 1 ? ", " : head) + item(c);
       if (count > shown) text += formatted(more, count - shown);
@@ -110,9 +110,9 @@ std::string followedText(const analysis::Analysis& analysis) {
         ", and %d more in critical.csv");
     text += "\nCompleteness";
     for (const auto& parameter : sweep::allParameters)
-      if (parameter.value != &sweep::Parameters::friction && followed.line.*parameter.value != 1)
-        text += formatted(", %s %g", parameter.name, followed.line.*parameter.value);
-    text += ": " + followed.statement() + ".";
+      if (parameter.value != &sweep::Parameters::friction && tracked.line.*parameter.value != 1)
+        text += formatted(", %s %g", parameter.name, tracked.line.*parameter.value);
+    text += ": " + tracked.statement() + ".";
   });
   return text;
 }

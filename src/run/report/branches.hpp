@@ -20,6 +20,6 @@ std::string branchTable(const analysis::Analysis& analysis);
 std::string criticalTable(const analysis::Analysis& analysis);
 
 /// Returns the terminal text on both: the critical frictions, and the completeness of the count.
-std::string followedText(const analysis::Analysis& analysis);
+std::string trackingText(const analysis::Analysis& analysis);
 
 }  // namespace squeal::report

@@ -24,7 +24,7 @@ std::string recipe(MPI_Comm comm) {
   };
   for (const auto& [name, value] : given) {
     if (ofThisRun(name)) continue;
-    text += optionLine(name, FileOption::isOne(name)
+    text += optionLine(name, FileOption::isDeclared(name)
                                  ? std::filesystem::absolute(value).lexically_normal().string()
                                  : value);
   }

@@ -109,7 +109,7 @@ std::string coverageText(const analysis::Analysis& analysis) {
   std::string text;
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
-      if (point.coveredTo < point.askedTo)
+      if (point.coveredTo < point.directBandTop)
         text +=
             formatted("\n%s: the band is covered only up to %.5g Hz; raise -flutter_direct_limit",
                       sweep::parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
@@ -147,12 +147,12 @@ std::string errorText(const analysis::Analysis& analysis) {
       backward = std::max(backward, point.worstBackwardError());
       estimate = std::max(estimate, point.worstErrorEstimate());
     }
-  const double asked = analysis.settings.pencil.band.top;
-  if (top < asked)
+  const double requested = analysis.settings.pencil.band.top;
+  if (top < requested)
     text += formatted(
         "\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: "
         "raise -modes_count.",
-        asked / (2 * M_PI));
+        requested / (2 * M_PI));
   text +=
       (std::isfinite(top) ? formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI))
                           : "\nAll eigenvalues") +
@@ -182,7 +182,7 @@ std::string stabilityTable(const analysis::Analysis& analysis) {
       table +=
           sweep ? sweepRow(analysis, segment, point, shown) : modeRows(analysis, segment, point);
   return table + coverageText(analysis) + strongDampingText(analysis) + uncertifiedText(analysis) +
-         errorText(analysis) + followedText(analysis);
+         errorText(analysis) + trackingText(analysis);
 }
 
 }  // namespace squeal::report

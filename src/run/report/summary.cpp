@@ -126,21 +126,21 @@ Json unstableModes(const pencil::ComplexModes& point) {
   return list;
 }
 
-Json followedEntry(const stability::Followed& followed) {
-  Json entry = {{"speed", followed.line.speed},       {"pressure", followed.line.pressure},
-                {"damping", followed.line.damping},   {"branches", followed.branches.count},
-                {"complete", followed.complete()},    {"sturm_count_exact", followed.countExact},
-                {"whole_space", followed.wholeSpace}, {"entered", followed.branches.entered},
-                {"left", followed.branches.left},     {"statement", followed.statement()}};
+Json trackedLineEntry(const stability::TrackedLine& tracked) {
+  Json entry = {{"speed", tracked.line.speed},       {"pressure", tracked.line.pressure},
+                {"damping", tracked.line.damping},   {"branches", tracked.branches.count},
+                {"complete", tracked.complete()},    {"sturm_count_exact", tracked.countExact},
+                {"whole_space", tracked.wholeSpace}, {"entered", tracked.branches.entered},
+                {"left", tracked.branches.left},     {"statement", tracked.statement()}};
   entry["uncertain"] = Json::array();
-  for (const auto& gap : followed.branches.gaps)
+  for (const auto& gap : tracked.branches.gaps)
     entry["uncertain"].push_back({{"from_friction", gap.from},
                                   {"to_friction", gap.to},
-                                  {"what", gap.what},
+                                  {"what", gap.reason},
                                   {"identity_only", gap.identityOnly}});
-  entry["active_sets"] = followed.activeSet;  // along the path; 0: not that of a point
+  entry["active_sets"] = tracked.activeSet;  // along the path; 0: not that of a point
   entry["critical_frictions"] = Json::array();
-  for (const auto& critical : followed.criticals) {
+  for (const auto& critical : tracked.criticals) {
     if (critical.converged)
       entry["critical_frictions"].push_back(critical.friction);
     else
@@ -241,8 +241,8 @@ Json activeSetEntry(const sweep_solver::ModalSegment& segment) {
     entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
                             {"eigenvalues_below", segment.modes.inertiaCount},
                             {"confirmed", segment.modes.countConfirmed}};
-  for (const auto& followed : segment.followed)
-    entry["followed"].push_back(followedEntry(followed));
+  for (const auto& tracked : segment.trackedLines)
+    entry["followed"].push_back(trackedLineEntry(tracked));
   return entry;
 }
 

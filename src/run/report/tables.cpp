@@ -136,7 +136,7 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
     writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));
   if (std::any_of(analysis.flutter.segments.begin(), analysis.flutter.segments.end(),
-                  [](const auto& segment) { return !segment.followed.empty(); })) {
+                  [](const auto& segment) { return !segment.trackedLines.empty(); })) {
     writeText(comm, folder / "branches.csv", branchTable(analysis));
     writeText(comm, folder / "critical.csv", criticalTable(analysis));
   }

@@ -55,8 +55,8 @@ UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
 std::optional<double> firstLoss(const analysis::Analysis& analysis) {
   std::optional<double> lowest;
   for (const auto& segment : analysis.flutter.segments)
-    for (const auto& followed : segment.followed)
-      for (const auto& critical : followed.criticals)
+    for (const auto& tracked : segment.trackedLines)
+      for (const auto& critical : tracked.criticals)
         if (critical.loss && critical.converged)
           lowest = std::min(lowest.value_or(INFINITY), critical.friction);
   return lowest;

@@ -36,7 +36,7 @@ OwnedMat unitSlipRows(const contact::Contact& contact,
 constexpr int mostCorrections = 30;
 
 /// The initial active sets are determined with friction balanced to this relative accuracy.
-constexpr double roughly = 1e-4;
+constexpr double roughAccuracy = 1e-4;
 constexpr int mostSteps = 12;
 
 }  // namespace
@@ -56,7 +56,7 @@ struct CondensedProblem::Trial {
   const Problem& held;           // *own, or the problem of all points
   OwnedMat direct;               // the conditions borrow it
   OwnedVec x;                    // in the unknowns of the open contact
-  ContactCase asked;             // with all gaps closed
+  ContactCase contactCase;       // with all gaps closed
   double gapUnit = 0;
   steady::Accuracy accuracy = {};
   ContactVector causes = {};
@@ -64,7 +64,7 @@ struct CondensedProblem::Trial {
   double left = 0;      // natural residual, N
   bool isBest = false;  // a correction would not reduce it
 
-  bool isAccurate() const { return left <= accuracy.asked * accuracy.forceUnit; }
+  bool isAccurate() const { return left <= accuracy.target * accuracy.forceUnit; }
 };
 
 bool CondensedProblem::isExact(const contact::Contact& contact, const elasticity::Bodies& bodies) {
@@ -123,7 +123,7 @@ OwnedMat CondensedProblem::directFriction(const Sticking& sticking) {
   return direct_.share();
 }
 
-std::vector<impedance::ContactSolution> CondensedProblem::onSets(
+std::vector<impedance::ContactSolution> CondensedProblem::solveOnSets(
     const std::vector<ChosenSet>& sets) {
   const auto& nodeOf = impedance_->nodeOf();
   std::vector<ContactCase> cases;
@@ -140,20 +140,20 @@ std::vector<impedance::ContactSolution> CondensedProblem::onSets(
 /// Solves for the gaps of a trial with these given forces, and returns (t, w).
 ContactVector CondensedProblem::complementarity(Trial& trial, const ContactVector& given) {
   if (impedance_->size() == 0) return ContactVector(impedance_->length(), 0.0);
-  ContactCase asked = trial.asked;
-  asked.given = given;
+  ContactCase contactCase = trial.contactCase;
+  contactCase.given = given;
   auto& gaps = trial.start.gaps;
   const auto solve = [&] {
     return solveGaps({.contact = contact_,
                       .solver = *solver_,
-                      .asked = asked,
+                      .contactCase = contactCase,
                       .gapUnit = trial.gapUnit,
                       .forceUnit = trial.accuracy.forceUnit,
-                      .accuracy = trial.accuracy.asked},
+                      .accuracy = trial.accuracy.target},
                      gaps, trial.solution);
   };
-  if (!solve() && trial.start.withPivots && pivotGaps(*solver_, comm(), asked, gaps)) solve();
-  return solver_->withGaps(gaps, asked).causes;
+  if (!solve() && trial.start.withPivots && pivotGaps(*solver_, comm(), contactCase, gaps)) solve();
+  return solver_->withGaps(gaps, contactCase).causes;
 }
 
 /// Sets the initial gaps of the trials by the primal-dual active set method (Hintermüller, Ito and
@@ -167,7 +167,7 @@ std::vector<CondensedProblem::Trial*> CondensedProblem::approach(std::vector<Tri
   for (int step = 0; step < mostSteps && !moving.empty(); ++step) {
     std::vector<ContactCase> cases;
     for (const Trial* trial : moving) {
-      cases.push_back(trial->asked);
+      cases.push_back(trial->contactCase);
       for (std::size_t i = 0; i < n; ++i)
         cases.back().conditions.free[i] = trial->start.gaps[i] > 0;
     }
@@ -212,11 +212,11 @@ CondensedProblem::Trial CondensedProblem::trialOf(Start& start) {
               directFriction(start.sticking),
               loads().unknowns(start.at),
               {conditions(start.at, start.sticking), loads().forces(start.at)}};
-  trial.asked.conditions.direct = trial.direct;
+  trial.contactCase.conditions.direct = trial.direct;
   std::vector<double> friction;
   for (PetscInt i = 0; i < impedance_->nodes(); ++i)
-    friction.push_back(trial.asked.conditions.coefficient[i] * trial.asked.given[i]);
-  trial.asked.frictionUnit = linalg::length(comm(), friction);
+    friction.push_back(trial.contactCase.conditions.coefficient[i] * trial.contactCase.given[i]);
+  trial.contactCase.frictionUnit = linalg::length(comm(), friction);
   trial.solution.at = start.at;
   for (double gap : start.gaps) trial.gapUnit = std::max(trial.gapUnit, gap);
   trial.gapUnit = mpi::max(comm(), trial.gapUnit);
@@ -233,9 +233,10 @@ std::vector<Solution> CondensedProblem::solveFrom(std::vector<Start>& starts) {
   DenseMatrix causes(impedance_->length());
   trials.reserve(starts.size());
   for (Start& start : starts) all.push_back(&trials.emplace_back(trialOf(start)));
-  if (impedance_->size() > 0) approach(approach(all, roughly), impedance::ContactSolver::balanced);
+  if (impedance_->size() > 0)
+    approach(approach(all, roughAccuracy), impedance::ContactSolver::balanced);
   for (Trial& trial : trials) {
-    trial.causes = complementarity(trial, trial.asked.given);
+    trial.causes = complementarity(trial, trial.contactCase.given);
     causes.append(trial.causes);
     x.push_back(trial.x);
   }
@@ -279,7 +280,7 @@ bool CondensedProblem::correct(std::vector<Trial>& trials) {
     check(VecCopy(trial.x, x.back()));
     normal.push_back(open().normalForces(open().forces(at, open().displacement(at, trial.x))));
     for (std::size_t i = 0; i < normal.back().size(); ++i)
-      trial.causes[i] = trial.asked.conditions.coefficient[i] * normal.back()[i];
+      trial.causes[i] = trial.contactCase.conditions.coefficient[i] * normal.back()[i];
     causes.append(trial.causes);
   }
   if (some.empty()) return false;

@@ -35,7 +35,7 @@ struct ChosenSet {
 class CondensedProblem {
  public:
   /// Returns true if the problem is linear at each point except for the contact. Solutions then
-  /// need no corrections except for round-off, and onSets() returns them.
+  /// need no corrections except for round-off, and solveOnSets() returns them.
   static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
   /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and all
   /// sticking nodes held, during the lifetime of the object.
@@ -56,14 +56,14 @@ class CondensedProblem {
   /// Collective. Returns causes and effects with these nodes closed and the others open, regardless
   /// of the signs of forces and gaps, without convective terms. Sets of one call share block
   /// solves.
-  std::vector<impedance::ContactSolution> onSets(const std::vector<ChosenSet>& sets);
+  std::vector<impedance::ContactSolution> solveOnSets(const std::vector<ChosenSet>& sets);
   /// Collective. The same of one set.
   impedance::ContactSolution onSet(const ChosenSet& set) {
-    return std::move(onSets({set}).front());
+    return std::move(solveOnSets({set}).front());
   }
   /// Makes the next solve() start from these gaps, [contact node] coefficient of the gap, m, and
   /// holds.
-  void beginWith(std::vector<double> gaps, Sticking sticking) {
+  void startFrom(std::vector<double> gaps, Sticking sticking) {
     gaps_ = std::move(gaps);
     sticking_ = std::move(sticking);
   }

@@ -63,12 +63,12 @@ struct ExpectedChange {
 
 /// Collective. Returns the changes of all ranks between two solutions in the expected order, from
 /// the states on the set of the first solution at both ends.
-std::vector<ExpectedChange> expectedChanges(MPI_Comm comm, const ContactWay& way,
+std::vector<ExpectedChange> expectedChanges(MPI_Comm comm, const ContactInterval& interval,
                                             const impedance::ContactSolution& begin,
                                             const impedance::ContactSolution& end) {
   const int rank = mpi::rank(comm);
   std::vector<ExpectedChange> own;
-  const auto &before = way.from->closed, &after = way.to->closed;
+  const auto &before = interval.from->closed, &after = interval.to->closed;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i] == after[i]) continue;
     const auto margin = [&](const impedance::ContactSolution& state) {
@@ -96,9 +96,9 @@ struct Place {
   std::size_t node = 0;
 };
 
-class Follower {
+class PathTracer {
  public:
-  Follower(CondensedProblem& problem, const Solution& from, const sweep::Parameters& to)
+  PathTracer(CondensedProblem& problem, const Solution& from, const sweep::Parameters& to)
       : problem_(problem), from_(from.at), to_(to), closed_(from.closed), sticking_(from.sticking) {
     check(MPI_Comm_rank(comm(), &rank_));
     for (const auto& state : from.contact) forceUnit_ = std::max(forceUnit_, state.normalForce);
@@ -106,7 +106,7 @@ class Follower {
     if (forceUnit_ == 0) forceUnit_ = 1;  // no contact forces
   }
 
-  ContactPath follow() {
+  ContactPath trace() {
     ContactPath path;
     path.end = to_;
     double s = 0;
@@ -267,32 +267,32 @@ class Follower {
 
 }  // namespace
 
-void anticipateContact(CondensedProblem& problem, const std::vector<ContactWay>& ways) {
+void precomputeContact(CondensedProblem& problem, const std::vector<ContactInterval>& intervals) {
   const int rank = mpi::rank(problem.comm());
   std::vector<ChosenSet> ends, sets;
-  for (const auto& way : ways)
-    for (const auto* solution : {way.from, way.to})
-      ends.push_back({solution->at, way.from->closed, way.from->sticking});
-  const auto states = problem.onSets(ends);
-  for (std::size_t k = 0; k < ways.size(); ++k) {
+  for (const auto& interval : intervals)
+    for (const auto* solution : {interval.from, interval.to})
+      ends.push_back({solution->at, interval.from->closed, interval.from->sticking});
+  const auto states = problem.solveOnSets(ends);
+  for (std::size_t k = 0; k < intervals.size(); ++k) {
     ChosenSet set = ends[2 * k];
     const auto expected =
-        expectedChanges(problem.comm(), ways[k], states[2 * k], states[2 * k + 1]);
+        expectedChanges(problem.comm(), intervals[k], states[2 * k], states[2 * k + 1]);
     for (const ExpectedChange& change : expected) {
       if (change.rank == rank) set.closed[change.node] = !set.closed[change.node];
       // Compute a set at its start, and at the end to find the node that changes next.
       for (double s : {change.at, 1.0}) {
-        set.at = between(ways[k].from->at, ways[k].to->at, s);
+        set.at = between(intervals[k].from->at, intervals[k].to->at, s);
         sets.push_back(set);
       }
     }
   }
-  problem.onSets(sets);
+  problem.solveOnSets(sets);
 }
 
-ContactPath followContact(CondensedProblem& problem, const Solution& from,
-                          const sweep::Parameters& to) {
-  return Follower(problem, from, to).follow();
+ContactPath traceContact(CondensedProblem& problem, const Solution& from,
+                         const sweep::Parameters& to) {
+  return PathTracer(problem, from, to).trace();
 }
 
 }  // namespace squeal::condensed

@@ -29,14 +29,14 @@ struct ContactPath {
 };
 
 /// Two solutions at the ends of a path of the contact; borrowed.
-struct ContactWay {
+struct ContactInterval {
   const Solution *from, *to;
 };
 
-/// Collective. Precomputes in blocks the states that followContact() will probably need on these
+/// Collective. Precomputes in blocks the states that traceContact() will probably need on these
 /// paths: on the sets between their ends, at the changes and in the order by linear interpolation.
 /// This affects only the run time.
-void anticipateContact(CondensedProblem& problem, const std::vector<ContactWay>& ways);
+void precomputeContact(CondensedProblem& problem, const std::vector<ContactInterval>& intervals);
 
 /// Collective. Follows the steady state from a solution along the line to `to`, which differs in
 /// friction, pressure or speed. On each active set the state is a smooth function of these
@@ -44,7 +44,7 @@ void anticipateContact(CondensedProblem& problem, const std::vector<ContactWay>&
 /// 1e-8 of the line. The path ends if the equations of an active set are singular (a pole of forces
 /// and gaps), or if no active set is consistent after a change. Two zeros of one node within a
 /// single step may be missed.
-ContactPath followContact(CondensedProblem& problem, const Solution& from,
-                          const sweep::Parameters& to);
+ContactPath traceContact(CondensedProblem& problem, const Solution& from,
+                         const sweep::Parameters& to);
 
 }  // namespace squeal::condensed

@@ -20,7 +20,7 @@ namespace {
 /// The context of SNES, of the Jacobian and of its parts.
 struct GapProblem {
   impedance::ContactSolver& solver;
-  ContactCase asked;          // `free` marks the gaps that SNES lets open
+  ContactCase contactCase;    // `free` marks the gaps that SNES lets open
   double gapUnit, forceUnit;  // m, N
   MPI_Comm comm;
   PetscInt first;  // number of the first contact node of this rank
@@ -35,7 +35,7 @@ std::string alternating(const GapProblem& problem, const contact::Contact& conta
   int count = 0;
   std::size_t one = 0;
   for (std::size_t i = 0; i < problem.nodes && !problem.before.empty(); ++i)
-    if (problem.before[i] != problem.asked.conditions.free[i] && count++ == 0) one = i;
+    if (problem.before[i] != problem.contactCase.conditions.free[i] && count++ == 0) one = i;
   struct {
     int count, rank;
   } most{count, rank};
@@ -51,11 +51,11 @@ std::string alternating(const GapProblem& problem, const contact::Contact& conta
 }
 
 /// Sets F(g) in units, with the friction in balance.
-void forces(GapProblem& problem, const ContactCase& asked, Vec gaps, Vec f) {
+void forces(GapProblem& problem, const ContactCase& contactCase, Vec gaps, Vec f) {
   std::vector<double> scaled;
   for (const ReadArray values(gaps); double value : values)
     scaled.push_back(problem.gapUnit * value);
-  const auto found = problem.solver.withGaps(scaled, asked);
+  const auto found = problem.solver.withGaps(scaled, contactCase);
   const WriteArray values(f);
   for (PetscInt i = 0; i < values.size(); ++i)
     values[i] = found.effects[values.size() + i] / problem.forceUnit;
@@ -63,7 +63,7 @@ void forces(GapProblem& problem, const ContactCase& asked, Vec gaps, Vec f) {
 
 /// The case without given forces.
 ContactCase unloaded(const GapProblem& problem) {
-  ContactCase result = problem.asked;
+  ContactCase result = problem.contactCase;
   std::ranges::fill(result.given, 0);
   return result;
 }
@@ -71,7 +71,7 @@ ContactCase unloaded(const GapProblem& problem) {
 PetscErrorCode evaluate(SNES, Vec gaps, Vec f, void* context) {
   auto& problem = *static_cast<GapProblem*>(context);
   PetscFunctionBegin;
-  forces(problem, problem.asked, gaps, f);
+  forces(problem, problem.contactCase, gaps, f);
   PetscFunctionReturn(0);
 }
 
@@ -95,7 +95,7 @@ PetscErrorCode openPart(Mat jacobian, IS rows, IS, MatReuse, Mat* part) {
   PetscCall(MatShellGetContext(jacobian, &problem));
   PetscCall(ISGetLocalSize(rows, &count));
   PetscCall(ISGetIndices(rows, &indices));
-  auto& free = problem->asked.conditions.free;
+  auto& free = problem->contactCase.conditions.free;
   problem->before = free;
   std::fill_n(free.begin(), problem->nodes, 0);
   for (PetscInt i = 0; i < count; ++i) free[indices[i] - problem->first] = 1;
@@ -109,14 +109,14 @@ PetscErrorCode solvePart(PC pc, Vec right, Vec gaps) {
   GapProblem* problem = nullptr;
   PetscFunctionBegin;
   PetscCall(PCShellGetContext(pc, &problem));
-  const auto& open = problem->asked.conditions.free;
-  ContactCase asked = unloaded(*problem);
+  const auto& open = problem->contactCase.conditions.free;
+  ContactCase contactCase = unloaded(*problem);
   {
     const ReadArray values(right);
     for (std::size_t i = 0, k = 0; i < problem->nodes; ++i)
-      if (open[i]) asked.given[problem->nodes + i] = -problem->forceUnit * values[k++];
+      if (open[i]) contactCase.given[problem->nodes + i] = -problem->forceUnit * values[k++];
   }
-  const auto found = problem->solver.solve(asked);
+  const auto found = problem->solver.solve(contactCase);
   const WriteArray values(gaps);
   for (std::size_t i = 0, k = 0; i < problem->nodes; ++i)
     if (open[i]) values[k++] = found.causes[problem->nodes + i] / problem->gapUnit;
@@ -155,13 +155,14 @@ bool solveGaps(const GapTask& task, std::vector<double>& gaps, steady::Solution&
   PetscInt end = 0;
   check(MPI_Scan(&n, &end, 1, MPIU_INT, MPI_SUM, comm));
   GapProblem problem{.solver = task.solver,
-                     .asked = task.asked,
+                     .contactCase = task.contactCase,
                      .gapUnit = task.gapUnit,
                      .forceUnit = task.forceUnit,
                      .comm = comm,
                      .first = end - n,
                      .nodes = gaps.size()};
-  std::fill_n(problem.asked.conditions.free.begin(), n, 1);  // while SNES uses the whole Jacobian
+  std::fill_n(problem.contactCase.conditions.free.begin(), n,
+              1);  // while SNES uses the whole Jacobian
   const OwnedMat jacobian = jacobianOf(problem);
   const OwnedVec x = rightVector(jacobian), low = rightVector(jacobian),
                  high = rightVector(jacobian), f = rightVector(jacobian);

@@ -13,7 +13,7 @@ namespace squeal::condensed {
 struct GapTask {
   const contact::Contact& contact;
   impedance::ContactSolver& solver;
-  const impedance::ContactCase& asked;
+  const impedance::ContactCase& contactCase;
   double gapUnit;    ///< m
   double forceUnit;  ///< N
   double accuracy;   ///< the tolerance of SNES, a fraction of the unit of forces

@@ -38,8 +38,9 @@ struct Line {
 
 class Lemke {
  public:
-  Lemke(impedance::ContactSolver& solver, MPI_Comm comm, const ContactCase& asked, std::size_t n)
-      : solver_(solver), comm_(comm), asked_(asked), open_(n, 0), cover_(n) {
+  Lemke(impedance::ContactSolver& solver, MPI_Comm comm, const ContactCase& contactCase,
+        std::size_t n)
+      : solver_(solver), comm_(comm), asked_(contactCase), open_(n, 0), cover_(n) {
     check(MPI_Comm_rank(comm, &rank_));
     PetscInt own = n, end = 0;
     check(MPI_Scan(&own, &end, 1, MPIU_INT, MPI_SUM, comm));
@@ -194,9 +195,9 @@ class Lemke {
 
 }  // namespace
 
-bool pivotGaps(impedance::ContactSolver& solver, MPI_Comm comm, const ContactCase& asked,
+bool pivotGaps(impedance::ContactSolver& solver, MPI_Comm comm, const ContactCase& contactCase,
                std::vector<double>& gaps) {
-  return Lemke(solver, comm, asked, gaps.size()).solve(gaps);
+  return Lemke(solver, comm, contactCase, gaps.size()).solve(gaps);
 }
 
 }  // namespace squeal::condensed

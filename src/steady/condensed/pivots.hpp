@@ -16,7 +16,7 @@ namespace squeal::condensed {
 /// body. Each pivot opens or closes one node; a node that opens for the first time costs a solve
 /// with the factorisation. Returns true, with the gaps [contact node of this rank], m, if the path
 /// reaches λ = 0; otherwise the gaps do not change.
-bool pivotGaps(impedance::ContactSolver& solver, MPI_Comm comm, const impedance::ContactCase& asked,
-               std::vector<double>& gaps);
+bool pivotGaps(impedance::ContactSolver& solver, MPI_Comm comm,
+               const impedance::ContactCase& contactCase, std::vector<double>& gaps);
 
 }  // namespace squeal::condensed

@@ -28,7 +28,7 @@ constexpr double accepted = 1e-8;
 constexpr double balancedForces = 1e-6;
 /// Directions of the stiffness of the open gaps that are softer than this fraction of the stiffest
 /// one are rigid-body modes.
-constexpr double loose = 1e-12;
+constexpr double rigid = 1e-12;
 /// The largest number of directions per call.
 constexpr PetscInt mostDirections = 500;
 /// The remainder of a direction, a unit vector, must be longer than this after orthogonalisation
@@ -36,7 +36,7 @@ constexpr PetscInt mostDirections = 500;
 /// directions omitted here.
 constexpr double newInSpace = 1e-10, newInBlock = 0.3;
 /// The largest number of bytes for stiffnesses of free unknowns, unless a single one needs more.
-constexpr double keptBytes = 256e6;
+constexpr double mostBytes = 256e6;
 /// The largest number of active sets in memory.
 constexpr std::size_t mostBlocks = 32;
 
@@ -70,7 +70,7 @@ class SymmetricInverse {
     DenseMatrix parts = linalg::transposedProduct(factor_, x);
     for (PetscInt j = 0; j < parts.columns(); ++j)
       for (PetscInt i = 0; i < parts.rows(); ++i)
-        parts(i, j) = values_[i] > loose * values_.back() ? parts(i, j) / values_[i] : 0;
+        parts(i, j) = values_[i] > rigid * values_.back() ? parts(i, j) / values_[i] : 0;
     x = linalg::product(factor_, parts);
   }
 
@@ -111,7 +111,7 @@ struct ContactSolver::FreeBlock {
 
 /// The search for the friction of one case in the space of friction magnitudes.
 struct ContactSolver::Search {
-  const ContactCase& asked;
+  const ContactCase& contactCase;
   std::shared_ptr<FreeBlock> block;
   DenseMatrix wanted;         // t without its own effects, [contact node]
   double unit = 0;            // reference of the unbalanced part, N
@@ -132,7 +132,7 @@ ContactSolver::ContactSolver(const Impedance& impedance)
 ContactSolver::~ContactSolver() = default;
 
 /// Computes the columns of unknowns that have not been free before.
-void ContactSolver::learn(std::span<const unsigned char> free) {
+void ContactSolver::computeColumns(std::span<const unsigned char> free) {
   std::vector<PetscInt> wanted;
   for (std::size_t i = 0; i < free.size(); ++i)
     if (free[i] && place_.count(first_ + i) == 0) wanted.push_back(first_ + i);
@@ -166,7 +166,7 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
     std::rotate(blocks_.begin(), place, place + 1);
     return blocks_.front();
   }
-  learn(free);
+  computeColumns(free);
   std::vector<PetscInt> local, mine;
   for (std::size_t i = 0; i < free.size(); ++i)
     if (free[i]) local.push_back(i), mine.push_back(place_.at(first_ + i));
@@ -188,7 +188,7 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
   double bytes = 0;
   const auto kept =
       std::ranges::find_if(blocks_.begin() + 1, blocks_.end(), [&](const auto& block) {
-        return (bytes += block->bytes()) + blocks_.front()->bytes() > keptBytes;
+        return (bytes += block->bytes()) + blocks_.front()->bytes() > mostBytes;
       });
   blocks_.erase(kept, blocks_.end());
   if (blocks_.size() > mostBlocks) blocks_.resize(mostBlocks);
@@ -272,7 +272,7 @@ void ContactSolver::balance(std::vector<Search>& searches, double accuracy) {
     for (Search& search : searches) {
       if (search.left <= accuracy * search.unit) continue;
       update(*search.block);
-      const auto& coefficient = search.asked.conditions.coefficient;
+      const auto& coefficient = search.contactCase.conditions.coefficient;
       DenseMatrix g = magnitudes_;  // t − c R
       for (PetscInt j = 0; j < g.columns(); ++j)
         for (PetscInt i = 0; i < n; ++i) g(i, j) -= coefficient[i] * search.block->normal(i, j);
@@ -289,7 +289,7 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   const PetscInt n = impedance_.nodes(), length = impedance_.length(),
                  known = search.weights.rows();
   const DenseMatrix t = linalg::product(magnitudes_.columnRange(0, known), search.weights);
-  DenseMatrix effects(length, 1, search.asked.given);
+  DenseMatrix effects(length, 1, search.contactCase.given);
   linalg::multiplyAdd(responses_.columnRange(0, known), search.weights, effects);
   addDirect(*search.block, t, effects);
   const DenseMatrix freed = release(*search.block, effects);
@@ -298,7 +298,8 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   // No reaction balances forces on a rigid-body mode.
   double largest[2] = {0, 0};  // of the forces on free unknowns, and of the given ones
   for (const PetscInt i : local) largest[0] = std::max(largest[0], std::abs(effects(n + i, 0)));
-  for (const double force : search.asked.given) largest[1] = std::max(largest[1], std::abs(force));
+  for (const double force : search.contactCase.given)
+    largest[1] = std::max(largest[1], std::abs(force));
   mpi::reduce<double>(impedance_.comm(), largest, MPI_MAX);
   result.found = std::isfinite(search.left) &&
                  search.left <= std::max(accuracy, accepted) * search.unit &&
@@ -321,7 +322,7 @@ std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> case
   double bytes = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const double more = 8 * orders[i] * orders[i];
-    if (i > begins.back() && bytes + more > keptBytes) begins.push_back(i), bytes = 0;
+    if (i > begins.back() && bytes + more > mostBytes) begins.push_back(i), bytes = 0;
     bytes += more;
   }
   begins.push_back(cases.size());
@@ -334,7 +335,7 @@ std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> c
   std::vector<unsigned char> free(length - n);
   for (const auto& one : cases)
     std::ranges::transform(free, one.conditions.free, free.begin(), std::bit_or<unsigned char>());
-  learn(free);
+  computeColumns(free);
   std::vector<ContactSolution> solutions;
   const auto begins = groups(cases);
   for (std::size_t group = 0; group + 1 < begins.size(); ++group) {
@@ -359,7 +360,7 @@ ContactSolution ContactSolver::withGaps(const std::vector<double>& gaps, Contact
   const PetscInt n = impedance_.nodes();
   std::vector<unsigned char> open(one.conditions.free.size(), 0);
   for (PetscInt i = 0; i < n; ++i) open[i] = gaps[i] != 0;
-  learn(open);
+  computeColumns(open);
   DenseMatrix weights(columns_.columns(), 1), effects(impedance_.length(), 1, one.given);
   for (PetscInt i = 0; i < n; ++i)
     if (open[i]) weights(place_.at(first_ + i), 0) = gaps[i];

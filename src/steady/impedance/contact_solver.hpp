@@ -71,7 +71,7 @@ class ContactSolver {
  private:
   struct FreeBlock;
   struct Search;
-  void learn(std::span<const unsigned char> free);
+  void computeColumns(std::span<const unsigned char> free);
   std::shared_ptr<FreeBlock> blockOf(const ContactConditions& conditions);
   linalg::DenseMatrix release(const FreeBlock& block, linalg::DenseMatrix& effects) const;
   void addDirect(const FreeBlock& block, const linalg::DenseView& t,

@@ -100,16 +100,16 @@ Accuracy accuracyNear(const Problem& problem, const sweep::Parameters& at, Vec x
   // The residual cannot become smaller than round-off, which grows with the displacements and with
   // the number of unknowns.
   const double rounding = problem.rounding(problem.displacement(at, x), problem.load(at));
-  accuracy.asked = std::max(1e-11, 10 * rounding / accuracy.forceUnit);
+  accuracy.target = std::max(1e-11, 10 * rounding / accuracy.forceUnit);
   return accuracy;
 }
 
-OwnedSNES newSnes(MPI_Comm comm, double asked) {
+OwnedSNES newSnes(MPI_Comm comm, double target) {
   OwnedSNES snes;
   check(SNESCreate(comm, snes.out()));
   check(SNESSetOptionsPrefix(snes, solverPrefix.prefix.c_str()));
   check(SNESSetType(snes, SNESVINEWTONRSLS));
-  check(SNESSetTolerances(snes, asked, 1e-14, 0, 30, 1000));
+  check(SNESSetTolerances(snes, target, 1e-14, 0, 30, 1000));
   // Newton's method corrects the error of a linear solve that stagnates; the residual decides.
   check(SNESSetMaxLinearSolveFailures(snes, 1000));
   return snes;
@@ -137,7 +137,7 @@ bool solveSnes(SNES snes, Vec x, Solution& solution) {
 }
 
 void accept(Solution& solution, double left, const Accuracy& accuracy) {
-  const double accepted = std::max(solution.tolerance, 10 * accuracy.asked);
+  const double accepted = std::max(solution.tolerance, 10 * accuracy.target);
   solution.residual = left / accuracy.forceUnit;
   solution.converged = solution.residual <= accepted;
   // The reason of a solver that has converged for its own function would contradict the residual.
@@ -193,7 +193,7 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
   check(VecAssemblyEnd(low));
 
   const auto solve = [&] {
-    const OwnedSNES snes = newSnes(problem.mesh().comm, accuracy.asked);
+    const OwnedSNES snes = newSnes(problem.mesh().comm, accuracy.target);
     const OwnedVec value = rightVector(jacobian);
     check(SNESSetFunction(snes, value, evaluate, &scaled));
     check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));

@@ -13,7 +13,7 @@ using OwnedSNES = Owned<SNES, SNESDestroy>;
 /// The attainable accuracy of a steady state.
 struct Accuracy {
   double forceUnit = 1;  ///< 2-norm of the residual without displacements, N
-  double asked = 0;      ///< η0 [M.16], a fraction of forceUnit
+  double target = 0;     ///< η0 [M.16], a fraction of forceUnit
 };
 /// Collective. Returns the attainable accuracy near the unknowns x.
 Accuracy accuracyNear(const Problem& problem, const sweep::Parameters& at, Vec x);
@@ -23,7 +23,7 @@ double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec 
 
 /// Collective. Returns SNES VI with bounds g ≥ 0 (prefix -steady_), for forces and gaps in units of
 /// about 1. The caller must set its function, Jacobian and KSP before solveSnes().
-OwnedSNES newSnes(MPI_Comm comm, double asked);
+OwnedSNES newSnes(MPI_Comm comm, double target);
 /// Collective. Applies the options and solves from x, which becomes the solution. Sets reason and
 /// tolerance of `solution` and adds to its iterations. Returns true if SNES reports convergence.
 bool solveSnes(SNES snes, Vec x, Solution& solution);

@@ -21,7 +21,7 @@ void fields(Stream& stream, Sticking& sticking) {
   stream(holds, direction, heldAgain);
 }
 
-void exchange(checkpoint::Archive& archive, Solution& solution) {
+void serialise(checkpoint::Archive& archive, Solution& solution) {
   auto& [at, converged, reason, existsTo, tolerance, iterations, residual, displacement, contact,
          slip, closed, sticking, revisions, negligibleForce, openNodes, smallestPressure,
          resultants, imbalance, nodesOfAnother] = solution;

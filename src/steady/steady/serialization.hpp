@@ -7,6 +7,6 @@
 namespace squeal::steady {
 
 /// Collective. Writes or reads a steady state.
-void exchange(checkpoint::Archive& archive, Solution& solution);
+void serialise(checkpoint::Archive& archive, Solution& solution);
 
 }  // namespace squeal::steady

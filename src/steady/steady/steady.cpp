@@ -175,12 +175,12 @@ std::vector<contact::Slip> Problem::slip(double speed, Vec displacement) const {
 }
 
 /// Collective. Returns why a body is under-constrained with these holds; an empty text if none is.
-std::string Problem::whyLoose(const Sticking& sticking) const {
-  const auto loose =
-      contact::looseBody(mesh_, contact_, bodies_.springs, {.released = sticking.free()});
-  return loose ? "body '" + loose->body + "' can move rigidly (" + loose->motion +
-                     ") while nodes of sticking interfaces slide or are open; add another support"
-               : "";
+std::string Problem::whyUnderConstrained(const Sticking& sticking) const {
+  const auto mode =
+      contact::rigidBodyMode(mesh_, contact_, bodies_.springs, {.released = sticking.free()});
+  return mode ? "body '" + mode->body + "' can move rigidly (" + mode->motion +
+                    ") while nodes of sticking interfaces slide or are open; add another support"
+              : "";
 }
 
 void Problem::requireSlip(const sweep::Parameters& at) const {
@@ -189,19 +189,18 @@ void Problem::requireSlip(const sweep::Parameters& at) const {
 
 /// Collective. Rejects a solution whose open contact leaves a body under-constrained: its position
 /// is arbitrary, and no stiffness matrix of this active set is positive definite.
-void Problem::requireHeld(Solution& solution) const {
+void Problem::rejectUnderConstrained(Solution& solution) const {
   if (!solution.converged || solution.openNodes == 0) return;
-  const auto loose =
-      contact::looseBody(mesh_, contact_, bodies_.springs,
-                         {.closed = solution.closed, .released = solution.sticking.free()});
-  if (!loose) return;
+  const auto mode =
+      contact::rigidBodyMode(mesh_, contact_, bodies_.springs,
+                             {.closed = solution.closed, .released = solution.sticking.free()});
+  if (!mode) return;
   solution.converged = false;
   solution.reason = formatted(
       "body '%s' is under-constrained (%s): %" PetscInt_FMT " of %" PetscInt_FMT
       " contact nodes are open, and it has no other support; start the sweep at a friction that "
       "closes them, or support it with -constraint_<group>_clamped or -ground_<group>_stiffness",
-      loose->body.c_str(), loose->motion.c_str(), solution.openNodes,
-      contact_.interfaces.totalNodes);
+      mode->body.c_str(), mode->motion.c_str(), solution.openNodes, contact_.interfaces.totalNodes);
 }
 
 Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const {
@@ -221,7 +220,7 @@ std::optional<Sticking> Problem::nextHolds(Solution& solution) const {
   if (!solution.converged) return {};
   auto next = revised(contact_, solution);
   if (!next) return {};
-  std::string failure = whyLoose(*next);
+  std::string failure = whyUnderConstrained(*next);
   if (failure.empty() && solution.revisions == mostRevisions)
     failure = formatted("the active set of sticking nodes has not settled after %d revisions",
                         mostRevisions);
@@ -254,7 +253,7 @@ void Problem::conclude(Vec x, double left, Solution& solution) const {
         solution.residual, largestDisplacement(solution.at, x));
   }
   recover(x, left, solution);
-  requireHeld(solution);
+  rejectUnderConstrained(solution);
 }
 
 double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {

@@ -135,8 +135,8 @@ class Problem {
 
  private:
   Solution solveFrom(const sweep::Parameters& at, Vec z) const;
-  std::string whyLoose(const Sticking& sticking) const;
-  void requireHeld(Solution& solution) const;
+  std::string whyUnderConstrained(const Sticking& sticking) const;
+  void rejectUnderConstrained(Solution& solution) const;
   std::vector<contact::Slip> slip(double speed, Vec displacement) const;
   OwnedVec displacement(const contact::Transformation& transformation, const sweep::Parameters& at,
                         Vec x) const;

@@ -61,7 +61,7 @@ OpenContact::OpenContact(const contact::Contact& contact, Mat stiffness,
   if (std::count(exponents.begin(), exponents.end(), 0)) columnsOf(0, fixedFriction_);
 
   solver_ = factor::directSolver(stiffness_, solverPrefix);
-  if (auto* factor = factor::mumpsFactor(solver_)) factor->wantInertia();
+  if (auto* factor = factor::mumpsFactor(solver_)) factor->enableInertia();
   factorised_ = factor::factorise(solver_).empty();
   rhs_ = block(2), solution_ = block(2);
   check(MatCreateVecs(gaps_, part_.out(), single_.out()));

@@ -131,10 +131,11 @@ Uniqueness examineMatrixFree(OpenContact& condensed, const std::vector<double>& 
 Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& contact, double speed,
                    const std::vector<double>& frictions, const Settings& settings) {
   if (contact.interfaces.totalNodes == 0) return undecided(frictions, "there is no contact node");
-  if (const auto loose = contact::looseBody(*contact.mesh, contact, bodies.springs, {.any = false}))
+  if (const auto mode =
+          contact::rigidBodyMode(*contact.mesh, contact, bodies.springs, {.any = false}))
     return undecided(
         frictions,
-        "body '" + loose->body +
+        "body '" + mode->body +
             "' is supported only by the contact, so the condensed matrix does not exist");
   OwnedMat stiffness = bodies.stiffness.share();
   if (bodies.rotationStiffness) {

@@ -28,7 +28,7 @@ std::vector<FoundPoint> pointsOf(const analysis::Analysis& analysis) {
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points) {
       FoundPoint found{point.at, point.bandTop, {}};
-      if (point.askedTo > 0) found.top = point.coveredTo;
+      if (point.directBandTop > 0) found.top = point.coveredTo;
       for (const auto& e : point.eigenvalues)
         found.eigenvalues.push_back(
             {e.s, e.errorEstimate(), e.backwardError, e.verdict, e.unstable});
@@ -92,7 +92,7 @@ Outcome outcomeOf(const analysis::Analysis& analysis) {
                                largestDiagonal(analysis.model.bodies.mass, true));
   bool gaps = false, any = false;
   for (const auto& segment : analysis.flutter.segments)
-    for (const auto& followed : segment.followed) {
+    for (const auto& followed : segment.trackedLines) {
       any = true;
       gaps = gaps || !followed.complete();
       for (const auto& critical : followed.criticals) {

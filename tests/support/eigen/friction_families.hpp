@@ -81,7 +81,7 @@ inline std::vector<double> grid(double top, int steps) {
 
 inline void expectNoGaps(const tracking::Branches& branches) {
   for (const auto& gap : branches.gaps)
-    if (!gap.identityOnly) ADD_FAILURE() << gap.from << " to " << gap.to << ": " << gap.what;
+    if (!gap.identityOnly) ADD_FAILURE() << gap.from << " to " << gap.to << ": " << gap.reason;
 }
 
 }  // namespace squeal::test

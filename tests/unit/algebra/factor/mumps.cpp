@@ -70,7 +70,7 @@ TEST(Mumps, SolvesAndCounts) {
     EXPECT_LT(errorOfSolves(first, definite, 0), 1e-11);
     EXPECT_LT(errorOfSolves(first, definite, 0), 1e-11);  // the scatter is made already
     factor::MumpsFactor second(PETSC_COMM_WORLD, "");
-    second.wantInertia();
+    second.enableInertia();
     second.analyse(shifted, &first);
     EXPECT_EQ(second.infog(7), 1) << "the order that is handed over";
     EXPECT_EQ(second.factorise(shifted), "");

@@ -182,9 +182,9 @@ TEST(Numbers, RangesAreOpenOrClosedAsDeclared) {
   }
   test::setOptions("-probe_a_length 0");
   EXPECT_TRUE(contains(errorOf([] { length.get("a"); }), "-probe_a_length"));
-  EXPECT_TRUE(nonNegative.holds(0) && !nonNegative.holds(-1e-300) && !positive.holds(0) &&
-              positive.holds(1e-300));
-  EXPECT_FALSE(nonNegative.holds(std::nan("")));
+  EXPECT_TRUE(nonNegative.contains(0) && !nonNegative.contains(-1e-300) && !positive.contains(0) &&
+              positive.contains(1e-300));
+  EXPECT_FALSE(nonNegative.contains(std::nan("")));
   EXPECT_EQ(nonNegative.text(), "a number >= 0");
 }
 

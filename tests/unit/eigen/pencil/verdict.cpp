@@ -19,7 +19,7 @@ std::vector<Verdict> verdicts(const std::vector<Complex>& values, double estimat
   ComplexModes point;
   point.bandTop = 1000;
   for (const Complex s : values) point.eigenvalues.push_back({s, 0, estimate * std::abs(s), true});
-  judge(point, symmetry, criteria);
+  setVerdicts(point, symmetry, criteria);
   std::vector<Verdict> found;
   for (const auto& e : point.eigenvalues) {
     found.push_back(e.verdict);
@@ -74,7 +74,7 @@ TEST(Verdict, IsNotGivenWithoutAnEstimate) {
   for (const Complex s : {Complex(-1, 500), Complex(4e-4, 500), Complex(6e-4, 500)})
     point.eigenvalues.push_back({s, 0, NAN, true});
   EXPECT_EQ(point.verdict(), uncertified);
-  judge(point, Symmetry::conservative, plain);
+  setVerdicts(point, Symmetry::conservative, plain);
   EXPECT_EQ(point.count(uncertified), 3);
   EXPECT_EQ(point.unstableCount(), 1);
   EXPECT_TRUE(point.eigenvalues[2].unstable);

@@ -32,7 +32,7 @@ TEST(Critical, CoalescenceOfTwo) {
   const double w1 = 600, w2 = 660, w0 = 500, exact = (w2 * w2 - w1 * w1) / (2 * w0 * w0);
   Linear family = modal({w1 * w1, 630 * 630, w2 * w2}, {{0, 2, w0 * w0}});
   for (const int steps : {1, 2, 7}) {
-    const auto branches = follow(family, grid(0.5, steps), {});
+    const auto branches = track(family, grid(0.5, steps), {});
     const auto found = stability::criticalFrictions(family, branches, 1e-9);
     expectNoGaps(branches);
     EXPECT_EQ(branches.count, 3);
@@ -59,7 +59,7 @@ TEST(Critical, HopfOfDampedModes) {
     const double exact =
         std::sqrt(a1 * a2 / a3 - std::pow(a1 / a3, 2) - std::pow(w1 * w2, 2)) / (w0 * w0);
     Linear family = modal({w1 * w1, 630 * 630, w2 * w2}, {{0, 2, w0 * w0}}, {eta1, 10, eta2});
-    const auto branches = follow(family, grid(0.5, 3), {});
+    const auto branches = track(family, grid(0.5, 3), {});
     const auto found = stability::criticalFrictions(family, branches, 1e-9);
     expectNoGaps(branches);
     EXPECT_EQ(branches.count, 3);
@@ -94,7 +94,7 @@ TEST(Critical, GrowthWithinTheRoundOffOfACrossing) {
   modes.base.stiffness(1, 0) = -c;
   for (const double roundOff : {1e-8, 1e-6, 1e-4}) {
     Rounded family(modes, roundOff);
-    const auto branches = follow(family, grid(0.2, 2), {});
+    const auto branches = track(family, grid(0.2, 2), {});
     const auto found = stability::criticalFrictions(family, branches, 1e-9);
     const double error = b * roundOff / (2 * root) / 1e4;
     if (error > root / 1e4) {
@@ -127,13 +127,13 @@ struct Interpolated : Linear {
     return Linear::at((1 - t) * (*below) * (1 + *below * *below) +
                       t * (*above) * (1 + *above * *above));
   }
-  void know(const std::vector<double>& list) override {
+  void addFrictions(const std::vector<double>& list) override {
     frictions.insert(frictions.end(), list.begin(), list.end());
     std::sort(frictions.begin(), frictions.end());
     frictions.erase(std::unique(frictions.begin(), frictions.end()), frictions.end());
   }
   reduction::Improvement improve(const std::vector<tracking::PairsAtFriction>& located) override {
-    for (const auto& item : located) know({item.friction});
+    for (const auto& item : located) addFrictions({item.friction});
     return {true, std::vector<double>(located.size(), 0.0),
             std::vector<double>(located.size(), 0.0)};
   }
@@ -146,7 +146,7 @@ TEST(Critical, RootOfAnInterpolatedFamily) {
   double exact = coupling;
   for (int k = 0; k < 60; ++k) exact = coupling / (1 + exact * exact);
   Interpolated family(modal({w1 * w1, 630 * 630, w2 * w2}, {{0, 2, w0 * w0}}));
-  const auto branches = follow(family, grid(0.5, 1), {});
+  const auto branches = track(family, grid(0.5, 1), {});
   const int before = family.solved;
   const double tolerance = 1e-6;
   const auto found = stability::criticalFrictions(family, branches, tolerance);
@@ -162,7 +162,7 @@ TEST(Critical, RootOfAnInterpolatedFamily) {
 TEST(Critical, MergerWithinOneStep) {
   const double c = 0.02;
   Linear family = crossingModes({100, 110}, {20, 0}, {{0, 1, c}});
-  const auto branches = follow(family, {0, 1}, {});
+  const auto branches = track(family, {0, 1}, {});
   const auto found = stability::criticalFrictions(family, branches, 1e-9);
   expectNoGaps(branches);
   ASSERT_EQ(found.size(), 2u);
@@ -177,7 +177,7 @@ TEST(Critical, VeeringIsNoMerger) {
   Linear family = crossingModes({100, 110}, {20, 0}, {});
   family.base.stiffness(1, 0) = family.base.stiffness(0, 1) = 0.05;
   for (const int steps : {1, 3, 8}) {
-    const auto branches = follow(family, grid(1, steps), {});
+    const auto branches = track(family, grid(1, steps), {});
     expectNoGaps(branches);
     EXPECT_TRUE(branches.events.empty());
   }
@@ -219,7 +219,7 @@ TEST(Critical, RandomFamiliesAgainstAFineGrid) {
       Linear family = randomFamily(m, seed, damped);
       const double top = damped ? 0.8 : 1;  // beyond, a damped pair becomes two real eigenvalues:
                                             // no continuation of one by one
-      const auto branches = follow(family, grid(top, 10), {});
+      const auto branches = track(family, grid(top, 10), {});
       const auto found = stability::criticalFrictions(family, branches, 1e-9);
       print("%s family of %d: %zu stations, %d branches, %zu critical frictions, %zu gaps\n",
             damped ? "damped" : "undamped", m, branches.stations.size(), branches.count,

@@ -48,7 +48,7 @@ struct Cubic : Bent {
 };
 
 std::vector<stability::Critical> solved(tracking::Family& family, const List& frictions) {
-  const auto branches = follow(family, frictions, {});
+  const auto branches = track(family, frictions, {});
   expectNoGaps(branches);
   return stability::criticalFrictions(family, branches, 1e-9);
 }
@@ -151,7 +151,7 @@ TEST(Equal, DefectiveThroughout) {
         slope(0, 1) = c;
         for (const List& damping : {List{}, List{0.1, 0.1}}) {
           Linear family({identity(2), diagonal(damping), diagonal(List{k, k})}, slope);
-          const auto branches = follow(family, grid(1, steps), {});
+          const auto branches = track(family, grid(1, steps), {});
           // With damping, rounding may part them by more than what counts as equal.
           if (damping.empty()) expectNoGaps(branches);
           EXPECT_TRUE(branches.events.empty())
@@ -168,7 +168,7 @@ TEST(Equal, FlatMergerIsFoundOrTold) {
     family.base.stiffness(0, 1) = c;
     family.base.stiffness(1, 0) = -c;
     Cubic flat(family, {}, diagonal(List{100, 0}));
-    const auto branches = follow(flat, {0, 1}, {});
+    const auto branches = track(flat, {0, 1}, {});
     if (branches.gaps.empty()) {
       const auto found = stability::criticalFrictions(flat, branches, 1e-9);
       ASSERT_EQ(found.size(), 2u) << c;

@@ -27,7 +27,7 @@ using test::randomFamily;
 TEST(Track, UncoupledModesKeepTheirIdentity) {
   Linear family = crossingModes({100, 110, 121, 150}, {60, 20, 0, -50}, {});
   for (const int steps : {1, 4, 10}) {
-    const auto branches = follow(family, grid(1, steps), {});
+    const auto branches = track(family, grid(1, steps), {});
     expectNoGaps(branches);
     EXPECT_TRUE(branches.events.empty());
     EXPECT_EQ(branches.count, 4);
@@ -56,7 +56,7 @@ TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
                                     {falls ? -10.0 : 20.0, falls ? 20.0 : -10.0, 0}, {});
       family.base.stiffness(1, 0) = skew;
       family.base.stiffness(0, 1) = -skew;
-      auto branches = follow(family, grid(1, 4), {});
+      auto branches = track(family, grid(1, 4), {});
       renumber(branches);
       EXPECT_EQ(branches.count, 3);
       for (const auto& station : branches.stations)
@@ -78,7 +78,7 @@ TEST(Track, StronglyDampedOnesAreLeftAloneUntilTheyMatter) {
   Linear family = modal({100, 36, 49, 64}, {{1, 1, -40}}, {0.2, 20, 12.6, 14.4});
   pencil::WatchedBand band;
   band.top = 15;
-  const auto branches = follow(family, grid(1, 5), band);
+  const auto branches = track(family, grid(1, 5), band);
   const auto found = stability::criticalFrictions(family, branches, 1e-9);
   expectNoGaps(branches);
   EXPECT_EQ(branches.stations.front().pairs.size(), 1u);  // −2 is farther from zero than 1.5
@@ -96,7 +96,7 @@ TEST(Track, TheEdgeOfTheBand) {
   Linear family = randomFamily(30, 7, false);
   pencil::WatchedBand band;
   band.top = 1540;
-  const auto branches = follow(family, grid(1, 8), band);
+  const auto branches = track(family, grid(1, 8), band);
   expectNoGaps(branches);
   const auto& first = branches.stations.front();
   const auto& last = branches.stations.back();

@@ -278,8 +278,7 @@ TEST(Hdf5, OtherTypesAndKinds) {
          file.dataset("k/data", pair, pairs.data(), {3});
        },
        "dataset 'data': real numbers are expected, but it contains a compound type, such as "
-       "complex numbers "
-       "are"},
+       "complex numbers"},
       {"complex_table",
        [&](const Hdf5File& file) {
          file.dataset("k", pair, pairs.data(), {2, 2});

@@ -189,7 +189,7 @@ TEST(MatrixFiles, TheFormatIsToldByTheContent) {
   EXPECT_TRUE(contains(errorReading("/dev/zero"), "not a regular file"));
   // A name within a file that has none is not passed over.
   EXPECT_TRUE(contains(errorReading(writeFile("single.mtx", size2 + "1\n1 1 1\n"), "k"),
-                       "it contains no 'k'"));
+                       "without named objects such as 'k'"));
 }
 
 TEST(MatrixFiles, NormsThatOverflowAreSaid) {

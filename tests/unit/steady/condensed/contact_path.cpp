@@ -66,7 +66,7 @@ TEST(ContactPath, NodesLiftOneByOne) {
   condensed::CondensedProblem condensedProblem(problem, closed);
   const sweep::Parameters begin{.friction = 0, .speed = 3}, end{.friction = 0.5, .speed = 3};
   const auto first = condensedProblem.solve(begin);
-  const auto path = condensed::followContact(condensedProblem, first, end);
+  const auto path = condensed::traceContact(condensedProblem, first, end);
   EXPECT_EQ(path.obstacle, "");
   EXPECT_EQ(path.count, static_cast<int>(path.events.size()));
   std::vector<bool> open(first.closed.size(), false);
@@ -97,7 +97,7 @@ struct Way {
         closed(analysis.model.bodies, analysis.model.contact,
                contact::ActiveSet::bonded(analysis.model.contact.interfaces.nodes.size())),
         condensedProblem(problem, closed),
-        path(condensed::followContact(condensedProblem, condensedProblem.solve({0}), {friction})) {}
+        path(condensed::traceContact(condensedProblem, condensedProblem.solve({0}), {friction})) {}
   analysis::Analysis analysis;
   steady::Problem problem;
   contact::CoupledSystem closed;

@@ -49,7 +49,7 @@ struct Condensed {
     return slips;
   }
   /// Returns the problem of the gaps at a friction, with the forces of the closed contact.
-  impedance::ContactCase asked(double friction) {
+  impedance::ContactCase contactCase(double friction) {
     condensed::CondensedProblem whole(problem, closed);
     impedance::ContactCase one;
     one.given = whole.onSet({{0}, allClosed(), steady::Sticking::allHeld(model.contact)}).effects;
@@ -69,7 +69,7 @@ void expectTheSolution(const std::string& options, double friction, PetscInt ope
   Condensed condensed(options);
   std::vector<double> gaps(condensed.model.contact.interfaces.nodes.size(), 0.0);
   ASSERT_TRUE(condensed::pivotGaps(condensed.solver, condensed.model.mesh->comm,
-                                   condensed.asked(friction), gaps));
+                                   condensed.contactCase(friction), gaps));
   const auto full = condensed.problem.solve({friction}, condensed.closed);
   ASSERT_TRUE(full.converged) << full.reason;
   EXPECT_EQ(full.openNodes, open);
@@ -98,8 +98,8 @@ TEST(Pivots, PadHeldByTheContactAlone) {
 TEST(Pivots, NoSolutionWhereThePadIsPulledOff) {
   Condensed condensed(floatingPad + " -load_second_y0_part_pressure -8e6");
   std::vector<double> gaps(condensed.model.contact.interfaces.nodes.size(), 0.25);
-  EXPECT_FALSE(
-      condensed::pivotGaps(condensed.solver, condensed.model.mesh->comm, condensed.asked(0), gaps));
+  EXPECT_FALSE(condensed::pivotGaps(condensed.solver, condensed.model.mesh->comm,
+                                    condensed.contactCase(0), gaps));
   for (double gap : gaps) EXPECT_EQ(gap, 0.25);
 }
 

@@ -158,13 +158,13 @@ TEST(Steady, RefusedResidualIsTheReason) {
   steady::Solution solution;
   solution.reason = "CONVERGED_FNORM_ABS";
   solution.tolerance = 1e-11;
-  steady::accept(solution, 3.5e-7, {.forceUnit = 100, .asked = 1e-11});
+  steady::accept(solution, 3.5e-7, {.forceUnit = 100, .target = 1e-11});
   EXPECT_FALSE(solution.converged);
   EXPECT_EQ(solution.reason,
             "the solver of the contact stopped at a relative residual of all equations of 3.5e-09, "
             "above the accepted 1e-10 (CONVERGED_FNORM_ABS)");
   solution.reason = "CONVERGED_FNORM_ABS";
-  steady::accept(solution, 9e-9, {.forceUnit = 100, .asked = 1e-11});
+  steady::accept(solution, 9e-9, {.forceUnit = 100, .target = 1e-11});
   EXPECT_TRUE(solution.converged);
   EXPECT_EQ(solution.reason, "CONVERGED_FNORM_ABS");
 }
