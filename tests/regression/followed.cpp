@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "support/case.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {

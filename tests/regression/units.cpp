@@ -25,14 +25,14 @@ constexpr double asNear = 1e-9;
 
 PetscReal largestDisplacement(const Analysis& run, std::size_t point) {
   PetscReal largest = 0;
-  check(VecNorm(run.steady.at(point).displacement, NORM_INFINITY, &largest));
+  check(VecNorm(run.steady.solutions.at(point).displacement, NORM_INFINITY, &largest));
   return largest;
 }
 
 /// Collective. Checks that a run in mm, t, s is the run in m, kg, s.
 void expectTheSame(const Analysis& metres, const Analysis& millimetres) {
   ASSERT_TRUE(metres.converged() && millimetres.converged());
-  ASSERT_EQ(metres.model.mesh->totalNodes, millimetres.mesh->totalNodes);
+  ASSERT_EQ(metres.model.mesh->totalNodes, millimetres.model.mesh->totalNodes);
   const auto points = metres.sweep.points();
   bool grows = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -46,7 +46,7 @@ void expectTheSame(const Analysis& metres, const Analysis& millimetres) {
   }
   EXPECT_TRUE(grows) << "a case that shows little";
   for (std::size_t i = 0; i < metres.steady.solutions.size(); ++i) {
-    const auto &a = metres.steady.solutions[i], &b = millimetres.steady[i];
+    const auto &a = metres.steady.solutions[i], &b = millimetres.steady.solutions[i];
     const double u = largestDisplacement(metres, i);
     EXPECT_GT(u, 0);
     EXPECT_NEAR(largestDisplacement(millimetres, i), 1e3 * u, 1e3 * u * asNear);

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "exact/damped_layers.hpp"
-#include "support/case.hpp"
-#include "support/spectrum.hpp"
+#include "support/run/case.hpp"
+#include "support/eigen/spectrum.hpp"
 
 namespace squeal::test {
 namespace {

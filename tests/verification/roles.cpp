@@ -28,13 +28,12 @@ const std::string small = "-mesh_set nx=6,ny_disc=3,ny_pad=2 ";
 /// Collective. Returns the largest difference of the forces of contact, relative to the largest.
 double forceDifference(const steady::Solution& a, const steady::Solution& b) {
   double difference = 0, size = 0;
-  for (std::size_t i = 0; i < a.model.contact.size(); ++i) {
-    size = worse(size, std::abs(a.model.contact[i].normalForce));
-    difference =
-        worse(difference, std::abs(a.model.contact[i].normalForce - b.contact[i].normalForce));
+  for (std::size_t i = 0; i < a.contact.size(); ++i) {
+    size = worse(size, std::abs(a.contact[i].normalForce));
+    difference = worse(difference, std::abs(a.contact[i].normalForce - b.contact[i].normalForce));
     for (std::size_t d = 0; d < 3; ++d)
-      difference = worse(difference, std::abs(a.model.contact[i].frictionForce[d] -
-                                              b.contact[i].frictionForce[d]));
+      difference = worse(difference,
+                         std::abs(a.contact[i].frictionForce[d] - b.contact[i].frictionForce[d]));
   }
   return largest(difference) / largest(size);
 }
@@ -43,9 +42,9 @@ double forceDifference(const steady::Solution& a, const steady::Solution& b) {
 /// is the order of additions: eigenvalues of these matrices know some digits less than rounding.
 void expectSame(const analysis::Analysis& a, const analysis::Analysis& b, const std::string& what) {
   ASSERT_TRUE(a.converged() && b.converged()) << what;
-  const double force = forceDifference(a.steady.solutions.back(), b.steady.back());
+  const double force = forceDifference(a.steady.solutions.back(), b.steady.solutions.back());
   const double eigenvalue = worst(errors(eigenvaluesOf(a.flutter.segments.back().points.back()),
-                                         eigenvaluesOf(b.segments.back().points.back()))
+                                         eigenvaluesOf(b.flutter.segments.back().points.back()))
                                       .relative);
   print("%s: forces differ by %.1e, eigenvalues by %.1e\n", what.c_str(), force, eigenvalue);
   EXPECT_LT(force, 1e-10) << what;
@@ -156,17 +155,18 @@ TEST(FixedFriction, StandsBesideASweptOne) {
   const auto reduced = runOptions(sweep),
              full = runOptions(sweep + "-flutter_method direct -flutter_direct_count 30");
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto& point = reduced.segments.at(0).points.at(i);
+    const auto& point = reduced.flutter.segments.at(0).points.at(i);
     EXPECT_EQ(point.uncertifiedCount(), 0);
-    const auto found = eigenvaluesOf(point), all = eigenvaluesOf(full.segments.at(0).points.at(i));
+    const auto found = eigenvaluesOf(point),
+               all = eigenvaluesOf(full.flutter.segments.at(0).points.at(i));
     EXPECT_LT(worst(errors(found, all).relative), 1e-8);  // of the certificate
   }
-  const auto& followed = reduced.segments.at(0).trackedLines.at(0);
+  const auto& followed = reduced.flutter.segments.at(0).trackedLines.at(0);
   EXPECT_FALSE(followed.countExact);
   EXPECT_TRUE(followed.complete()) << followed.statement();
   EXPECT_TRUE(contains(followed.statement(), "not confirmed by a Sturm count"));
   EXPECT_EQ(followed.branches.inBandAt(followed.branches.stations.front()),
-            std::ssize(reduced.segments.at(0).points.at(0).eigenvalues));
+            std::ssize(reduced.flutter.segments.at(0).points.at(0).eigenvalues));
 }
 
 // Exported matrices say which of them are friction, so that modes and eigenvalues are the same.
@@ -179,7 +179,7 @@ TEST(FixedFriction, IsExported) {
   insertFile(PETSC_COMM_WORLD, folder + "/options.txt");
   insert(settingsOfText("-quiet"));
   const auto read = analysis::analyse(PETSC_COMM_WORLD, analysis::Settings::given());
-  const auto &here = written.segments.at(0), &there = read.segments.at(0);
+  const auto &here = written.flutter.segments.at(0), &there = read.flutter.segments.at(0);
   // The tolerance of the modes, squared, and that of the certificate.
   EXPECT_LT(worst(errors(eigenvaluesOf(here.modes), eigenvaluesOf(there.modes)).relative), 1e-9);
   for (std::size_t i = 0; i < 2; ++i)
@@ -293,7 +293,7 @@ TEST(Sticking, ReleasedNodesCarryTheirFriction) {
       EXPECT_NEAR(dot(at(jumps, node.globalNode, dimension), layers.pull()) / slid, 1, 1e-8)
           << layers.mesh;
     const auto smooth = layers.run(direct + "-contact_interface_role frictionless");
-    EXPECT_LT(worst(errors(eigenvaluesOf(smooth.segments.at(0).points.at(0)),
+    EXPECT_LT(worst(errors(eigenvaluesOf(smooth.flutter.segments.at(0).points.at(0)),
                            eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0)))
                         .relative),
               1e-9)
@@ -334,8 +334,8 @@ TEST(Sticking, WholeBlockSlides) {
     // Without springs nothing holds the block once all nodes slide.
     const auto loose = runOptions(options);
     EXPECT_FALSE(loose.converged());
-    EXPECT_TRUE(contains(loose.steady.at(0).reason, "body 'pad' can move rigidly"))
-        << loose.steady.at(0).reason;
+    EXPECT_TRUE(contains(loose.steady.solutions.at(0).reason, "body 'pad' can move rigidly"))
+        << loose.steady.solutions.at(0).reason;
   }
 }
 

@@ -117,7 +117,7 @@ inline void expectDifferences(const Configuration& model, const analysis::Analys
     for (const double sign : {-1.0, 1.0})
       if (!idle) runs.push_back(run(model, name, value + sign * h));
     for (const auto& moved : runs)
-      EXPECT_EQ(moved.segments.at(0).openNodes, segment.openNodes) << name;
+      EXPECT_EQ(moved.flutter.segments.at(0).openNodes, segment.openNodes) << name;
     for (std::size_t i = 0; i < point.shapes.size(); ++i) {
       const Complex s = point.eigenvalues[point.shapes[i].index].s,
                     found = point.sensitivities[i].derivatives.at(p).value;

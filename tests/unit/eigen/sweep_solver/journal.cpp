@@ -131,7 +131,7 @@ TEST(Journal, RestoresFinishedSegments) {
   state.segments[0].solves = 7;
   stability::Critical critical;
   critical.friction = 0.15;
-  state.segments[0].followed.emplace_back().criticals.push_back(critical);
+  state.segments[0].trackedLines.emplace_back().criticals.push_back(critical);
   Checkpoint first = sweep.opened(false);
   Journal(first, "one", sweep.problem, sweep.plan, state).recordFinished();
 
@@ -145,8 +145,8 @@ TEST(Journal, RestoresFinishedSegments) {
   EXPECT_EQ(restored.segments[1].openNodes, 3);
   EXPECT_EQ(restored.segments[1].unknowns, 150);
   EXPECT_EQ(restored.segments[0].solves, 7);
-  ASSERT_EQ(restored.segments[0].followed.size(), 1U);
-  EXPECT_EQ(restored.segments[0].followed[0].criticals.at(0).friction, 0.15);
+  ASSERT_EQ(restored.segments[0].trackedLines.size(), 1U);
+  EXPECT_EQ(restored.segments[0].trackedLines[0].criticals.at(0).friction, 0.15);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ void addCritical(analysis::Analysis& analysis, double friction, bool loss, bool 
   critical.friction = friction;
   critical.loss = loss;
   critical.converged = converged;
-  analysis.flutter.segments.back().followed.emplace_back().criticals.push_back(critical);
+  analysis.flutter.segments.back().trackedLines.emplace_back().criticals.push_back(critical);
 }
 
 TEST(RunVerdict, OfStablePoints) {
@@ -135,7 +135,7 @@ TEST(RunVerdict, OfTwoSweptParameters) {
 
 TEST(RunVerdict, OfAnInterruptedRun) {
   analysis::Analysis run = unstableFrom(0);
-  run.interrupted() = true;
+  run.flutter.complete = false;
   run.flutter.segments[0].points.pop_back();
   EXPECT_EQ(report::runVerdict(run).sentence,
             "The run was stopped before its end: 2 of 3 points are solved, and the lowest friction "
