@@ -6,8 +6,8 @@
 #include <array>
 
 #include "exact/damped_layers.hpp"
-#include "support/run/case.hpp"
 #include "support/eigen/spectrum.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal::test {
 namespace {
