@@ -111,7 +111,7 @@ TEST(Regime, RefusesByName) {
   refused(commandLine(with(coarse, {{"flutter_modal_damping", "0.01"}})), "-flutter_modal_damping");
   refused(commandLine(with(coarse, {{"motion_convective", "on"}})), "convective terms");
   refused(commandLine(with(coarse, {{"friction_law", "exponential"}, {"regime_cycle", "on"}})),
-          "leave out -regime_cycle");
+          "remove -regime_cycle");
   refused("-options_file options/external.yaml -regime_friction 0.9", "matrices from files");
   refused("-options_file options/external.yaml -regime_time 1", "without -regime_friction");
 }
