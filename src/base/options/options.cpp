@@ -186,12 +186,12 @@ std::string manual(const std::string& wanted) {
   const auto& all = stages();
   requireStage(wanted);
   std::string page =
-      "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake "
-      "squeal)\n"
+      "squeal -options_file CASE.yaml [-option value …]: flutter instability of brakes in steady "
+      "sliding (brake squeal)\n"
       "Lengths in m, masses in kg, times in s, unless the case uses another consistent system. <…> "
       "stands for a name.\n"
       "Numbers are zero or have a magnitude between 1e-50 and 1e50. Lists are separated by commas; "
-      "put a list with blanks in quotes.\n";
+      "quote a list that contains blanks.\n";
   const auto options = Option::all();
   const auto solvers = SolverPrefix::all();
   for (const auto& stage : all) {

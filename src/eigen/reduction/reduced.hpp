@@ -27,23 +27,24 @@ namespace squeal::reduction {
 
 /// The result of an improvement of the basis for some eigenpairs.
 struct Improvement {
-  /// True if the basis has grown or near() has become more accurate: the pairs then need a new
-  /// solve.
+  /// True if the basis has grown, or an estimate has become more accurate, so that the pairs must
+  /// be solved for again.
   bool changed = false;
-  /// The largest backward error of the pairs in the full problem, [located]; NaN if there is no
-  /// problem at this friction. Empty if there is no larger problem.
+  /// [located] The largest backward error of its pairs in the full problem; NaN if the problem is
+  /// not defined at this friction. Empty if the reduced problem is the full one.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x with unit vectors x and y of the reduced problem,
   /// [located].
   std::vector<double> roundOff;
 };
 
-/// Rayleigh–Ritz on the free modes and, unless `-flutter_basis modal`, on static responses to
-/// friction forces and to its own residuals. With only the modes it would miss unstable eigenvalues
-/// and report spurious ones. A round adds K0⁻¹ r for the residuals r of all inaccurate pairs, by a
-/// block solve with the real symmetric factorisation of the modes, and gains about a decade. A pair
-/// is certified if its full-order backward error is at most `-flutter_accuracy` and the estimate of
-/// |δs|/|s| at most `-flutter_tolerance`. The whole sweep shares one basis.
+/// The Rayleigh–Ritz method in the space of the free modes and, unless `-flutter_basis modal`, of
+/// static responses to the friction forces and to the residuals of Ritz pairs. With only the modes
+/// it would miss unstable eigenvalues and report spurious ones. Each round adds K0⁻¹ r for the
+/// residuals r of all inaccurate pairs, by one block solve with the real symmetric factorisation of
+/// the modes, and reduces the errors to about a tenth. A pair is certified if its full-order
+/// backward error is at most `-flutter_accuracy` and the estimate of |δs|/|s| at most
+/// `-flutter_tolerance`. The whole sweep shares one basis.
 class ReducedProblem {
  public:
   /// Collective. Borrows the system of the interior unknowns during the lifetime of the object and
@@ -52,21 +53,21 @@ class ReducedProblem {
   ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                  const modes::Modes& modes, const Settings& settings,
                  Substructure substructure = {});
-  /// Collective. Adds the set of points with the boundary unknowns has[boundary unknown of all
-  /// ranks] and returns its number. The terms of the set, which are shared, are those of `pencil`
-  /// that follow the terms of the constructor and hold for all parameters. Throws Error if their
-  /// stiffness is not positive definite.
+  /// Collective. Adds a set of points; has[i] states whether its points have boundary unknown i
+  /// (numbered over all ranks). Returns the index of the set. The set shares the terms of `pencil`
+  /// that come after those passed to the constructor; they hold for all parameters. Throws Error if
+  /// their stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
-  /// Collective. Returns the free modes in the band of a set, corrected like eigenvalues. Their
-  /// vectors have the entries of all unknowns. Only K and M of `pencil` count. The number of modes
-  /// is confirmed if that of the interior is and the bounds of ModeCount agree. From then on, these
-  /// modes set the top of the band at the points of the set, so the list of solve() does not depend
-  /// on the other sets of the basis.
+  /// Collective. Returns the free modes in the band of a set, corrected in the same way as the
+  /// complex modes. Their vectors have the entries of all unknowns. Only K and M of `pencil` are
+  /// used. The number of modes is confirmed if the number for the interior is confirmed and the two
+  /// bounds of ModeCount agree. From then on, these modes set the top of the band at the points of
+  /// the set, so the list of solve() does not depend on the other sets of the basis.
   modes::Modes freeModes(int set, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns their complex modes, [point]: the dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
-  /// responses belong to the first point of the first batch. `trial` (T, N×n) maps shapes to nodal
-  /// displacements.
+  /// responses are computed at the first point of the first batch. `trial` (T, N×n) maps shapes to
+  /// nodal displacements.
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Returns true if the basis only grows, as serialise() requires.
   bool grows() const { return !settings_.compressed; }
@@ -76,10 +77,11 @@ class ReducedProblem {
   /// of solve(). After reading, the next solve() must be of that batch. All sets must have been
   /// added. An archive being written borrows the basis.
   void serialise(checkpoint::Archive& archive);
-  /// Collective. Returns the watched eigenpairs of a point with these parameters and boundary
-  /// unknowns, with both vectors, in coordinates of the basis at the time of its solve. Pairs in
-  /// the band are those of solve(); pairs in the guard zone may be less accurate. Returns none if
-  /// the point has not been solved, or if memory was too short to store the pairs.
+  /// Collective. Returns the watched eigenpairs, with left and right vectors, of the point with
+  /// these parameters and boundary unknowns, in coordinates of the basis at the time when the point
+  /// was solved. Pairs in the band are those of solve(); pairs in the guard zone may be less
+  /// accurate. Returns none if the point has not been solved, or if there was not enough memory to
+  /// store the pairs.
   std::optional<std::vector<linalg::DensePair>> watchedPairs(const sweep::Parameters& at,
                                                              int set) const {
     return solved_.at(at, set);
@@ -96,11 +98,12 @@ class ReducedProblem {
   linalg::DenseProblem projectOwn(const PointProblem& point) const;
   PetscInt basisSize() const { return basis().size(); }
   const Basis& basis() const { return basis_.basis(); }
-  /// Returns the band of all sets; its top is 0 if nothing is corrected, and infinite if V is the
-  /// whole space.
+  /// Returns the band that all sets share; its upper limit is 0 if no pair is corrected, and
+  /// infinite if the basis spans the whole space.
   const pencil::WatchedBand& band() const { return band_; }
-  /// Collective. Adds corrections of the residuals of these pairs, of any points, by a block solve.
-  /// The vectors may belong to an earlier, smaller basis.
+  /// Collective. Adds to the basis, by one block solve, corrections from the residuals of these
+  /// pairs, which may belong to different points. Their vectors may belong to an earlier, smaller
+  /// basis.
   Improvement improve(
       const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 

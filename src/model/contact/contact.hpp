@@ -8,18 +8,18 @@
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
 /// A selection B removes held components and periodic images from z: T = A B.
 ///
-/// On tri6 and quad8 faces, z contains gaps h instead of the gaps g = E h of the nodes, since the
-/// shape functions of h have positive integrals [M.12].
+/// On tri6 and quad8 faces, z contains gap coefficients h instead of the nodal gaps g = E h,
+/// because the shape functions of h have positive integrals [M.12].
 ///
 /// Friction is a product of two matrices with a row per contact node. N gives the normal force from
 /// the nodal forces r, and S gives the slip of u = T x, with the jump [u] = u_P − u_D:
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u].
-/// The test functions put the friction force of R_N on the tangential rows:
+/// The test functions add the friction force due to R_N to the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r,
 /// that is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc. If interfaces have
-/// their own coefficients, S_0 + f S_1 replaces f S: S_0 has the rows of interfaces with a fixed
-/// coefficient, times this coefficient, and S_1 those of the swept ones, times their factors
-/// [M.56].
+/// their own coefficients, S_0 + f S_1 replaces f S. S_0 holds the rows of interfaces with a fixed
+/// coefficient, scaled by it; S_1 holds the rows of interfaces with the swept friction, scaled by
+/// their factors [M.56].
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -44,8 +44,8 @@ struct Slip {
   double slope = 0;                     ///< dφ/d|w|, s/m
   interfaces::Coefficient coefficient;  ///< factor of φ; zero without sliding
 
-  /// Return the coefficient of friction at the swept one, and its derivative with respect to |w|,
-  /// s/m.
+  /// Return the coefficient of friction of the node for the value `swept` of the sweep, and its
+  /// derivative with respect to |w|, s/m.
   double friction(double swept) const { return coefficient.at(swept) * law; }
   double frictionSlope(double swept) const { return coefficient.at(swept) * slope; }
 };
@@ -70,8 +70,8 @@ struct Contact {
   ///   w = −v (V + D u_D)   [2.15]
   /// in the tangent plane. If `displacement` u is null, or without convective terms, w = −v V.
   std::vector<Slip> slip(double speed, Vec displacement) const;
-  /// Collective. Returns the normal components of the nodal forces of contact, E⁻ᵀ R_N, N, from
-  /// R_N, N, both [contact node]. On faces whose E is the identity they are the same.
+  /// Collective. Converts normal forces R_N to the normal components of the nodal contact forces,
+  /// E⁻ᵀ R_N; both in newtons, [contact node]. On faces whose E is the identity they are equal.
   std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
   /// Collective. Returns the same without R_N of the nodes where closed[contact node] is not set.
   std::vector<double> nodalForce(std::vector<double> normalForce, const Mask& closed) const;
@@ -81,16 +81,16 @@ struct Contact {
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
   /// Collective. Returns E⁻¹ v of values v at the nodes, both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
-  /// Returns the powers of the swept friction in the friction of the interfaces: 0 for a fixed
-  /// coefficient, 1 for a swept one. The same on all ranks.
+  /// Returns the exponents with which the swept friction enters the coefficients of the interfaces:
+  /// 0 for a fixed coefficient, 1 for a swept one. The same on all ranks.
   std::vector<int> frictionExponents() const;
   /// Returns true if any interface sticks. The same on all ranks.
   bool hasSticking() const;
   /// Returns true if any interface has friction at `swept`. The same on all ranks.
   bool hasFriction(double swept) const;
-  /// Collective. Returns S_a, N×n, for the power a of the swept friction: E⁻¹ c φ τ·[u] of u = T x,
-  /// with c the part of the coefficient with this power, in the gap rows of the contact nodes with
-  /// slides[i] set; other rows are empty.
+  /// Collective. Returns S_a (N×n) for a = `exponent`. The gap row of each contact node i with
+  /// slides[i] set gives E⁻¹ c φ τ·[u] of u = T x, where c is the part of the coefficient with the
+  /// power a of the swept friction. All other rows are empty.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, int exponent) const;
   /// Collective. Returns S_0 + f S_1 at the swept friction f.

@@ -17,54 +17,56 @@ const std::vector<std::string> roleNames{"sliding", "sticking", "frictionless", 
 const TextOption padOption("contact", "contact_<interface>_pad", "",
                            "surface group of the pad side of an interface");
 const TextOption discOption("contact", "contact_<interface>_disc", "",
-                            "surface group of the disc side; the two may be meshed apart");
+                            "surface group of the disc side; the two meshes need not match");
 const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obstacle_velocity",
                                             "0,0,0", "m/s", anyReal,
-                                            "sliding velocity of a rigid flat obstacle in the "
-                                            "plane of the pad face, instead of a disc");
+                                            "sliding velocity of a rigid flat obstacle that takes "
+                                            "the place of a disc, in the plane of the pad face");
 const RealListOption obstacleDisplacementOption(
     "contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
-    "displacement of the rigid obstacle, which presses the pad");
+    "prescribed displacement that presses the rigid obstacle against the pad");
 const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, "sliding",
-                              "role of an interface; sliding: friction along the velocity; "
-                              "sticking: no motion along the surface; frictionless: no force along "
-                              "it; tied: glued");
+                              "role of an interface; sliding: friction opposes the sliding "
+                              "velocity; sticking: no tangential motion; frictionless: no "
+                              "tangential force; tied: bonded");
 const RealOption factorOption("contact", "contact_<interface>_friction_factor", 1.0, "",
                               nonNegative, "factor on -flutter_friction of a sliding interface");
 const RealOption frictionOption(
     "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
-    "coefficient of friction of a sliding interface, fixed during a sweep, in place of "
-    "-flutter_friction; of a sticking one: the largest coefficient that may hold it");
+    "coefficient of friction of a sliding interface, which a sweep does not change, in place of "
+    "-flutter_friction; on a sticking interface: the limit of R_T/R_N up to which a node sticks");
 const FlagOption releaseOption("contact", "contact_<interface>_release", false,
-                               "release of nodes of a sticking interface that exceed its "
-                               "-contact_<interface>_friction: they slide with it; off: they stay "
-                               "stuck and are reported");
+                               "sliding of the nodes of a sticking interface whose R_T/R_N exceeds "
+                               "-contact_<interface>_friction, with that coefficient; off: they "
+                               "stick and are reported");
 const WordOrRealOption gapOption("contact", "contact_<interface>_gap", 0.0, "m", "measured",
-                                 "gap without load; measured: the distance of the surfaces; "
-                                 "negative: interference");
+                                 "initial gap, without load; measured: the distance between the "
+                                 "surfaces of the mesh; negative: interference fit");
 const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
-                               "side whose nodes have the gaps where the meshes do not match");
+                               "slave side of an interface whose meshes do not match: its nodes "
+                               "carry the gap unknowns");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
-                              "largest distance of touching faces where the meshes do not match; "
-                              "0 = automatic (half the size of a face)");
+                              "largest distance at which faces of meshes that do not match are "
+                              "paired; 0 = automatic (half the size of a face)");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
-    "surface group that follows the master of a tie, preferably the finer one");
+    "slave surface group of a tie, preferably the one with the finer mesh");
 const TextOption tieMasterOption("tie", "tie_<name>_master", "",
-                                 "surface group to which the slave of a tie is glued");
+                                 "master surface group of a tie, to which the slave is bonded");
 const RealOption toleranceOption("tie", "tie_<name>_tolerance", 0.0, "m", nonNegative,
-                                 "largest distance of glued faces; 0 = automatic (half the size "
-                                 "of a face)");
+                                 "largest distance at which faces of a tie are bonded; 0 = "
+                                 "automatic (half the size of a face)");
 const FlagOption adjustOption("tie", "tie_<name>_adjust", true,
-                              "initial move of tied nodes onto the master, so that the two rotate "
-                              "together without strain; off: nodes keep their places");
+                              "strain-free initial shift of tied nodes onto the master, so that "
+                              "the two rotate together without strain; off: no shift");
 const TextOption clampedOption(
     "constraint", "constraint_<group>_clamped", "",
-    "components (some of xyz) of displacement held on the group's nodes");
+    "fixed components (some of xyz) of the displacement of the group's nodes");
 const RealListOption displacementOption("constraint", "constraint_<group>_displacement", "0,0,0",
-                                        "m", anyReal, "values of the clamped components");
+                                        "m", anyReal,
+                                        "prescribed values of the clamped components");
 const TextOption imageOption("constraint", "constraint_<group>_image_of", "",
-                             "group of which this group is the periodic image, its translate");
+                             "group of which this group is the periodic image by translation");
 
 mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
   const std::string group = option.get(name);

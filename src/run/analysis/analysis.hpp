@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The method, from the input to the motion after flutter. Reports take their results from here.
+/// The whole analysis, from the input to the motion after the onset of flutter. Reports take their
+/// results from here.
 #include <filesystem>
 #include <string>
 
@@ -28,8 +29,8 @@ struct Analysis {
 
   /// Returns true if the run has been asked to stop before it had all results.
   bool interrupted() const { return !(steady.complete && uniqueness.complete && flutter.complete); }
-  /// Returns true if every steady point has a solution, as for matrices from files, and no later
-  /// stage has failed.
+  /// Returns true if every steady point has a solution (always so for matrices from files) and no
+  /// later stage has failed.
   bool converged() const;
   /// Returns the complex modes at a point of the sweep, borrowed; null if it has no steady state.
   const pencil::ComplexModes* pointAt(const sweep::Parameters& at) const;
@@ -39,10 +40,10 @@ struct Analysis {
 /// from files. Throws Error as buildModel() and checkModel() do.
 Model checkedModel(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep);
 
-/// Collective. Runs all stages that the settings want and returns their results, as far as they go
-/// if the run is asked to stop. `checkpointFolder` is for the checkpoint; there is none if it is
-/// empty. `reportedModes` is the number of free modes whose shapes are reported. Throws Error as
-/// the stages and the checkpoint document it.
+/// Collective. Runs all stages that the settings request and returns their results; if the run is
+/// asked to stop, those obtained so far. Checkpoints are written to `checkpointFolder`; if it is
+/// empty, none is written. `reportedModes` is the number of free modes whose shapes are reported.
+/// Throws Error under the conditions that the stages and the checkpoint document.
 Analysis analyse(MPI_Comm comm, const Settings& settings,
                  const std::filesystem::path& checkpointFolder = {}, int reportedModes = 10);
 

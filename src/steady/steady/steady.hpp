@@ -17,8 +17,9 @@ namespace squeal::steady {
 
 /// The steady state of one contact node.
 struct ContactState {
-  double gap = 0;          ///< n·[u], m
-  double coefficient = 0;  ///< h of g = E h, m, ≥ 0; the gap itself except on tri6 and quad8
+  double gap = 0;  ///< n·[u], m
+  double coefficient =
+      0;  ///< gap unknown h (g = E h), m, ≥ 0; equal to the gap except on tri6 and quad8
   double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
   double pressure = 0;     ///< R_N over the nodal area, Pa
   Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces the reaction
@@ -28,15 +29,17 @@ struct ContactState {
 struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
-  Point moment{};  ///< of both about the origin, on the pad, N·m (in the plane along z)
+  Point moment{};  ///< of both forces on the pad about the origin, N·m (in plane problems: along z)
   /// Largest |R_T| / R_N of the closed, held nodes of a sticking interface: the least coefficient
   /// of friction that makes them stick; zero on other interfaces.
   double leastFriction = 0;
-  Point worst{};                        ///< position of the node with this ratio, m
-  std::optional<double> stickingLimit;  ///< its coefficient of friction, if it sticks
-  PetscInt overLimit = 0;               ///< held nodes above the limit of the interface
-  PetscInt released = 0;                ///< closed nodes of a sticking interface that slide
-  PetscInt unheld = 0;                  ///< closed nodes of a sticking interface that are free
+  Point worst{};  ///< position of the node with this ratio, m
+  std::optional<double>
+      stickingLimit;       ///< coefficient of friction of a sticking interface, if given
+  PetscInt overLimit = 0;  ///< held nodes above the limit of the interface
+  PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
+  PetscInt unheld = 0;  ///< closed nodes of a sticking interface that neither stick nor slide: free
+                        ///< along the surface
   /// Magnitude of the sum of the moments on both sides, N·m; not zero if coupled surfaces are
   /// apart.
   double momentDefect = 0;
@@ -47,7 +50,8 @@ struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< SNES converged reason, or why there is no solution
-  /// Without a solution: the last point with one, on the path from a solved neighbour.
+  /// If there is no solution: the last point for which one was found on the path from a solved
+  /// neighbour.
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< requested of SNES, relative
   int iterations = 0;    ///< Newton steps of SNES; 0 if it is not called
@@ -55,18 +59,18 @@ struct Solution {
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
   std::vector<ContactState> contact;  ///< [owned contact node]
-  std::vector<contact::Slip> slip;    ///< [owned contact node] sliding of sliding interfaces
+  std::vector<contact::Slip> slip;    ///< [owned contact node] slip of sliding interfaces
   contact::Mask closed;               ///< [owned contact node] active: closed and pressed
-  Sticking sticking;                  ///< holds of the nodes of sticking interfaces
+  Sticking sticking;                  ///< stick state of the nodes of sticking interfaces
   int revisions = 0;                  ///< number of revisions of `sticking` for this state
-  double negligibleForce = 0;         ///< bound of contact forces that are round-off, N
+  double negligibleForce = 0;         ///< contact forces below this are round-off, N
   PetscInt openNodes = 0;             ///< contact nodes that are not active, over all ranks
   double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
   double imbalance = 0;  ///< worst |contact + supports + load| of a connected part over the sum of
                          ///< the magnitudes of all nodal forces
-  /// Number of contact nodes, over all ranks, by which another solution at these parameters
-  /// differs; 0: no other one is known.
+  /// If another solution at the same parameters is known: the number of contact nodes, over all
+  /// ranks, whose state differs; otherwise 0.
   PetscInt nodesOfAnother = 0;
 };
 
@@ -77,9 +81,10 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
-/// Under approximation A it is linear except for the inequalities. With convective terms the slip
-/// rows S follow w = −v (V + D u_D). Free nodes of sticking interfaces have tangential unknowns,
-/// and S contains released ones with their limit as coefficient.
+/// Without convective terms (approximation A) the problem is linear except for the inequalities.
+/// With them, S depends on u through w = −v (V + D u_D). Free nodes of sticking interfaces have
+/// tangential unknowns; released nodes also have a row in S, with the limit of friction of the
+/// interface as coefficient.
 class Problem {
  public:
   /// Collective. Borrows mesh, bodies and contact during the lifetime of the object.
@@ -88,10 +93,11 @@ class Problem {
   /// Collective. The same with free or released nodes of sticking interfaces.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
           Sticking sticking);
-  /// Collective. Solves by SNES VI (-steady_snes_*), starting from the solution with the active set
-  /// of `system` held closed, by its factorisation. Sticking nodes are held at first and then
-  /// revised() until nothing changes. `converged` and `reason` report whether there is a solution.
-  /// Throws Error if |w| = 0 at a node with friction.
+  /// Collective. Solves with SNES VI (-steady_snes_*). The initial guess is the solution with the
+  /// active set of `system` closed, computed with the factorisation of `system`. Nodes of sticking
+  /// interfaces stick at first; nextHolds() then updates their state until it no longer changes.
+  /// `converged` and `reason` report whether there is a solution. Throws Error if |w| = 0 at a node
+  /// with friction.
   Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
   /// Collective. Sets f = F(x), n entries.
@@ -107,11 +113,11 @@ class Problem {
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
   /// Collective. Throws Error if f > 0 and |w| = 0 at a node with friction.
   void requireSlip(const sweep::Parameters& at) const;
-  /// Collective. Returns the revised holds of the sticking nodes; none if the solution has settled.
-  /// A solution whose holds cannot be revised is marked as not converged.
+  /// Collective. Returns the updated stick state of the nodes, or none if it has not changed. If an
+  /// update is needed but impossible, the solution is marked as not converged.
   std::optional<Sticking> nextHolds(Solution& solution) const;
-  /// Collective. Sets the other members of a solution from the unknowns x, whose natural residual
-  /// has the 2-norm `left`, N.
+  /// Collective. Sets the remaining members of a solution from the unknowns x. `left` is the 2-norm
+  /// of the natural residual at x, N.
   void conclude(Vec x, double left, Solution& solution) const;
   /// Collective. Returns b with the pressures and the centrifugal forces of this point, N entries,
   /// N.
@@ -127,7 +133,8 @@ class Problem {
 
   const mesh::Mesh& mesh() const { return mesh_; }
   const contact::Contact& contact() const { return contact_; }
-  /// Returns T with all gaps unknown, and the tangents of free sticking nodes.
+  /// Returns T with all gaps as unknowns, and the tangential displacements of the free nodes of
+  /// sticking interfaces.
   const contact::Transformation& transformation() const { return transformation_; }
   const elasticity::Bodies& bodies() const { return bodies_; }
   /// Collective on the first call. Returns the projections of K by this transformation.
