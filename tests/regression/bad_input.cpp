@@ -382,7 +382,7 @@ TEST(BadInput, ContactOfMeshesThatDoNotMatch) {
        {"-constraint_disc_face_clamped holds component y", "not tangential"}},
       {"claimed_twice",
        with(close, {{"contact_other_pad", "pad_face"}, {"contact_other_disc", "disc_face"}}),
-       {"'face'", "'other'", "both contain the node at (", "a node has one gap"}},
+       {"'face'", "'other'", "both contain the node at (", "a node has only one gap"}},
       {"with_itself",
        with(close, {{"contact_face_disc", "pad_face"}}),
        {"-contact_face_pad pad_face", "pad and disc are the same surface"}},

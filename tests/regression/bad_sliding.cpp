@@ -74,7 +74,7 @@ TEST(BadSliding, FactorOfNothing) {
        {"-flutter_damping", "-1", "a number >= 0"}},
       {"pressure_of_nothing",
        with(unpressed, {{"flutter_pressure", "2"}}),
-       {"-flutter_pressure", "nothing does", "-load_<group>"}},
+       {"-flutter_pressure", "there are none", "-load_<group>"}},
       {"pressure_zero",
        with(layer, {{"flutter_pressure", "0,1"}}),
        {"-flutter_pressure", "0", "a number > 0"}},
