@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Runs work that may crash or exhaust the memory in a child process: a function, in a copy of this
-/// process, or a program of its own.
+/// Runs, in a child process, work that may crash or exhaust the memory. The work is either a
+/// function, which runs in a copy of this process, or a separate program.
 ///
-/// A program has a clean process: none of the libraries, memory, files and signal handlers of an
-/// MPI process. Only the program loads the libraries of the work, so this one starts faster. It
-/// costs the start of the program.
+/// A separate program has a clean process: none of the libraries, memory, files and signal handlers
+/// of an MPI process. Only that program loads the libraries that the work needs, so the calling
+/// program starts faster. The price is the time to start the separate program.
 #include <functional>
 #include <string>
 #include <vector>

@@ -22,8 +22,8 @@ struct Request {
 /// Collective. Returns for each range of points its modes, the eigenvalues at all its steady points
 /// with all dampings, and the eigenvalues tracked over the friction. It restores and continues the
 /// checkpoint logs whose names begin with `name`. If a point or a stage fails, the others are still
-/// computed, and the result contains the reason. Takes the terms of the problem's ranges. Throws
-/// Error if no point is solved.
+/// computed, and the result contains the reason. Moves the terms out of the ranges of the problem.
+/// Throws Error if no point is solved.
 SolvedSweep solveSweep(SweepProblem& problem, const Request& request,
                        checkpoint::Checkpoint& checkpoint, const std::string& name);
 

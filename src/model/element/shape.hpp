@@ -17,7 +17,7 @@ struct ShapeTable {
   std::span<const double> point;           ///< [point][3] reference coordinates
   std::span<const double> value;           ///< [point][node]
   std::span<const double> gradient;        ///< [point][node][3] by the reference coordinates
-  std::span<const double> nodeGradient;    ///< [node as a point][node][3]
+  std::span<const double> nodeGradient;    ///< [node of evaluation][node][3]
   std::span<const double> cornerValue;     ///< [node][corner] linear shape functions of the corners
   std::span<const double> centreGradient;  ///< [node][3] at the centre of a line, quadrilateral or
                                            ///< hexahedron
@@ -29,10 +29,10 @@ struct ShapeTable {
 /// edges, and points.
 bool isKnown(int gmshType);
 /// Returns the table of a gmsh element type, which must be known. Its rule integrates polynomials
-/// of the degree 2·order + 1 exactly. The shape functions of pyramids are rational, with the limit
-/// 0 or 1 at the apex; those of (Bergot, Cohen and Duruflé 2010) are polynomials in the coordinates
-/// of the cube that collapses to the pyramid, in which its rule is a product of Gauss rules and as
-/// exact for them.
+/// of the degree 2·order + 1 exactly. The shape functions of pyramids are rational and tend to 0 or
+/// 1 at the apex. In the coordinates of the cube that collapses to the pyramid they are polynomials
+/// (Bergot, Cohen and Duruflé 2010). The rule of a pyramid is a product of Gauss rules in these
+/// coordinates, with the same exactness for polynomials in them.
 const ShapeTable& shapeTable(int gmshType);
 /// Returns the table with the smallest rule that the stiffness needs. tri6 has three and tet10 four
 /// points, which is exact where the cell is straight; degree 2 keeps the order of convergence

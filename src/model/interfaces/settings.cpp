@@ -20,8 +20,8 @@ const TextOption discOption("contact", "contact_<interface>_disc", "",
                             "surface group of the disc side; the two meshes need not match");
 const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obstacle_velocity",
                                             "0,0,0", "m/s", anyReal,
-                                            "sliding velocity of a rigid flat obstacle that takes "
-                                            "the place of a disc, in the plane of the pad face");
+                                            "sliding velocity, in the plane of the pad face, of a "
+                                            "rigid flat obstacle that replaces the disc");
 const RealListOption obstacleDisplacementOption(
     "contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
     "prescribed displacement that presses the rigid obstacle against the pad");
@@ -33,12 +33,13 @@ const RealOption factorOption("contact", "contact_<interface>_friction_factor", 
                               nonNegative, "factor on -flutter_friction of a sliding interface");
 const RealOption frictionOption(
     "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
-    "coefficient of friction of a sliding interface, which a sweep does not change, in place of "
-    "-flutter_friction; on a sticking interface: the limit of R_T/R_N up to which a node sticks");
+    "fixed coefficient of friction of a sliding interface, used instead of -flutter_friction if "
+    "given; sticking interface: largest ratio of tangential to normal force at which a node "
+    "sticks");
 const FlagOption releaseOption("contact", "contact_<interface>_release", false,
-                               "sliding of the nodes of a sticking interface whose R_T/R_N exceeds "
-                               "-contact_<interface>_friction, with that coefficient; off: they "
-                               "stick and are reported");
+                               "on: nodes of a sticking interface beyond "
+                               "-contact_<interface>_friction slide, with that coefficient of "
+                               "friction; off: they stick and are reported");
 const WordOrRealOption gapOption("contact", "contact_<interface>_gap", 0.0, "m", "measured",
                                  "initial gap, without load; measured: the distance between the "
                                  "surfaces of the mesh; negative: interference fit");

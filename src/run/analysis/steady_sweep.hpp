@@ -14,9 +14,10 @@ namespace squeal::analysis {
 
 /// The steady states of a sweep.
 struct SteadyStates {
-  /// [steady point of the sweep], or the first of them if incomplete
+  /// [steady point of the sweep]; if not `complete`, only the leading points that were reached
   std::vector<steady::Solution> solutions;
-  /// The contact nodes of this rank that open or close between the points, in their order.
+  /// The openings and closings of contact nodes of this rank between the points, in the order in
+  /// which they occur.
   std::vector<condensed::ContactEvent> path;
   int events = 0;        ///< number of such events on all ranks
   bool complete = true;  ///< false if the run has been asked to stop

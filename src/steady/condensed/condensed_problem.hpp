@@ -27,15 +27,16 @@ struct ChosenSet {
 
 /// The complementarity problem in the gaps only,
 ///   0 ≤ g ⟂ F(g) ≥ 0,
-/// where F(g) are the forces at the gaps with balanced friction f R. One factorisation of the
-/// closed contact serves all frictions, pressures and sets of open nodes. Points that are solved
-/// together share the computed responses of the contact and use block solves, which take a fraction
-/// of the time of single solves. Corrections by the residual of all equations, a modified Newton
-/// method, add the forces and slip of convective terms.
+/// where F(g) are the normal contact forces R at given gaps, in equilibrium with the friction f R
+/// that they cause. One factorisation of the closed contact serves all frictions, pressures and
+/// sets of open nodes. Points that are solved together share the computed responses of the contact
+/// and use block solves, which take a fraction of the time of single solves. The forces and the
+/// slip that convective terms cause are added by corrections from the residual of all equations (a
+/// modified Newton method).
 class CondensedProblem {
  public:
-  /// Returns true if the problem is linear at each point except for the contact. Solutions then
-  /// need no corrections except for round-off, and solveOnSets() returns them.
+  /// Returns true if the problem is linear at each point except for the contact. What solveOnSets()
+  /// returns is then already a solution, up to corrections of round-off.
   static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
   /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and all
   /// sticking nodes held, during the lifetime of the object.
@@ -49,20 +50,20 @@ class CondensedProblem {
   }
   /// Collective. The same at one point.
   Solution solve(const sweep::Parameters& at) { return std::move(solveTogether({at}).front()); }
-  /// Collective. The same at one point, with complementary pivoting if SNES finds no gaps.
+  /// Collective. The same at one point; if SNES does not converge, complementary pivoting finds the
+  /// gaps.
   Solution solveWithPivots(const sweep::Parameters& at) {
     return std::move(solveTogether({at}, true).front());
   }
-  /// Collective. Returns causes and effects with these nodes closed and the others open, regardless
-  /// of the signs of forces and gaps, without convective terms. Sets of one call share block
-  /// solves.
+  /// Collective. Returns, for each set, the forces and gaps with its nodes closed and all others
+  /// open. Their signs are not checked, and convective terms are left out. Sets of one call share
+  /// block solves.
   std::vector<impedance::ContactSolution> solveOnSets(const std::vector<ChosenSet>& sets);
   /// Collective. The same of one set.
   impedance::ContactSolution onSet(const ChosenSet& set) {
     return std::move(solveOnSets({set}).front());
   }
-  /// Makes the next solve() start from these gaps, [contact node] coefficient of the gap, m, and
-  /// holds.
+  /// Makes the next solve() start from these holds and gaps ([contact node] gap unknown h, m).
   void startFrom(std::vector<double> gaps, Sticking sticking) {
     gaps_ = std::move(gaps);
     sticking_ = std::move(sticking);
@@ -101,9 +102,10 @@ class CondensedProblem {
   std::unique_ptr<Problem> free_;  // all nodes free; null if no interface sticks
   std::unique_ptr<impedance::Impedance> impedance_;
   std::unique_ptr<impedance::ContactSolver> solver_;
-  std::vector<double> gaps_;      // of the last solution, [contact node], m
-  Sticking sticking_;             // of the last solution, with released nodes held again
-  OwnedMat direct_;               // effect of the friction of released nodes on them; null: none
+  std::vector<double> gaps_;  // of the last solution, [contact node], m
+  Sticking sticking_;         // of the last solution, with released nodes held again
+  OwnedMat
+      direct_;  // effect of the friction of released nodes on themselves; null if none is released
   Sticking directOf_;             // the holds of `direct_`
   std::unique_ptr<Loads> loads_;  // of the problem without holds, created on first use
 };
