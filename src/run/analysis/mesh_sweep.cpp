@@ -3,14 +3,10 @@
 
 #include <algorithm>
 
-#include "base/options/options.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/text.hpp"
-#include "eigen/pencil/settings.hpp"
-#include "eigen/sensitivity/settings.hpp"
 #include "model/elasticity/elasticity.hpp"
-#include "problem/matrices/write.hpp"
 #include "problem/terms/friction_work.hpp"
 #include "problem/terms/terms.hpp"
 #include "steady/steady/prestress.hpp"
