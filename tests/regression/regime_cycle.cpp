@@ -73,7 +73,9 @@ TEST(RegimeCycle, IsTheSameOnTwoRanks) {
   for (const ProgramRun* run : {&branchRun(), &single}) {
     ASSERT_EQ(run->exitCode, 0) << run->error;
     const auto motions = readCsv(run->folder / "periodic.csv");
-    if (run == &single) ASSERT_EQ(motions.rows.size(), 1u);
+    if (run == &single) {
+      ASSERT_EQ(motions.rows.size(), 1u);
+    }
     ASSERT_EQ(motions.column("motion_friction").at(0), 0.34);
     frequency.push_back(motions.column("frequency_hz")[0]);
     largest.push_back(motions.column("largest_multiplier")[0]);
