@@ -4,12 +4,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "base/system/child.hpp"
+#include "base/system/child_limits.hpp"
 #include "base/system/error.hpp"
 #include "base/system/process_memory.hpp"
 #include "base/system/text.hpp"
 #include "model/meshfile/job.hpp"
-#include "model/meshfile/serialization.hpp"
 #include "model/meshfile/unv.hpp"
 
 namespace squeal::mesh {
@@ -33,7 +32,7 @@ ChildLimits limitsFor(const meshfile::Job& job) {
 
 }  // namespace
 
-GmshModel::GmshModel(const meshfile::Settings& settings) {
+GmshModel::GmshModel(const meshfile::Settings& settings, meshfile::Reader reader) {
   const std::string& file = settings.file;
   meshfile::Job job{.file = file,
                     .option = "option -mesh_file " + file + ": ",
@@ -54,10 +53,7 @@ GmshModel::GmshModel(const meshfile::Settings& settings) {
     job.contents.nodes = contents.nodes, job.contents.elements = contents.elements;
   }
   const ChildLimits limits = limitsFor(job);
-  Stream question;
-  question(job);
-  Stream reply(inProgram("squeal_gmsh", limits, std::move(question).bytes()));
-  reply(contents_);
+  contents_ = reader(std::move(job), limits);
   for (auto& point : contents_.points)
     for (auto& x : point) x *= settings.scale;
 }

@@ -4,19 +4,20 @@
 /// rank 0 only.
 #include "model/mesh/mesh.hpp"
 #include "model/meshfile/contents.hpp"
+#include "model/meshfile/reader.hpp"
 #include "model/meshfile/settings.hpp"
 
 namespace squeal::mesh {
 
-/// A GmshModel is the mesh that gmsh reads from a file or makes of a geometry. The
-/// program `squeal_gmsh` calls gmsh in a child process: a crash there becomes an Error here, and
-/// its memory is freed with it.
+/// A GmshModel is the mesh that gmsh reads from a file or makes of a geometry. The reader calls
+/// gmsh in a child process: a crash there becomes an Error here, and its memory is freed with it.
 class GmshModel {
  public:
   /// Reads or meshes the file. Throws Error for a file that is not what its name says or that gmsh
   /// cannot read or mesh, and for parameters that the geometry does not have or whose range the
   /// value leaves.
-  explicit GmshModel(const meshfile::Settings& settings);
+  explicit GmshModel(const meshfile::Settings& settings,
+                     meshfile::Reader reader = meshfile::readInProgram);
 
   /// Returns a group, borrowed. If the mesh has none of this name, throws Error, naming the group,
   /// the option that needs it and the groups of the mesh.

@@ -233,12 +233,12 @@ std::vector<char> scatter(MPI_Comm comm, std::vector<std::vector<char>>& message
 }  // namespace
 
 Mesh read(MPI_Comm comm, const Request& request, const meshfile::Settings& file,
-          const Settings& settings, const CellGeometry& geometry) {
+          const Settings& settings, const CellGeometry& geometry, meshfile::Reader reader) {
   const int size = mpi::size(comm);
   std::vector<std::vector<char>> messages;
   std::string failure;
   if (mpi::rank(comm) == 0) try {
-      WholeMesh whole = load(file, request);
+      WholeMesh whole = load(file, request, reader);
       pairNodes(whole, request);
       straighten(whole, geometry, settings.straightening);
       const auto cellRank = partition(whole, size);

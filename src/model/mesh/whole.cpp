@@ -340,8 +340,8 @@ PetscInt WholeMesh::cellCount() const {
   return count;
 }
 
-WholeMesh load(const meshfile::Settings& file, const Request& request) {
-  const GmshModel model(file);
+WholeMesh load(const meshfile::Settings& file, const Request& request, meshfile::Reader reader) {
+  const GmshModel model(file, reader);
   WholeMesh mesh;
   NodeIndex index(mesh, model);
   readBodies(mesh, model, request, index);

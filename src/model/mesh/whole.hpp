@@ -4,6 +4,7 @@
 /// collective: for rank 0 only.
 #include "model/mesh/mesh.hpp"
 #include "model/meshfile/contents.hpp"
+#include "model/meshfile/reader.hpp"
 #include "model/meshfile/settings.hpp"
 
 namespace squeal::mesh {
@@ -44,6 +45,6 @@ struct WholeMesh {
 
 /// Reads or meshes a file with gmsh, splits nodes shared across contact interfaces, and finds parts
 /// and faces.
-WholeMesh load(const meshfile::Settings& file, const Request& request);
+WholeMesh load(const meshfile::Settings& file, const Request& request, meshfile::Reader reader);
 
 }  // namespace squeal::mesh

@@ -25,6 +25,7 @@
 #include "support/algebra/sparse.hpp"
 #include "support/harness/messages.hpp"
 #include "support/harness/scratch_folder.hpp"
+#include "support/model/reader.hpp"
 
 namespace squeal::test {
 
@@ -52,7 +53,7 @@ inline std::string material(const std::string& body, const std::string& young,
 inline mesh::Mesh readMesh(MPI_Comm comm = PETSC_COMM_WORLD) {
   const auto settings = analysis::ModelSettings::given();
   return mesh::read(comm, analysis::meshRequest(settings), settings.file, settings.mesh,
-                    {elasticity::foldedAnywhere, elasticity::straightened});
+                    {elasticity::foldedAnywhere, elasticity::straightened}, readInCopy);
 }
 
 /// Collective. The message of the error of reading the file with these options; empty if it is

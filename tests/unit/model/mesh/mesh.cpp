@@ -182,7 +182,7 @@ TEST(Partition, NoRankIsEmpty) {
   const auto request = analysis::meshRequest(settings);
   std::string failure;
   if (rank == 0) {
-    auto whole = mesh::load(settings.file, request);
+    auto whole = mesh::load(settings.file, request, test::readInCopy);
     mesh::pairNodes(whole, request);
     for (const int parts : {1, 2, 3, 4, 7, 16}) {
       const auto rankOfCell = mesh::partition(whole, parts);
@@ -214,8 +214,8 @@ TEST(Partition, NoRankIsEmptyOnAFewCells) {
     mesh::Request request;
     request.bodies = {{body, "the test"}};
     auto whole = mesh::load(
-        {.file = file, .parameters = meshfile::parametersOf(set), .shape = {}, .scale = 1},
-        request);
+        {.file = file, .parameters = meshfile::parametersOf(set), .shape = {}, .scale = 1}, request,
+        test::readInCopy);
     mesh::pairNodes(whole, request);
     for (int parts = 2; parts <= whole.cellCount() / 4; ++parts) {
       const auto rankOfCell = mesh::partition(whole, parts);
