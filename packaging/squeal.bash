@@ -8,8 +8,9 @@ _squeal() {
       return
       ;;
     -help)
-      _squeal_words "general mesh matrices material elasticity ground constraint load motion
-        friction contact tie steady modes flutter regime report"
+      _squeal_words "general mesh frame matrices material elasticity reference ground coupling
+        equation constraint load motion friction contact tie steady modes flutter
+        regime report"
       return
       ;;
     -checkpoint | -resume | -quiet | -dry_run | -elasticity_prestress | \

@@ -8,6 +8,7 @@
 #include "base/petsc/arrays.hpp"
 #include "base/petsc/check.hpp"
 #include "model/interfaces/algebra.hpp"
+#include "model/interfaces/dependence.hpp"
 #include "model/mesh/mesh.hpp"
 #include "model/mesh/vector.hpp"
 
@@ -27,30 +28,30 @@ using mesh::dot;
 
 namespace {
 
-/// The tangents t1, t2 at a contact node, held Cartesian directions first. A plane problem uses
+/// The tangents t1, t2 at a contact node, held directions first. A plane problem uses
 /// only the first.
 struct Frame {
   std::vector<Point> tangents;
-  std::vector<int> heldComponent;  ///< [tangent] Cartesian component held along it, or −1
+  std::vector<int> heldComponent;  ///< [tangent] component of the node's axes held along it, or −1
 };
 
 Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int dimension) {
   const auto& constraints = all.constraints;
   Frame frame;
   for (int d = 0; d < dimension; ++d)
-    if (constraints.held[dimension * node.node + d]) {
-      Point e{};
-      e[d] = 1;
+    if (const PetscInt at = dimension * node.node + d; constraints.held[at]) {
+      const Point e = constraints.direction(node.node, d);
+      const std::string component = constraints.axes.contains(node.node)
+                                        ? "the direction " + text(e)
+                                        : std::string("component ") + "xyz"[d];
       if (node.role == Role::sticking)
-        throw Error("option -constraint_" +
-                    constraints.groups[constraints.heldBy[dimension * node.node + d]] +
-                    "_clamped holds component " + "xyz"[d] + " of a node of " +
+        throw Error("option -constraint_" + constraints.groups[constraints.heldBy[at]] +
+                    "_clamped holds " + component + " of a node of " +
                     all.options[node.interface].label() + " at " + text(node.position) +
                     ", which sticks to the other side; let the other side be the slave");
       if (std::abs(dot(e, node.normal)) > 1e-6)
-        throw Error("option -constraint_" +
-                    constraints.groups[constraints.heldBy[dimension * node.node + d]] +
-                    "_clamped holds component " + "xyz"[d] + " of the contact node at " +
+        throw Error("option -constraint_" + constraints.groups[constraints.heldBy[at]] +
+                    "_clamped holds " + component + " of the contact node at " +
                     text(node.position) +
                     ", which is not tangential there; contact determines the normal component");
       frame.tangents.push_back(e);
@@ -78,8 +79,9 @@ Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int di
   return frame;
 }
 
-/// A = A_n … A_1 A_0, where A_i fills the rows of the slaves of level i, and A_0 those of
-/// components that depend on others.
+/// A = A_n … A_1 Q A_0, where A_i fills the rows of the nodes of level i that follow others, Q
+/// turns the axes of nodes with supports in other directions, and A_0 fills the rows of components
+/// that depend on others by equations.
 class Factors {
  public:
   Factors(const mesh::Mesh& mesh, const interfaces::Interfaces& all);
@@ -92,8 +94,7 @@ class Factors {
  private:
   void setContactRow(std::size_t k, Mat a);
   void setContactRows(int level, Mat a);
-  void setTiedRows(int level, Mat a);
-  OwnedMat combinedRows();
+  OwnedMat dependentRows() const;
   PetscInt row(PetscInt node, int d) const { return dimension_ * node + d; }
 
   const mesh::Mesh& mesh_;
@@ -108,14 +109,23 @@ Factors::Factors(const mesh::Mesh& mesh, const interfaces::Interfaces& all)
     : mesh_(mesh),
       all_(all),
       dimension_(mesh.dimension),
-      levels_(mesh.ownedNodes, 0),
+      levels_(interfaces::levelsOfFollowers(mesh, all)),
       free_(all.constraints.held.size(), 1),
       values_(all.constraints.held.size(), 0.0) {
+  const auto hold = [&](PetscInt i) { free_[i] = 0, values_[i] = all.constraints.displacement[i]; };
   for (const auto& connection : all.connections) levels_[connection.node] = connection.level;
-  for (const auto& tied : all.tied) levels_[tied.connection.node] = tied.connection.level;
   for (PetscInt i = 0; i < dimension_ * mesh.ownedNodes; ++i)
-    if (levels_[i / dimension_] == 0 && all.constraints.held[i])
-      free_[i] = 0, values_[i] = all.constraints.displacement[i];
+    if (levels_[i / dimension_] == 0 && all.constraints.held[i]) hold(i);
+  for (const auto& tied : all.tied)
+    for (int d = 0; d < dimension_; ++d) {
+      const PetscInt i = row(tied.connection.node, d);
+      if (tied.apart[d]) hold(i);
+      free_[i] = 0;
+    }
+  for (const auto& coupled : all.coupled)
+    for (int d = 0; d < dimension_; ++d) free_[row(coupled.node, d)] = coupled.free[d];
+  for (const auto& dependent : all.constraints.dependent)
+    free_[dependent.row] = 0, values_[dependent.row] = dependent.constant;
 }
 
 /// Fills the rows of contact node k.
@@ -155,55 +165,34 @@ void Factors::setContactRows(int level, Mat a) {
   failTogether(mesh_.comm, failure);
 }
 
-/// Fills the rows of the tied nodes of this level.
-void Factors::setTiedRows(int level, Mat a) {
-  for (const auto& tied : all_.tied) {
-    if (tied.connection.level != level) continue;
-    const PetscInt node = tied.connection.node, global = mesh_.firstNode + node;
-    for (const auto& [master, weight] : tied.connection.masters) {
-      auto block = identity(dimension_, weight);
-      for (int d = 0; d < dimension_; ++d)
-        if (tied.apart[d]) block[d * dimension_ + d] = 0;
-      setBlock(a, dimension_, global, master, block);
-    }
-    for (int d = 0; d < dimension_; ++d) {
-      const PetscInt i = row(node, d);
-      free_[i] = 0;
-      if (!tied.apart[d]) continue;
-      check(MatSetValue(a, row(global, d), row(global, d), 1, INSERT_VALUES));
-      values_[i] = all_.constraints.displacement[i];
-    }
-  }
-}
-
-/// Collective. Returns A_0, which fills the rows of components that depend on others.
-OwnedMat Factors::combinedRows() {
+/// Collective. Returns A_0, which fills the rows of components that depend on others by equations.
+OwnedMat Factors::dependentRows() const {
   std::vector<PetscInt> blocks(mesh_.ownedNodes, 1);
-  for (const auto& combined : all_.constraints.combined)
-    blocks[combined.node] += combined.others.size();
+  for (const auto& dependent : all_.constraints.dependent)
+    blocks[dependent.row / dimension_] += dependent.others.size();
   OwnedMat rows = nodalMatrix(mesh_, blocks);
   for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
     setDiagonal(rows, dimension_, mesh_.firstNode + node);
-  for (const auto& [node, component, others, constant] : all_.constraints.combined) {
-    for (const auto& [other, weight] : others)
-      check(MatSetValue(rows, row(mesh_.firstNode + node, component), row(other, component), weight,
-                        INSERT_VALUES));
-    free_[row(node, component)] = 0;
-    values_[row(node, component)] = constant;
-  }
+  for (const auto& [at, others, constant] : all_.constraints.dependent)
+    for (const auto& [other, factor] : others)
+      check(MatSetValue(rows, row(mesh_.firstNode, 0) + at, other, factor, INSERT_VALUES));
   assembled(rows);
   return rows;
 }
 
 OwnedMat Factors::product() {
   OwnedMat a;
-  if (all_.constraints.anyCombined) a = combinedRows();
+  if (all_.constraints.anyDependent) a = dependentRows();
+  if (all_.constraints.anyTurned) {
+    OwnedMat turned = interfaces::turnedAxes(mesh_, all_);
+    a = a ? interfaces::product(turned, a) : std::move(turned);
+  }
   for (int level = 1; level <= all_.levels; ++level) {
     OwnedMat factor = nodalMatrix(mesh_, blocksOfRows(mesh_, all_, level));
     for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
       if (levels_[node] != level) setDiagonal(factor, dimension_, mesh_.firstNode + node);
     setContactRows(level, factor);
-    setTiedRows(level, factor);
+    interfaces::setFollowers(mesh_, all_, level, factor);
     assembled(factor);
     a = a ? interfaces::product(factor, a) : std::move(factor);
   }
@@ -242,9 +231,7 @@ std::vector<PetscInt> blocksOfRows(const mesh::Mesh& mesh, const interfaces::Int
   for (const auto& connection : all.connections)
     if (level == 0 || connection.level == level)
       blocks[connection.node] += connection.masters.size();
-  for (const auto& tied : all.tied)
-    if (tied.connection.level == level)
-      blocks[tied.connection.node] += tied.connection.masters.size();
+  if (level > 0) interfaces::countBlocks(all, level, blocks);
   return blocks;
 }
 

@@ -30,6 +30,16 @@ class RigidMotions {
         length_(length) {}
   int size() const { return size_; }
   int perPart() const { return perPart_; }
+  /// Adds the coefficients of factor · direction·θ of part `part`, in the components of a reference
+  /// node, to the row.
+  void addRotation(std::vector<double>& row, int part, const Point& direction,
+                   double factor) const {
+    double* a = row.data() + part * perPart_;
+    if (dimension_ == 2)
+      a[2] += factor / length_ * direction[0];
+    else
+      for (int k = 0; k < 3; ++k) a[3 + k] += factor / length_ * direction[k];
+  }
   /// Adds the coefficients of factor · direction·u(x), for a point x of part `part`, to the row.
   void add(std::vector<double>& row, int part, const Point& x, const Point& direction,
            double factor) const {
@@ -70,6 +80,42 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
   return {mesh, {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2}, length};
 }
 
+/// Adds the coefficients of direction·u of a node of this rank to the row.
+void addNode(const mesh::Mesh& mesh, const RigidMotions& motions, PetscInt node,
+             const Point& direction, std::vector<double>& row) {
+  if (mesh.isRotation(mesh.firstNode + node))
+    motions.addRotation(row, mesh.nodePart[node], direction, 1);
+  else
+    motions.add(row, mesh.nodePart[node], mesh.coordinates[node], direction, 1);
+}
+
+/// Adds the coefficients of the terms of an equation on this rank to the row.
+void addEquation(const mesh::Mesh& mesh, const RigidMotions& motions,
+                 const constraints::EquationSettings& equation, std::vector<double>& row) {
+  for (const auto& term : equation.terms) {
+    const Point direction =
+        mesh::scaled(unit(mesh.dimension == 2 && term.rotation ? 0 : term.component), term.factor);
+    if (const PetscInt node = constraints::nodeOf(mesh, term); node >= 0)
+      addNode(mesh, motions, node, direction, row);
+  }
+}
+
+/// Adds the coefficients of component d of the condition of a coupled node to the row.
+void addCoupled(const mesh::Mesh& mesh, const RigidMotions& motions,
+                const constraints::CoupledNode& coupled, int d, std::vector<double>& row) {
+  Point coupledPart = unit(d);  // of the direction d, across the components that stay free
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t e = 0; e < 3; ++e) coupledPart[e] -= coupled.own[d][k] * coupled.own[e][k];
+  addNode(mesh, motions, coupled.node, coupledPart, row);
+  for (const auto& master : coupled.masters) {
+    const Point& direction = master.block[d];
+    if (master.isRotation)
+      motions.addRotation(row, master.part, direction, -1);
+    else
+      motions.add(row, master.part, master.position, direction, -1);
+  }
+}
+
 /// Returns the Gram matrix Σ cᵀc over the rows c of all supports, applied to rigid motions. Springs
 /// count as supports, however soft. The null space contains the rigid-body modes.
 linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
@@ -85,13 +131,23 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
   };
   std::optional<ReadArray> spring;
   if (springs) spring.emplace(springs);
+  const auto& constraints = contact.interfaces.constraints;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-    for (int d = 0; d < mesh.dimension; ++d)
-      if (const PetscInt i = mesh.dimension * node + d;
-          contact.interfaces.constraints.held[i] || (spring && (*spring)[i] > 0)) {
-        motions.add(row, mesh.nodePart[node], mesh.coordinates[node], unit(d), 1);
-        keep();
-      }
+    for (int d = 0; d < mesh.dimension; ++d) {
+      const PetscInt i = mesh.dimension * node + d;
+      if (constraints.held[i])
+        addNode(mesh, motions, node, constraints.direction(node, d), row), keep();
+      if (spring && (*spring)[i] > 0 && !(constraints.held[i] && !constraints.axes.contains(node)))
+        addNode(mesh, motions, node, unit(d), row), keep();
+    }
+  for (const auto& equation : constraints.equations) {
+    addEquation(mesh, motions, equation, row);
+    mpi::reduce<double>(mesh.comm, row, MPI_SUM);
+    if (mpi::rank(mesh.comm) > 0) std::fill(row.begin(), row.end(), 0.0);
+    keep();
+  }
+  for (const auto& coupled : contact.interfaces.coupled)
+    for (int d = 0; d < mesh.dimension; ++d) addCoupled(mesh, motions, coupled, d, row), keep();
   for (const auto& image : mesh.images)
     for (int d = 0; d < mesh.dimension; ++d) {
       const auto& x = mesh.coordinates[image.node];

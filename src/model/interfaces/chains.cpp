@@ -11,7 +11,14 @@
 namespace squeal::interfaces {
 namespace {
 
-/// The levels of the masters of this rank's slaves, on any rank.
+/// A node that depends on masters, and its level; borrowed.
+struct Follower {
+  PetscInt node;                  // local
+  std::vector<PetscInt> masters;  // global
+  int* level;
+};
+
+/// The levels of the masters of this rank's followers, on any rank.
 class MasterLevels {
  public:
   /// Collective. `masters` are global nodes, ascending, without repetition.
@@ -24,22 +31,22 @@ class MasterLevels {
                           nodes.out()));
     check(VecScatterCreate(all_, nodes, found_, nullptr, scatter_.out()));
   }
-  /// Collective. Takes the levels of the owned slaves; other nodes have the level 0.
-  void set(const std::vector<Connection*>& slaves) {
+  /// Collective. Takes the levels of the owned followers; other nodes have the level 0.
+  void set(const std::vector<Follower>& followers) {
     check(VecSet(all_, 0));
     {
       const WriteArray levels(all_);
-      for (const auto* slave : slaves) levels[slave->node] = slave->level;
+      for (const auto& follower : followers) levels[follower.node] = *follower.level;
     }
     check(VecScatterBegin(scatter_, all_, found_, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(scatter_, all_, found_, INSERT_VALUES, SCATTER_FORWARD));
   }
   /// Returns the largest level of the masters plus 1.
-  int above(const Connection& slave) const {
+  int above(const Follower& follower) const {
     const ReadArray levels(found_);
     double largest = 0;
-    for (const auto& master : slave.masters) {
-      const auto at = std::lower_bound(masters_.begin(), masters_.end(), master.node);
+    for (const PetscInt master : follower.masters) {
+      const auto at = std::lower_bound(masters_.begin(), masters_.end(), master);
       largest = std::max(largest, levels[at - masters_.begin()]);
     }
     return 1 + std::lround(largest);
@@ -51,45 +58,66 @@ class MasterLevels {
   OwnedScatter scatter_;
 };
 
-std::vector<PetscInt> mastersOf(const std::vector<Connection*>& slaves) {
+/// Returns all nodes that depend on others.
+std::vector<Follower> followersOf(Interfaces& all) {
+  std::vector<Follower> followers;
+  const auto add = [&](PetscInt node, const auto& masters, int& level) {
+    followers.push_back({node, {}, &level});
+    for (const auto& master : masters) followers.back().masters.push_back(master.node);
+  };
+  for (auto& connection : all.connections)
+    add(connection.node, connection.masters, connection.level);
+  for (auto& node : all.tied)
+    add(node.connection.node, node.connection.masters, node.connection.level);
+  for (auto& node : all.coupled) add(node.node, node.masters, node.level);
+  return followers;
+}
+
+std::vector<PetscInt> mastersOf(const std::vector<Follower>& followers) {
   std::vector<PetscInt> masters;
-  for (const auto* slave : slaves)
-    for (const auto& master : slave->masters) masters.push_back(master.node);
+  for (const auto& follower : followers)
+    masters.insert(masters.end(), follower.masters.begin(), follower.masters.end());
   std::sort(masters.begin(), masters.end());
   masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
   return masters;
 }
 
-/// Collective. Returns the labels of the interfaces with nodes of this level on any rank.
+/// Collective. Returns the labels of the interfaces and couplings with nodes of this level on any
+/// rank.
 std::string interfacesAt(const mesh::Mesh& mesh, const Interfaces& all, int level) {
   std::vector<int> found(all.options.size(), 0);
   for (std::size_t k = 0; k < all.nodes.size(); ++k)
     if (all.connections[k].level >= level) found[all.nodes[k].interface] = 1;
   for (const auto& node : all.tied)
     if (node.connection.level >= level) found[node.interface] = 1;
+  std::vector<int> coupled(all.couplings.size(), 0);
+  for (const auto& node : all.coupled)
+    if (node.level >= level) coupled[node.coupling] = 1;
   mpi::reduce<int>(mesh.comm, found, MPI_MAX);
+  mpi::reduce<int>(mesh.comm, coupled, MPI_MAX);
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i]) labels.push_back(all.options[i].label());
+  for (std::size_t i = 0; i < coupled.size(); ++i)
+    if (coupled[i]) labels.push_back("coupling '" + all.couplings[i] + "'");
   return joined(labels);
 }
 
 }  // namespace
 
 void setLevels(const mesh::Mesh& mesh, Interfaces& all) {
-  std::vector<Connection*> slaves;
-  for (auto& connection : all.connections) slaves.push_back(&connection);
-  for (auto& node : all.tied) slaves.push_back(&node.connection);
-  MasterLevels masters(mesh, mastersOf(slaves));
-  // An acyclic chain passes each interface at most once or, with tied pairs of nodes, twice.
-  for (int pass = 0; pass <= 2 * std::ssize(all.options); ++pass) {
-    masters.set(slaves);
+  const std::vector<Follower> followers = followersOf(all);
+  MasterLevels masters(mesh, mastersOf(followers));
+  // An acyclic chain passes each coupling at most once and each interface once or, with tied pairs
+  // of nodes, twice.
+  for (int pass = 0; pass <= 2 * std::ssize(all.options) + std::ssize(all.couplings); ++pass) {
+    masters.set(followers);
     bool changed = false;
     all.levels = 1;
-    for (auto* slave : slaves) {
-      const int level = masters.above(*slave);
-      changed = changed || level != slave->level;
-      slave->level = level;
+    for (const auto& follower : followers) {
+      const int level = masters.above(follower);
+      changed = changed || level != *follower.level;
+      *follower.level = level;
       all.levels = std::max(all.levels, level);
     }
     changed = mpi::any(mesh.comm, changed);
@@ -97,7 +125,10 @@ void setLevels(const mesh::Mesh& mesh, Interfaces& all) {
     if (!changed) return;
   }
   throw Error("the slaves of these interfaces depend on each other in a circle: " +
-              interfacesAt(mesh, all, all.levels) + "; exchange slave and master of one interface");
+              interfacesAt(mesh, all, all.levels) +
+              (all.couplings.empty() ? "; exchange slave and master of one interface"
+                                     : "; exchange slave and master of one interface, or leave "
+                                       "nodes out of a coupling"));
 }
 
 }  // namespace squeal::interfaces

@@ -14,9 +14,10 @@
 #include "model/element/shape.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "model/interfaces/candidates.hpp"
-#include "model/interfaces/carried.hpp"
 #include "model/interfaces/chains.hpp"
 #include "model/interfaces/crossing.hpp"
+#include "model/interfaces/dependence.hpp"
+#include "model/interfaces/equations.hpp"
 #include "model/interfaces/lost.hpp"
 #include "model/mesh/vector.hpp"
 
@@ -208,9 +209,10 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, M
   fillNodes(mesh, bodies, touching, periodic, all);
   countNodes(mesh.comm, all);
   checkCrossing(mesh, exchange, bodies, all);
+  rejectTwoMasters(mesh, all);
   setLevels(mesh, all);
   warnOfLost(mesh, exchange, all, Role::sliding);
-  transferSupports(mesh, all);
+  solveEquations(mesh, all);
   return all;
 }
 

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "model/constraints/constraints.hpp"
+#include "model/constraints/couplings.hpp"
 #include "model/coupling/coupling.hpp"
 #include "model/elasticity/elasticity.hpp"
-#include "model/interfaces/constraints.hpp"
 #include "model/interfaces/gap_basis.hpp"
 #include "model/interfaces/settings.hpp"
 #include "model/mesh/mesh.hpp"
@@ -106,8 +107,10 @@ struct Interfaces {
   std::vector<Connection> connections;     ///< [contact node]
   std::vector<TiedNode> tied;              ///< owned by this rank, in the order of local nodes
   std::vector<LostNode> lost;              ///< owned by this rank
-  Constraints constraints;
-  PetscInt totalNodes = 0;  ///< contact nodes of all ranks
+  constraints::Constraints constraints;
+  std::vector<std::string> couplings;             ///< names of the couplings
+  std::vector<constraints::CoupledNode> coupled;  ///< owned by this rank, by local node
+  PetscInt totalNodes = 0;                        ///< contact nodes of all ranks
   /// [local node] index into `options` of the contact with a gap at the node, −1 if there is none;
   /// includes ghosts and periodic images
   std::vector<int> interfaceOf;

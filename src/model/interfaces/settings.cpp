@@ -60,15 +60,6 @@ const RealOption toleranceOption("tie", "tie_<name>_tolerance", 0.0, "m", nonNeg
 const FlagOption adjustOption("tie", "tie_<name>_adjust", true,
                               "strain-free initial shift of tied nodes onto the master, so that "
                               "the two rotate together without strain; off: no shift");
-const TextOption clampedOption(
-    "constraint", "constraint_<group>_clamped", "",
-    "fixed components (some of xyz) of the displacement of the group's nodes");
-const RealListOption displacementOption("constraint", "constraint_<group>_displacement", "0,0,0",
-                                        "m", anyReal,
-                                        "prescribed values of the clamped components");
-const TextOption imageOption("constraint", "constraint_<group>_image_of", "",
-                             "group of which this group is the periodic image by translation");
-
 mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
   const std::string group = option.get(name);
   return {group, "-" + option.fullName(name) + " " + group};
@@ -181,21 +172,11 @@ std::vector<InterfaceSettings> interfacesGiven() {
   return interfaces;
 }
 
-std::map<std::string, ClampSettings> clampsGiven() {
-  requireOption({&displacementOption}, clampedOption);
-  std::map<std::string, ClampSettings> clamps;
-  for (const auto& group : clampedOption.subjects())
-    clamps[group] = {clampedOption.get(group), displacementOption.vector(group)};
-  return clamps;
-}
-
 }  // namespace
 
 Settings Settings::given() {
   Settings settings;
-  settings.clamps = clampsGiven();
   settings.interfaces = interfacesGiven();
-  for (const auto& image : imageOption.subjects()) settings.imageOf[image] = imageOption.get(image);
   return settings;
 }
 
@@ -212,20 +193,6 @@ std::vector<int> frictionExponents(const std::vector<InterfaceSettings>& interfa
                             [&](const auto& one) { return one.friction.part(exponent) > 0; }))
       exponents.push_back(exponent);
   return exponents;
-}
-
-std::vector<mesh::GroupRequest> clampedGroups(const Settings& settings) {
-  std::vector<mesh::GroupRequest> requests;
-  for (const auto& [group, clamp] : settings.clamps)
-    requests.push_back({group, clampedName(group)});
-  return requests;
-}
-
-std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings) {
-  std::vector<mesh::PeriodicRequest> pairs;
-  for (const auto& [image, primary] : settings.imageOf)
-    pairs.push_back({image, primary, "-" + imageOption.fullName(image) + " " + primary});
-  return pairs;
 }
 
 std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings) {
@@ -254,11 +221,5 @@ std::string searchText(const InterfaceSettings& interface) {
 std::string roleName(const std::string& interface) { return "-" + roleOption.fullName(interface); }
 
 std::string adjustName(const std::string& tie) { return "-" + adjustOption.fullName(tie); }
-
-std::string clampedName(const std::string& group) { return "-" + clampedOption.fullName(group); }
-
-std::string displacementName(const std::string& group) {
-  return "-" + displacementOption.fullName(group);
-}
 
 }  // namespace squeal::interfaces

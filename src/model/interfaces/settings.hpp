@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Settings of the contact interfaces, ties and constraints. Not collective: all ranks have the
+/// Settings of the contact interfaces and ties. Not collective: all ranks have the
 /// same options, and therefore the same results and Errors.
 #include <map>
 #include <optional>
@@ -61,20 +61,12 @@ struct InterfaceSettings {
   const std::string& label() const { return surfaces.label; }
 };
 
-/// The clamp of one group.
-struct ClampSettings {
-  std::string components;    ///< held ones, some of xyz
-  VectorValue displacement;  ///< of the held components, m
-};
-
 struct Settings {
-  std::vector<InterfaceSettings> interfaces;    ///< contact, then ties, each sorted by name
-  std::map<std::string, ClampSettings> clamps;  ///< [group]
-  std::map<std::string, std::string> imageOf;   ///< [group] the group whose image it is
+  std::vector<InterfaceSettings> interfaces;  ///< contact, then ties, each sorted by name
 
   /// Reads the options. Throws Error for an interface without a pad surface, for one with neither
-  /// or both of a disc surface and an obstacle, for a tie without one of its sides, for a
-  /// displacement without a clamp, and for incompatible options.
+  /// or both of a disc surface and an obstacle, for a tie without one of its sides, and for
+  /// incompatible options.
   static Settings given();
   /// Returns the interface with this label, borrowed; there must be one.
   const InterfaceSettings& interface(const std::string& label) const;
@@ -84,10 +76,7 @@ struct Settings {
 /// a fixed part, 1 where one has a swept part; ascending.
 std::vector<int> frictionExponents(const std::vector<InterfaceSettings>& interfaces);
 
-/// Return groups and interfaces for the mesh reader: groups with a clamp, periodic pairs of groups,
-/// and the surfaces of the interfaces.
-std::vector<mesh::GroupRequest> clampedGroups(const Settings& settings);
-std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings);
+/// Returns the surfaces of the interfaces, for the mesh reader.
 std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings);
 
 /// Return names of options of an interface with their dash, for messages:
@@ -99,9 +88,5 @@ std::string roleName(const std::string& interface);
 std::string adjustName(const std::string& tie);
 /// Returns the option of the search with its value in words, for messages.
 std::string searchText(const InterfaceSettings& interface);
-/// Return names of options of a constraint with their dash, for messages:
-/// `-constraint_<group>_clamped` and `-constraint_<group>_displacement`.
-std::string clampedName(const std::string& group);
-std::string displacementName(const std::string& group);
 
 }  // namespace squeal::interfaces

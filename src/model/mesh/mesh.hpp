@@ -6,9 +6,12 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "base/options/option_types.hpp"
 
 namespace squeal::mesh {
 
@@ -82,6 +85,17 @@ struct Straightened {
   double largestMove = 0;  ///< m
 };
 
+/// A reference node: a point with a displacement and a rotation, which couplings join to the
+/// bodies. Two nodes of the mesh, in no cell, hold the components of the two vectors; in the plane
+/// the first component of the second one is the rotation about z.
+struct Reference {
+  std::string name;
+  Point position;         ///< m
+  PetscInt displacement;  ///< global node whose components are the displacement, m
+  PetscInt rotation;      ///< global node whose components are the rotation, rad
+  int part;               ///< index into Mesh::partName, where each reference node is a part
+};
+
 /// The part of the mesh on this rank, with the names and totals of the whole.
 struct Mesh {
   MPI_Comm comm = MPI_COMM_NULL;
@@ -104,13 +118,25 @@ struct Mesh {
   std::vector<CellBlock> cells;
   std::vector<std::string> surfaces;  ///< surface groups that options name
   std::vector<FaceBlock> faces;
-  /// [group] owned local nodes, with images replaced by their primaries
+  /// [group or reference node] owned local nodes, with images replaced by their primaries
   std::map<std::string, std::vector<PetscInt>> nodeGroups;
+  std::vector<Reference> references;  ///< the same on all ranks, sorted by name
   std::vector<Image> images;
   std::vector<ContactPair> pairs;          ///< of the interfaces that match
   std::vector<InterfaceMatch> interfaces;  ///< in the order of the request
 
   PetscInt localNodes() const { return globalNode.size(); }
+  /// Returns the number of the nodes of all ranks that are in cells.
+  PetscInt cellNodes() const { return totalNodes - 2 * std::ssize(references); }
+  /// Returns the reference node that has this global node; null if there is none. Borrowed.
+  const Reference* referenceWith(PetscInt global) const;
+  /// Returns the reference node of this name; null if there is none. Borrowed.
+  const Reference* reference(const std::string& name) const;
+  /// Returns true if the components of this global node are a rotation.
+  bool isRotation(PetscInt global) const {
+    const Reference* found = referenceWith(global);
+    return found && found->rotation == global;
+  }
 };
 
 /// Collective. Returns a text with the checksum of nodes and cells as they are distributed. A
@@ -137,12 +163,22 @@ struct PeriodicRequest {
   std::string option;  ///< the option that asks for it, with its dash, for messages
 };
 
+/// A reference node at a position or, without one, at the mean position of the nodes of a group.
+struct ReferenceRequest {
+  std::string name;
+  std::optional<VectorValue> position;  ///< m
+  GroupRequest centreOf;
+  std::string option;  ///< the option that asks for it, with its dash, for messages
+};
+
 /// The groups that the later stages need from the mesh.
 struct Request {
   std::vector<GroupRequest> bodies;  ///< volume groups with a material
   /// Bodies with a motion. Where an interface has shared nodes, they are its disc side.
   std::vector<std::string> moving;
-  std::vector<GroupRequest> nodeGroups;  ///< groups of any dimension whose nodes are constrained
+  /// Groups of any dimension, or reference nodes, whose nodes are constrained or loaded.
+  std::vector<GroupRequest> nodeGroups;
+  std::vector<ReferenceRequest> references;  ///< sorted by name
   /// Surface groups that are loaded. Those of both sides of interfaces are added.
   std::vector<GroupRequest> surfaces;
   std::vector<InterfaceRequest> interfaces;

@@ -35,6 +35,9 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
     for (std::size_t e = 0; e < block.tag.size(); ++e, ++cell)
       for (PetscInt node : block.nodesOf(e))
         numbering.owner[node] = std::min(numbering.owner[node], cellRank[cell]);
+  // The first rank owns reference nodes, which are in no cell.
+  for (const auto& reference : mesh.references)
+    numbering.owner[reference.displacement] = numbering.owner[reference.rotation] = 0;
   numbering.whole.resize(mesh.points.size());
   std::iota(numbering.whole.begin(), numbering.whole.end(), 0);
   std::stable_sort(numbering.whole.begin(), numbering.whole.end(),
@@ -198,6 +201,10 @@ Mesh partOf(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   std::size_t g = 0;
   for (const auto& [name, nodes] : mesh.nodeGroups)
     part.nodeGroups[name] = local.of(shares.groups[rank][g++]);
+  part.references = mesh.references;
+  for (auto& reference : part.references)
+    for (PetscInt* node : {&reference.displacement, &reference.rotation})
+      *node = numbering.global[*node];
   part.images = picked(mesh.images, shares.images[rank]);
   for (auto& image : part.images)
     image.node = local.of(image.node), image.primary = numbering.global[image.primary];

@@ -20,13 +20,18 @@ void fields(Stream& stream, InterfaceMatch& match) {
   stream(label, matching, mismatch, nearlyMatching);
 }
 
+void fields(Stream& stream, Reference& reference) {
+  auto& [name, position, displacement, rotation, part] = reference;
+  stream(name, position, displacement, rotation, part);
+}
+
 void fields(Stream& stream, Mesh& mesh) {
   auto& [comm, dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
          globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
-         faces, nodeGroups, images, pairs, interfaces] = mesh;
+         faces, nodeGroups, references, images, pairs, interfaces] = mesh;
   stream(dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
          globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
-         faces, nodeGroups, images, pairs, interfaces);
+         faces, nodeGroups, references, images, pairs, interfaces);
 }
 
 }  // namespace squeal::mesh

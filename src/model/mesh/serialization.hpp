@@ -9,6 +9,7 @@ namespace squeal::mesh {
 void fields(Stream& stream, CellBlock& block);
 void fields(Stream& stream, FaceBlock& block);
 void fields(Stream& stream, InterfaceMatch& match);
+void fields(Stream& stream, Reference& reference);
 /// Exchanges all members except the communicator.
 void fields(Stream& stream, Mesh& mesh);
 

@@ -91,7 +91,12 @@ NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Req
     if (!interface.disc.name.empty()) add(interface.disc, boundary);
   }
   for (const auto& surface : request.surfaces) add(surface, boundary);
-  for (const auto& group : request.nodeGroups) add(group, -1);
+  for (const auto& reference : request.references)
+    if (!reference.position) add(reference.centreOf, -1);
+  for (const auto& group : request.nodeGroups)
+    if (std::ranges::find(request.references, group.name, &ReferenceRequest::name) ==
+        request.references.end())
+      add(group, -1);
   for (const auto& pair : request.periodic) {
     add({pair.image, pair.option}, -1);
     add({pair.of, pair.option}, -1);
@@ -305,6 +310,27 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
   }
 }
 
+/// Adds the nodes of the reference nodes. Throws Error for a name that a group of the mesh has, and
+/// for a position outside the plane of a plane mesh.
+void addReferences(WholeMesh& mesh, const GmshModel& model, const Request& request) {
+  for (const auto& wanted : request.references) {
+    const std::string head = "option " + wanted.option + ": ";
+    if (model.groups().contains(wanted.name))
+      throw Error(head + "a group of the mesh has the name '" + wanted.name +
+                  "' already; give the reference node another name");
+    const Point position = wanted.position
+                               ? wanted.position->in(mesh.dimension)
+                               : centroid(mesh, mesh.nodeGroups.at(wanted.centreOf.name));
+    const PetscInt first = mesh.nodeCount();
+    for (int node : {0, 1}) {
+      mesh.points.push_back(position);
+      mesh.tags.push_back(-node);  // no tag of gmsh
+    }
+    mesh.references.push_back({wanted.name, position, first, first + 1, -1});
+    mesh.nodeGroups[wanted.name] = {first};
+  }
+}
+
 /// Finds the connected parts of the mesh by union-find over the nodes of each cell.
 void findParts(WholeMesh& mesh) {
   std::vector<PetscInt> parent(mesh.points.size());
@@ -322,6 +348,7 @@ void findParts(WholeMesh& mesh) {
       const PetscInt a = root(cell.nodes()[0]), b = root(node);
       parent[std::max(a, b)] = std::min(a, b);
     }
+  for (const auto& reference : mesh.references) parent[reference.rotation] = reference.displacement;
   std::map<PetscInt, int> number;
   mesh.part.resize(mesh.points.size());
   for (PetscInt node = 0; node < mesh.nodeCount(); ++node)
@@ -329,6 +356,10 @@ void findParts(WholeMesh& mesh) {
   std::vector<std::set<std::string>> names(number.size());
   for (auto cell : references(mesh))
     names[mesh.part[cell.nodes()[0]]].insert(mesh.bodies[cell.label()]);
+  for (auto& reference : mesh.references) {
+    reference.part = mesh.part[reference.displacement];
+    names[reference.part] = {"reference node " + reference.name};
+  }
   for (const auto& set : names) mesh.partName.push_back(joined({set.begin(), set.end()}, "+"));
 }
 
@@ -353,6 +384,7 @@ WholeMesh load(const meshfile::Settings& file, const Request& request, meshfile:
   readDiscFaces(mesh, request, named, splitter);
   for (const auto& [name, group] : named.groups)
     mesh.nodeGroups[name] = groupNodes(group, splitter);
+  addReferences(mesh, model, request);
   findParts(mesh);
   return mesh;
 }

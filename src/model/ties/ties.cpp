@@ -79,7 +79,8 @@ void warnOfLittleCover(const mesh::Mesh& mesh, const Interfaces& all) {
 
 }  // namespace
 
-Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings) {
+Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings,
+                    const constraints::Settings& supports) {
   Interfaces all;
   for (const auto& match : mesh.interfaces) {
     const auto& options = all.options.emplace_back(settings.interface(match.label));
@@ -87,7 +88,6 @@ Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings) {
     all.obstacles.push_back({options.obstacleVelocity.in(mesh.dimension),
                              options.obstacleDisplacement.in(mesh.dimension)});
   }
-  all.constraints = constraintsOf(mesh, settings.clamps);
   for (const auto& interface : all.options) all.slaves.push_back({interface.surfaces.pad.name, 1});
   all.reports.resize(all.options.size());
   const coupling::NodeExchange exchange(mesh);
@@ -95,6 +95,9 @@ Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings) {
   const auto adjusted = [](const InterfaceSettings& options) { return options.adjust; };
   if (std::any_of(all.options.begin(), all.options.end(), adjusted))
     moveOntoMasters(mesh, exchange, all);
+  all.constraints = constraints::constraintsOf(mesh, supports);
+  all.coupled = constraints::coupledNodes(mesh, supports);
+  for (const auto& coupling : supports.couplings) all.couplings.push_back(coupling.name);
   report(mesh, exchange, all);
   warnOfLost(mesh, exchange, all, Role::tied);
   warnOfLittleCover(mesh, all);

@@ -9,13 +9,15 @@
 
 namespace squeal::ties {
 
-/// Collective. Returns the options of all interfaces, the constraints and the tied nodes. A node
+/// Collective. Returns the options of all interfaces, the supports, the tied nodes and the coupled
+/// ones. A node
 /// belongs to one tie: the first that claims it if the meshes do not match, otherwise by
 /// tieMatched(). The nodes of adjusted ties are moved to satisfy the equation above within
 /// round-off with the returned P. Warns of ties with less than half of the slave covered. Throws
 /// Error for surfaces that do not meet, for ties that depend on each other in a circle, and for a
 /// tie that folds a cell.
-interfaces::Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings);
+interfaces::Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings,
+                                const constraints::Settings& supports);
 
 /// Returns a line on the ties of all ranks, for the log; empty if there are none.
 std::string describeTies(const interfaces::Interfaces& ties);

@@ -32,8 +32,9 @@ mesh::Mesh readMesh(MPI_Comm comm, const ModelSettings& settings) {
                                {elasticity::foldedAnywhere, elasticity::straightened});
   stage.finish(formatted(
       "%s: %" PetscInt_FMT " nodes, %" PetscInt_FMT " cells, %zu bodies in %d connected parts%s%s",
-      settings.file.file.c_str(), mesh.totalNodes, mesh.totalCells, mesh.bodies.size(), mesh.parts,
-      unusedText(mesh.unusedNodes).c_str(), straightenedText(mesh.straightened).c_str()));
+      settings.file.file.c_str(), mesh.cellNodes(), mesh.totalCells, mesh.bodies.size(),
+      mesh.parts - int(mesh.references.size()), unusedText(mesh.unusedNodes).c_str(),
+      straightenedText(mesh.straightened).c_str()));
   return mesh;
 }
 
@@ -45,9 +46,9 @@ elasticity::Bodies assembleBodies(const mesh::Mesh& mesh, const ModelSettings& s
   return bodies;
 }
 
-interfaces::Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings) {
+interfaces::Interfaces findTies(mesh::Mesh& mesh, const ModelSettings& settings) {
   Stage stage(mesh.comm, "tie");
-  auto ties = ties::findTies(mesh, settings);
+  auto ties = ties::findTies(mesh, settings.interfaces, settings.constraints);
   if (const auto found = ties::describeTies(ties); !found.empty()) stage.finish(found);
   return ties;
 }
@@ -69,7 +70,7 @@ contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& 
 Model buildModel(MPI_Comm comm, const ModelSettings& settings) {
   Model model;
   model.mesh = std::make_unique<mesh::Mesh>(readMesh(comm, settings));
-  auto ties = findTies(*model.mesh, settings.interfaces);  // may move nodes, so before elements
+  auto ties = findTies(*model.mesh, settings);  // may move nodes, so before elements
   model.bodies = assembleBodies(*model.mesh, settings);
   model.contact = buildContact(*model.mesh, model.bodies, std::move(ties), settings.contact);
   contact::requireMotion(model.contact);

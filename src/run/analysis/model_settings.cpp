@@ -6,6 +6,7 @@ namespace squeal::analysis {
 ModelSettings ModelSettings::given() {
   return {.materials = material::Settings::given(),
           .interfaces = interfaces::Settings::given(),
+          .constraints = constraints::Settings::given(),
           .elasticity = elasticity::Settings::given(),
           .file = meshfile::Settings::given(),
           .mesh = mesh::Settings::given(),
@@ -16,12 +17,13 @@ mesh::Request meshRequest(const ModelSettings& settings) {
   mesh::Request request;
   request.bodies = material::groupRequests(settings.materials);
   request.moving = elasticity::movingBodies(settings.elasticity);
-  request.nodeGroups = interfaces::clampedGroups(settings.interfaces);
+  request.nodeGroups = constraints::constrainedGroups(settings.constraints);
   for (const auto& group : elasticity::groundedGroups(settings.elasticity))
     request.nodeGroups.push_back(group);
+  request.references = settings.constraints.references;
   request.surfaces = elasticity::loadedSurfaces(settings.elasticity);
   request.interfaces = interfaces::interfaceRequests(settings.interfaces);
-  request.periodic = interfaces::periodicPairs(settings.interfaces);
+  request.periodic = constraints::periodicPairs(settings.constraints);
   request.howToGiveMaterials = material::howToGiveMaterials();
   request.motionOptions = elasticity::motionOptions();
   return request;

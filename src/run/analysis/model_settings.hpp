@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Settings of all rooms of the floor `model`, and what they ask of the mesh. Not collective.
+#include "model/constraints/settings.hpp"
 #include "model/contact/settings.hpp"
 #include "model/elasticity/settings.hpp"
 #include "model/interfaces/settings.hpp"
@@ -14,6 +15,7 @@ namespace squeal::analysis {
 struct ModelSettings {
   material::Settings materials;
   interfaces::Settings interfaces;
+  constraints::Settings constraints;
   elasticity::Settings elasticity;
   meshfile::Settings file;
   mesh::Settings mesh;

@@ -82,23 +82,31 @@ struct Piece {
   std::vector<std::vector<float>> fields;       // [field][node][component]
 };
 
-/// Returns the part of this rank.
+/// Returns the part of this rank, without reference nodes, which are in no cell.
 Piece ownPiece(const mesh::Mesh& mesh, const std::vector<Field>& fields, int rank) {
   Piece piece;
-  for (const auto& x : mesh.coordinates)
+  std::vector<PetscInt> number(mesh.localNodes(), -1);  // in the piece
+  piece.fields.resize(fields.size());
+  for (PetscInt node = 0; node < mesh.localNodes(); ++node) {
+    if (mesh.referenceWith(mesh.globalNode[node])) continue;
+    number[node] = std::ssize(piece.nodeTag);
+    const auto& x = mesh.coordinates[node];
     piece.coordinates.insert(piece.coordinates.end(), x.begin(), x.end());
-  piece.nodeTag.assign(mesh.nodeTag.begin(), mesh.nodeTag.end());
-  piece.nodePart.assign(mesh.nodePart.begin(), mesh.nodePart.end());
+    piece.nodeTag.push_back(mesh.nodeTag[node]);
+    piece.nodePart.push_back(mesh.nodePart[node]);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const auto first = fields[i].values.begin() + node * fields[i].components;
+      piece.fields[i].insert(piece.fields[i].end(), first, first + fields[i].components);
+    }
+  }
   for (const auto& block : mesh.cells) {
     const auto& [type, order] = cellsByGmshType().at(block.type);
     for (std::size_t cell = 0; cell < block.body.size(); ++cell)
-      for (const int i : order) piece.nodes.push_back(block.nodesOf(cell)[i]);
+      for (const int i : order) piece.nodes.push_back(number[block.nodesOf(cell)[i]]);
     piece.type.insert(piece.type.end(), block.body.size(), type);
     piece.body.insert(piece.body.end(), block.body.begin(), block.body.end());
   }
   piece.rank.assign(piece.body.size(), rank);
-  for (const auto& field : fields)
-    piece.fields.emplace_back(field.values.begin(), field.values.end());
   return piece;
 }
 

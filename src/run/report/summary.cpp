@@ -181,7 +181,7 @@ Json regimeEntry(const regime::Study& study, const regime::Run& run) {
 }
 
 Json meshEntry(const mesh::Mesh& mesh, const contact::Contact& contact) {
-  Json entry = {{"nodes", mesh.totalNodes}, {"cells", mesh.totalCells}};
+  Json entry = {{"nodes", mesh.cellNodes()}, {"cells", mesh.totalCells}};
   if (const auto& done = mesh.straightened; done.nodes > 0)
     entry["straightened"] = {{"folded_cells", done.folded},
                              {"cells", done.cells},

@@ -69,6 +69,21 @@ void addSticking(const contact::Contact& contact, int interface, const Solution&
     *count = mpi::sum(comm, *count);
 }
 
+/// Adds the forces of a coupling on a node and on those that it follows.
+void addCouplingForces(const mesh::Mesh& mesh, const constraints::CoupledNode& coupled,
+                       const ReadArray& forces, const ReadArray& others, Vec sums) {
+  const int dimension = mesh.dimension;
+  for (int d = 0; d < dimension; ++d) {
+    const PetscInt row = dimension * coupled.node + d;
+    const double force = forces[row] - others[row];
+    check(VecSetValue(sums, dimension * mesh.firstNode + row, force, ADD_VALUES));
+    for (const auto& master : coupled.masters)
+      for (int e = 0; e < dimension; ++e)
+        check(VecSetValue(sums, dimension * master.node + e, -master.block[d][e] * force,
+                          ADD_VALUES));
+  }
+}
+
 }  // namespace
 
 std::vector<Point> tangentialForces(const contact::Contact& contact, const Solution& solution,
@@ -195,6 +210,8 @@ void addTieForces(const contact::Contact& contact, Vec nodalForces, Vec contactF
             check(VecSetValue(ties, dimension * master + d, -weight * force, ADD_VALUES));
         }
       }
+      for (const auto& coupled : contact.interfaces.coupled)
+        if (coupled.level == level) addCouplingForces(mesh, coupled, forces, others, ties);
     }
     check(VecAssemblyBegin(ties));
     check(VecAssemblyEnd(ties));

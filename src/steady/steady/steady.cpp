@@ -370,7 +370,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
   if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
   const ReadArray forces(nodalForces), loads(load), grounded(springs), contacts(contactForces);
   for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
-    for (int d = 0; d < dimension; ++d) {
+    for (int d = 0; d < dimension && !mesh_.isRotation(mesh_.firstNode + node); ++d) {
       const int part = mesh_.nodePart[node];
       const PetscInt row = dimension * node + d;
       const double support =

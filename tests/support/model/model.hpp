@@ -70,7 +70,7 @@ inline elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
 
 /// Collective. From the options in force.
 inline interfaces::Interfaces findTies(mesh::Mesh& mesh) {
-  return ties::findTies(mesh, interfaces::Settings::given());
+  return ties::findTies(mesh, interfaces::Settings::given(), constraints::Settings::given());
 }
 
 /// The stages before the first solution. Contact borrows the mesh, which therefore keeps its

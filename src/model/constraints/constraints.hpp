@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Supports: clamped, guided and displaced groups of nodes, in any axes.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/constraints/settings.hpp"
+#include "model/mesh/mesh.hpp"
+#include "model/mesh/vector.hpp"
+
+namespace squeal::constraints {
+
+using mesh::Matrix3;
+using mesh::Point;
+
+/// A factor times a component of a node: the row of the component in nodal vectors of all ranks,
+/// dimension · global node + component.
+struct Term {
+  PetscInt row;
+  double factor;
+};
+
+/// A component of a node that depends on others by an equation:
+///   u = constant + Σ factor · others.
+struct DependentComponent {
+  PetscInt row;  ///< owned node · dimension + component
+  std::vector<Term> others;
+  double constant;  ///< m, or rad
+};
+
+/// The components that are held at the nodes owned by this rank. They refer to the axes of the
+/// node: x, y, z or, where a support is in other directions, turned axes. The second list of each
+/// node with turned axes has the held components first.
+struct Constraints {
+  std::vector<unsigned char> held;  ///< [owned node · dimension + component] 1 if held
+  std::vector<int> heldBy;  ///< [owned node · dimension + component] index into groups, or −1
+  std::vector<std::string> groups;  ///< groups with a clamp
+  /// [owned node · dimension + component] prescribed value where held, m, or rad
+  std::vector<double> displacement;
+  std::map<PetscInt, Matrix3> axes;           ///< [owned node] turned axes, by rows
+  bool anyTurned = false;                     ///< any rank has turned axes
+  std::vector<DependentComponent> dependent;  ///< owned by this rank
+  bool anyDependent = false;                  ///< on any rank
+  /// [owned node · dimension + component] 1 if supports act on the Cartesian component directly, or
+  /// on nodes that follow it
+  std::vector<unsigned char> supported;
+  std::vector<EquationSettings> equations;
+
+  /// Returns the direction of a component of an owned node.
+  Point direction(PetscInt node, int component) const;
+  /// Returns true if the supports of an owned node hold its displacement along a direction.
+  bool holds(PetscInt node, const Point& direction, int dimension) const;
+};
+
+/// Not collective. Returns the local node of a term of an equation on the rank that owns it, −1 on
+/// the others.
+PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term);
+
+/// Collective. Returns the supports. Throws Error for a component that is given twice or does not
+/// exist in the dimension, and for two groups that disagree. Warns of displacements of components
+/// that are not held.
+Constraints constraintsOf(const mesh::Mesh& mesh, const Settings& settings);
+
+}  // namespace squeal::constraints

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "model/constraints/settings.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "base/options/options.hpp"
+#include "base/system/error.hpp"
+#include "base/system/text.hpp"
+
+namespace squeal::constraints {
+namespace {
+
+const RealListOption positionOption("reference", "reference_<name>_position", "0,0,0", "m", anyReal,
+                                    "position of a reference node, which has a displacement and a "
+                                    "rotation");
+const TextOption centreOption("reference", "reference_<name>_centre_of", "",
+                              "group of nodes whose mean position is that of the reference node");
+const TextOption clampedOption(
+    "constraint", "constraint_<group>_clamped", "",
+    "fixed components (some of xyz) of the displacement of the group's nodes");
+const RealListOption displacementOption("constraint", "constraint_<group>_displacement", "0,0,0",
+                                        "m", anyReal,
+                                        "prescribed values of the clamped components");
+const TextOption rotationOption("constraint", "constraint_<group>_clamped_rotation", "",
+                                "fixed components (some of xyz) of the rotation of a reference "
+                                "node; in the plane z");
+const RealListOption angleOption("constraint", "constraint_<group>_angle", "0,0,0", "rad", anyReal,
+                                 "prescribed values of the clamped rotations");
+const TextOption frameOption("constraint", "constraint_<group>_frame", "",
+                             "name of the -frame whose axes are x, y, z of the clamped "
+                             "components; default: the global axes");
+const TextOption imageOption("constraint", "constraint_<group>_image_of", "",
+                             "group of which this group is the periodic image by translation");
+const TextOption referenceOption("coupling", "coupling_<name>_reference", "",
+                                 "reference node of a coupling");
+const TextOption nodesOption("coupling", "coupling_<name>_nodes", "",
+                             "groups of nodes, or reference nodes, that are coupled to it");
+const ChoiceOption kindOption("coupling", "coupling_<name>_kind", {"rigid", "distributed"}, "rigid",
+                              "rigid: the nodes move with the reference node as one rigid body "
+                              "(RBE2); distributed: the reference node follows their weighted mean "
+                              "motion (RBE3)");
+const TextOption componentsOption("coupling", "coupling_<name>_components", "xyz",
+                                  "components of the displacement that a rigid coupling couples; "
+                                  "the nodes are free along the others");
+const TextOption couplingFrameOption("coupling", "coupling_<name>_frame", "",
+                                     "name of the -frame whose axes are x, y, z of the coupled "
+                                     "components; default: the global axes");
+const RealListOption weightsOption(
+    "coupling", "coupling_<name>_weights", "1", "", positive,
+    "weights of a distributed coupling, one per group, each that of "
+    "every node of the group; those of a node in several groups add up");
+const FlagOption pinnedOption("coupling", "coupling_<name>_pinned", false,
+                              "rotations of reference nodes that follow a rigid coupling; on: they "
+                              "stay free; off: they follow");
+const TextOption equationOption("equation", "equation_<name>", "",
+                                "linear equation of displacements, such as a:x - 2*b:y + c:rz = "
+                                "0.1; a, b: groups of one node or reference nodes; x, y, z: "
+                                "displacement, m; rx, ry, rz: rotation of a reference node, rad");
+
+std::string dashed(const Option& option, const std::string& name) {
+  return "-" + option.fullName(name);
+}
+
+void requireOption(const std::vector<const Option*>& options, const Option& needed) {
+  for (const Option* option : options)
+    for (const auto& name : option->subjects())
+      if (!needed.given(name))
+        throw Error("option " + dashed(*option, name) + " needs " + dashed(needed, name));
+}
+
+std::vector<mesh::ReferenceRequest> referencesGiven() {
+  std::set<std::string> names;
+  for (const Option* option : std::vector<const Option*>{&positionOption, &centreOption})
+    for (const auto& name : option->subjects()) names.insert(name);
+  std::vector<mesh::ReferenceRequest> references;
+  for (const auto& name : names) {
+    const bool isCentre = centreOption.given(name);
+    if (isCentre && positionOption.given(name))
+      throw Error("options " + dashed(positionOption, name) + " and " + dashed(centreOption, name) +
+                  ": give the position once");
+    mesh::ReferenceRequest request{name, {}, {}, dashed(positionOption, name)};
+    if (isCentre) {
+      const std::string group = centreOption.get(name);
+      request.option = dashed(centreOption, name) + " " + group;
+      request.centreOf = {group, request.option};
+    } else {
+      request.position = positionOption.vector(name);
+    }
+    references.push_back(std::move(request));
+  }
+  return references;
+}
+
+bool isReference(const Settings& settings, const std::string& name) {
+  return std::ranges::find(settings.references, name, &mesh::ReferenceRequest::name) !=
+         settings.references.end();
+}
+
+/// Throws Error unless the components are letters of xyz, each once.
+void requireLetters(const std::string& components, const std::string& option) {
+  for (const char letter : components)
+    if (letter < 'x' || letter > 'z' || std::ranges::count(components, letter) > 1)
+      throw Error("option " + option + " " + components +
+                  ": must be some of the letters xyz, each once");
+}
+
+std::map<std::string, ClampSettings> clampsGiven(const Settings& settings) {
+  requireOption({&displacementOption}, clampedOption);
+  requireOption({&angleOption}, rotationOption);
+  std::map<std::string, ClampSettings> clamps;
+  for (const Option* option : std::vector<const Option*>{&clampedOption, &rotationOption})
+    for (const auto& group : option->subjects())
+      clamps[group] = {clampedOption.get(group), displacementOption.vector(group),
+                       rotationOption.get(group), angleOption.vector(group),
+                       frameOption.get(group)};
+  for (const auto& group : frameOption.subjects())
+    if (!clamps.contains(group)) requireOption({&frameOption}, clampedOption);
+  for (const auto& [group, clamp] : clamps) {
+    requireLetters(clamp.rotations, dashed(rotationOption, group));
+    if (!clamp.rotations.empty() && !isReference(settings, group))
+      throw Error("option " + dashed(rotationOption, group) + ": '" + group +
+                  "' is not a reference node; only these have a rotation. Make one with " +
+                  dashed(positionOption, group));
+  }
+  return clamps;
+}
+
+CouplingSettings couplingGiven(const std::string& name, const Settings& settings) {
+  CouplingSettings coupling;
+  coupling.name = name;
+  coupling.reference = referenceOption.get(name);
+  if (!isReference(settings, coupling.reference))
+    throw Error("option " + dashed(referenceOption, name) + " " + coupling.reference +
+                ": there is no such reference node; make it with " +
+                dashed(positionOption, coupling.reference) + " or " +
+                dashed(centreOption, coupling.reference));
+  const bool rigid = kindOption.get(name) == "rigid";
+  coupling.kind = rigid ? CouplingKind::rigid : CouplingKind::distributed;
+  for (const Option* option :
+       std::vector<const Option*>{&componentsOption, &couplingFrameOption, &pinnedOption})
+    if (!rigid && option->given(name))
+      throw Error("option " + dashed(*option, name) + " needs " + dashed(kindOption, name) +
+                  " rigid");
+  if (rigid && weightsOption.given(name))
+    throw Error("option " + dashed(weightsOption, name) + " needs " + dashed(kindOption, name) +
+                " distributed");
+  coupling.groups = nodesOption.list(name);
+  for (const auto& group : coupling.groups)
+    if (group == coupling.reference || std::ranges::count(coupling.groups, group) > 1)
+      throw Error("option " + dashed(nodesOption, name) + ": '" + group + "' " +
+                  (group == coupling.reference ? "is the reference node of this coupling"
+                                               : "is there twice"));
+  if (!rigid) {
+    coupling.weights = weightsOption.get(name);
+    if (!weightsOption.given(name)) coupling.weights.assign(coupling.groups.size(), 1);
+    if (coupling.weights.size() != coupling.groups.size())
+      throw Error(formatted("option %s: %zu weights for the %zu groups of %s; give one per group",
+                            dashed(weightsOption, name).c_str(), coupling.weights.size(),
+                            coupling.groups.size(), dashed(nodesOption, name).c_str()));
+  }
+  coupling.components = componentsOption.get(name);
+  requireLetters(coupling.components, dashed(componentsOption, name));
+  coupling.frame = couplingFrameOption.get(name);
+  coupling.pinned = pinnedOption.get(name);
+  return coupling;
+}
+
+std::vector<CouplingSettings> couplingsGiven(const Settings& settings) {
+  requireOption({&nodesOption, &kindOption, &componentsOption, &couplingFrameOption, &weightsOption,
+                 &pinnedOption},
+                referenceOption);
+  requireOption({&referenceOption}, nodesOption);
+  std::vector<CouplingSettings> couplings;
+  for (const auto& name : referenceOption.subjects())
+    couplings.push_back(couplingGiven(name, settings));
+  return couplings;
+}
+
+/// Reads an equation from its text.
+class EquationReader {
+ public:
+  EquationReader(const std::string& name, const std::string& text, const Settings& settings)
+      : option_(dashed(equationOption, name)), text_(text), settings_(settings) {
+    equation_.name = name, equation_.text = text;
+  }
+  EquationSettings read();
+
+ private:
+  [[noreturn]] void reject(const std::string& why) const {
+    throw Error("option " + option_ + " '" + text_ + "': " + why);
+  }
+  double number(const std::string& text) const;
+  void addTerm(const std::string& text, double sign);
+
+  std::string option_, text_;
+  const Settings& settings_;
+  EquationSettings equation_;
+};
+
+double EquationReader::number(const std::string& text) const {
+  double x = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, x);
+  if (error != std::errc() || stop != end || !std::isfinite(x))
+    reject("'" + text + "' is not a number");
+  return x;
+}
+
+void EquationReader::addTerm(const std::string& text, double sign) {
+  EquationTerm term{.factor = sign};
+  std::string place = text;
+  if (const auto star = text.find('*'); star != std::string::npos) {
+    term.factor *= number(trimmed(text.substr(0, star)));
+    place = trimmed(text.substr(star + 1));
+  }
+  const auto colon = place.rfind(':');
+  if (colon == std::string::npos)
+    reject("the term '" + text + "' has no component; write factor*group:component");
+  term.group = place.substr(0, colon);
+  std::string component = place.substr(colon + 1);
+  if (component.starts_with('r')) term.rotation = true, component.erase(0, 1);
+  if (component.size() != 1 || component[0] < 'x' || component[0] > 'z')
+    reject("the component of '" + text + "' must be x, y, z, rx, ry or rz");
+  if (term.rotation && !isReference(settings_, term.group))
+    reject("'" + term.group + "' is not a reference node; only these have a rotation");
+  if (term.factor == 0) reject("the factor of '" + text + "' is zero");
+  term.component = component[0] - 'x';
+  for (const auto& other : equation_.terms)
+    if (other.group == term.group && other.component == term.component &&
+        other.rotation == term.rotation)
+      reject("'" + place + "' is there twice");
+  equation_.terms.push_back(std::move(term));
+}
+
+EquationSettings EquationReader::read() {
+  const auto sides = split(text_, '=');
+  if (sides.size() != 2) reject("must have one equals sign, with the value after it");
+  equation_.value = number(trimmed(sides[1]));
+  // A sign separates terms only after a blank or at the beginning: group names may contain a
+  // hyphen, and numbers an exponent.
+  const std::string left = trimmed(sides[0]);
+  double sign = 1;
+  std::string term;
+  const auto finish = [&] {
+    if (!trimmed(term).empty()) addTerm(trimmed(term), sign);
+    term.clear();
+  };
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const bool separates = i == 0 || left[i - 1] == ' ';
+    if (separates && (left[i] == '+' || left[i] == '-')) {
+      finish();
+      sign = left[i] == '-' ? -1 : 1;
+    } else {
+      term += left[i];
+    }
+  }
+  finish();
+  if (equation_.terms.empty()) reject("has no term");
+  return equation_;
+}
+
+std::vector<EquationSettings> equationsGiven(const Settings& settings) {
+  std::vector<EquationSettings> equations;
+  for (const auto& name : equationOption.subjects())
+    equations.push_back(EquationReader(name, equationOption.get(name), settings).read());
+  return equations;
+}
+
+}  // namespace
+
+Settings Settings::given() {
+  Settings settings;
+  settings.frames = frame::framesGiven();
+  settings.references = referencesGiven();
+  settings.clamps = clampsGiven(settings);
+  settings.couplings = couplingsGiven(settings);
+  settings.equations = equationsGiven(settings);
+  for (const auto& image : imageOption.subjects()) settings.imageOf[image] = imageOption.get(image);
+  return settings;
+}
+
+std::vector<mesh::GroupRequest> constrainedGroups(const Settings& settings) {
+  std::vector<mesh::GroupRequest> requests;
+  for (const auto& [group, clamp] : settings.clamps)
+    requests.push_back(
+        {group, clamp.components.empty() ? clampedRotationName(group) : clampedName(group)});
+  for (const auto& coupling : settings.couplings)
+    for (const auto& group : coupling.groups)
+      requests.push_back({group, couplingNodesName(coupling.name)});
+  for (const auto& equation : settings.equations)
+    for (const auto& term : equation.terms)
+      requests.push_back({term.group, equationName(equation.name)});
+  return requests;
+}
+
+std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings) {
+  std::vector<mesh::PeriodicRequest> pairs;
+  for (const auto& [image, primary] : settings.imageOf)
+    pairs.push_back({image, primary, dashed(imageOption, image) + " " + primary});
+  return pairs;
+}
+
+std::string clampedName(const std::string& group) { return dashed(clampedOption, group); }
+std::string displacementName(const std::string& group) { return dashed(displacementOption, group); }
+std::string clampedRotationName(const std::string& group) { return dashed(rotationOption, group); }
+std::string clampFrameName(const std::string& group) { return dashed(frameOption, group); }
+std::string couplingNodesName(const std::string& coupling) { return dashed(nodesOption, coupling); }
+std::string couplingFrameName(const std::string& coupling) {
+  return dashed(couplingFrameOption, coupling);
+}
+std::string equationName(const std::string& equation) { return dashed(equationOption, equation); }
+
+}  // namespace squeal::constraints

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "model/frame/frame.hpp"
+
+#include <cmath>
+
+#include "base/system/error.hpp"
+#include "base/system/text.hpp"
+
+namespace squeal::frame {
+namespace {
+
+using mesh::cross;
+using mesh::length;
+using mesh::unit;
+
+/// Two directions are parallel if the sine of their angle is below this.
+constexpr double parallel = 1e-6;
+
+Point unitOf(const VectorValue& direction, const std::string& option, int dimension) {
+  const Point given = direction.in(dimension);
+  if (length(given) == 0)
+    throw Error("option " + option + ": the direction of an axis must not be zero");
+  return unit(given);
+}
+
+/// Returns a direction across a unit vector.
+Point across(const Point& e) {
+  std::size_t least = 0;
+  for (std::size_t d = 1; d < 3; ++d)
+    if (std::abs(e[d]) < std::abs(e[least])) least = d;
+  Point other{};
+  other[least] = 1;
+  return unit(cross(e, other));
+}
+
+}  // namespace
+
+Frame::Frame(const FrameSettings& settings, int dimension)
+    : name_(settings.name),
+      cylindrical_(settings.cylindrical),
+      origin_(settings.origin.in(dimension)) {
+  // An axis in the plane has two components, that of a cylindrical frame three.
+  const Point first =
+      unitOf(settings.first, settings.firstOption, settings.cylindrical ? 3 : dimension);
+  if (cylindrical_) {
+    if (dimension == 2 && std::abs(first[2]) != 1)
+      throw Error("option " + settings.firstOption +
+                  ": in the plane the axis of a cylindrical frame must be along z");
+    axes_[2] = first, axes_[0] = across(first), axes_[1] = cross(first, axes_[0]);
+    return;
+  }
+  const Point second = unitOf(settings.second, settings.secondOption, dimension),
+              normal = cross(first, second);
+  if (length(normal) < parallel)
+    throw Error("option " + settings.secondOption + ": is parallel to " + settings.firstOption +
+                "; give another direction in the plane of x and y");
+  if (dimension == 2 && (first[2] != 0 || second[2] != 0))
+    throw Error("option " + settings.firstOption + ": in the plane the axes have no component z");
+  axes_[0] = first, axes_[2] = unit(normal), axes_[1] = cross(axes_[2], first);
+  if (dimension == 2 && axes_[2][2] < 0)
+    axes_[2] = {0, 0, 1}, axes_[1] = mesh::scaled(axes_[1], -1);
+}
+
+Matrix3 Frame::axesAt(const Point& x) const {
+  if (!cylindrical_) return axes_;
+  const Point r = mesh::minus(x, origin_), radial = mesh::tangential(r, axes_[2]);
+  if (length(radial) <= parallel * length(r))
+    throw Error(
+        formatted("frame '%s': the point (%g, %g, %g) m lies on its axis, where the radial "
+                  "direction is not defined",
+                  name_.c_str(), x[0], x[1], x[2]));
+  const Point e = unit(radial);
+  return {e, cross(axes_[2], e), axes_[2]};
+}
+
+Frame named(const std::map<std::string, FrameSettings>& frames, const std::string& name,
+            const std::string& option, int dimension) {
+  if (name.empty()) return {};
+  if (const auto found = frames.find(name); found != frames.end())
+    return Frame(found->second, dimension);
+  std::vector<std::string> names;
+  for (const auto& [known, settings] : frames) names.push_back(known);
+  throw Error("option " + option + " " + name + ": there is no frame of this name; " +
+              (names.empty() ? "-frame_" + name + "_x or -frame_" + name + "_axis makes one"
+                             : "the frames are: " + joined(names)));
+}
+
+}  // namespace squeal::frame

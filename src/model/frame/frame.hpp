@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Local axes, named once and used by supports, couplings, loads and springs. Not collective.
+#include <map>
+#include <string>
+
+#include "model/frame/settings.hpp"
+#include "model/mesh/mesh.hpp"
+#include "model/mesh/vector.hpp"
+
+namespace squeal::frame {
+
+using mesh::Matrix3;
+using mesh::Point;
+
+/// A frame gives three orthonormal, right-handed axes at each point: the same everywhere if it is
+/// rectangular; radial, tangential and axial if it is cylindrical.
+class Frame {
+ public:
+  /// Makes the axes x, y, z.
+  Frame() = default;
+  /// Throws Error for directions that are zero or parallel and, if `dimension` is 2, for axes out
+  /// of the plane.
+  Frame(const FrameSettings& settings, int dimension);
+  /// Returns the axes at a point, by rows. Throws Error, naming the frame, at a point on the axis
+  /// of a cylindrical one.
+  Matrix3 axesAt(const Point& x) const;
+  bool isGlobal() const { return name_.empty(); }
+
+ private:
+  std::string name_;
+  bool cylindrical_ = false;
+  Point origin_{};
+  Matrix3 axes_{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+};
+
+/// Returns the frame that an option names, the global one for an empty name. Throws Error, naming
+/// the option and the frames, if there is none of this name.
+Frame named(const std::map<std::string, FrameSettings>& frames, const std::string& name,
+            const std::string& option, int dimension);
+
+}  // namespace squeal::frame

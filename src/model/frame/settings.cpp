@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "model/frame/settings.hpp"
+
+#include <set>
+
+#include "base/options/options.hpp"
+#include "base/system/error.hpp"
+
+namespace squeal::frame {
+namespace {
+
+const RealListOption originOption("frame", "frame_<name>_origin", "0,0,0", "m", anyReal,
+                                  "origin of local axes; cylindrical: a point on the axis");
+const RealListOption xOption("frame", "frame_<name>_x", "1,0,0", "", anyReal,
+                             "direction of the local x axis of rectangular axes");
+const RealListOption xyOption("frame", "frame_<name>_xy", "0,1,0", "", anyReal,
+                              "another direction in the local plane of x and y");
+const RealListOption axisOption("frame", "frame_<name>_axis", "0,0,1", "", anyReal,
+                                "axis of cylindrical axes: x is radial, y tangential, z axial");
+
+}  // namespace
+
+std::map<std::string, FrameSettings> framesGiven() {
+  std::set<std::string> names;
+  for (const Option* option :
+       std::vector<const Option*>{&originOption, &xOption, &xyOption, &axisOption})
+    for (const auto& name : option->subjects()) names.insert(name);
+  std::map<std::string, FrameSettings> frames;
+  for (const auto& name : names) {
+    const bool cylindrical = axisOption.given(name), rectangular = xOption.given(name);
+    if (cylindrical == rectangular)
+      throw Error("frame '" + name + "': give either -" + xOption.fullName(name) +
+                  ", for rectangular axes, or -" + axisOption.fullName(name) +
+                  ", for cylindrical ones");
+    if (cylindrical && xyOption.given(name))
+      throw Error("option -" + xyOption.fullName(name) + " needs -" + xOption.fullName(name));
+    frames[name] = {.name = name,
+                    .cylindrical = cylindrical,
+                    .origin = originOption.vector(name),
+                    .first = (cylindrical ? axisOption : xOption).vector(name),
+                    .second = xyOption.vector(name),
+                    .firstOption = "-" + (cylindrical ? axisOption : xOption).fullName(name),
+                    .secondOption = "-" + xyOption.fullName(name)};
+  }
+  return frames;
+}
+
+}  // namespace squeal::frame

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Settings of the local axes. Not collective: all ranks have the same options, and therefore the
+/// same results and Errors.
+#include <map>
+#include <string>
+
+#include "base/options/option_types.hpp"
+
+namespace squeal::frame {
+
+struct FrameSettings {
+  std::string name;
+  bool cylindrical = false;
+  VectorValue origin = {};  ///< m; of a cylindrical frame a point on its axis
+  VectorValue first = {};   ///< direction of x or, if cylindrical, of the axis
+  VectorValue second = {};  ///< another direction in the plane of x and y, if rectangular
+  std::string firstOption, secondOption;  ///< with their dash, for messages
+};
+
+/// Returns the frames of the options, [name]. Throws Error for a frame without its directions, and
+/// for one with those of both kinds.
+std::map<std::string, FrameSettings> framesGiven();
+
+}  // namespace squeal::frame

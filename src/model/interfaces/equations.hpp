@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Equations between components of nodes: those of the options, and supports of nodes that follow
+/// others. A tied node follows its masters, so a support of the node acts on the masters:
+/// Σ_l P_il u_l = ū in the held components; likewise the reference node of a distributed coupling.
+#include "model/interfaces/nodes.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::interfaces {
+
+/// Collective. Solves these equations for components of nodes that follow no other. A component
+/// with a definite value is held: Constraints::held. Others depend on components of further nodes:
+/// Constraints::dependent. If the support of a tied node depends on those of other nodes within
+/// `leastPivot`, the support holds the tied node and constrains no master: TiedNode::apart. Sets
+/// InterfaceReport::carried. Throws Error, naming support or equation and position, for
+/// contradictory equations, and for a component that would depend on contact nodes.
+void solveEquations(const mesh::Mesh& mesh, Interfaces& all);
+
+/// The least weight of a pivot in its equation. With a smaller bound, nodes between the held ones
+/// would be held too, by equations that differ only by quadrature errors.
+constexpr double leastPivot = 0.05;
+
+}  // namespace squeal::interfaces
