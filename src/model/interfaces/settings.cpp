@@ -40,9 +40,9 @@ const RealOption frictionOption(
     "sliding interface: fixed coefficient of friction that replaces -flutter_friction if given; "
     "sticking interface: limit of the ratio of tangential to normal force of each node");
 const FlagOption releaseOption("contact", "contact_<interface>_release", false,
-                               "sliding of the nodes of a sticking interface whose force ratio "
-                               "exceeds -contact_<interface>_friction, with that coefficient; off: "
-                               "these nodes stick and are reported");
+                               "release of the nodes of a sticking interface that exceed the limit "
+                               "-contact_<interface>_friction; on: they slide, with this limit as "
+                               "coefficient of friction; off: they stick and are reported");
 const WordOrRealOption gapOption(
     "contact", "contact_<interface>_gap", 0.0, "m", "measured",
     "initial gap, without load; measured: the distance between the two "
