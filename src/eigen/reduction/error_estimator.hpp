@@ -27,7 +27,8 @@ class ErrorEstimator {
                  const Settings& settings);
   /// Makes errorRatio() return zero, for a basis that the program never corrects.
   void acceptAll() { acceptsAll_ = true; }
-  /// Records that the basis no longer contains the modes.
+  /// Records that the basis no longer contains the free modes. The estimates then use only the
+  /// right residuals.
   void dropModes() { highestMode_ = 0; }
   /// Reads the ratio of the norms of the residuals that were last added to the basis.
   void recordCorrection();

@@ -13,8 +13,9 @@
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
 /// A selection B removes held components and periodic images from z, so that T = A B.
 ///
-/// On tri6 and quad8 faces, z contains gap coefficients h instead of the nodal gaps g = E h,
-/// because the shape functions of h have positive integrals [M.12].
+/// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
+/// nodal gaps g = E h [M.12]. With h, a uniform pressure has positive forces at all nodes.
+/// gap_basis.hpp defines E.
 ///
 /// Friction enters through two matrices with a row per contact node. N extracts the normal forces
 /// from the nodal forces r. S computes the slip from the displacement jump [u] = u_P − u_D between
