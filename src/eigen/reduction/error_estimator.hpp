@@ -38,9 +38,9 @@ class ErrorEstimator {
   void estimate(PointState& state, const linalg::DenseProblem& problem) const;
   /// Returns the estimate of |δs|, 1/s.
   double absoluteError(const PointSolution& solution, std::size_t pair) const;
-  /// Returns true if the error of the eigenvalue is within the tolerance. If s is zero within its
-  /// error, the error is divided by the lowest angular frequency ω_1 of the free modes instead of
-  /// |s|. For a problem in s², the error of s² is divided by ω_1².
+  /// Returns true if the relative error |δs|/|s| of the eigenvalue is within the tolerance. If s is
+  /// zero within its error, the lowest angular frequency ω_1 of the free modes replaces |s|. The
+  /// ratio is then squared if the problem has only even powers of s.
   bool isExactEnough(const PointSolution& solution, const pencil::Eigenvalue& e) const;
   /// Returns the backward error divided by its limit, or the same ratio of the error estimate if it
   /// is larger. It is 0 if only round-off remains.

@@ -97,10 +97,10 @@ struct Contact {
   bool hasSticking() const;
   /// Returns true if any interface has friction at `swept`. The same on all ranks.
   bool hasFriction(double swept) const;
-  /// Collective. Returns S_a (N×n) for a = `exponent`, 0 or 1. The gap row of a contact node with
-  /// slides[contact node] set computes E⁻¹ c φ τ·[u] from x, with u = T x. Here c is the fixed
-  /// coefficient of the interface if a = 0, and its factor on the swept friction if a = 1; c = 0 if
-  /// the interface has none. All other rows are empty.
+  /// Collective. Returns S_a (N×n) for a = `exponent`, 0 or 1. The rows are S x = E⁻¹ c φ τ·[u]
+  /// with u = T x, at the gap of each contact node whose flag in `slides` is set; all other rows
+  /// are empty. If a = 0, c is the fixed coefficient of the interface. If a = 1, c is its factor on
+  /// the swept friction. If the interface has no such coefficient, c = 0.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, int exponent) const;
   /// Collective. Returns S_0 + f S_1 at the swept friction f.

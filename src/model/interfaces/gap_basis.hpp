@@ -22,8 +22,7 @@
 namespace squeal::interfaces {
 
 /// The matrices of the change of basis. They act on the last component of each node, which contains
-/// the gap, and copy the other components. Columns of periodic images are added to those of their
-/// primary nodes.
+/// the gap, and copy the other components. The gap of a periodic image is that of its primary node.
 struct GapBasis {
   OwnedMat matrix;   ///< E, N×N; null if the identity
   OwnedMat inverse;  ///< E⁻¹, N×N; null if the identity

@@ -91,7 +91,8 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///
 /// Convective terms are those of matter that carries its displacement along. Without them
 /// (approximation A, -motion_convective off) the problem is linear except for the inequalities.
-/// With them, S depends on u through the relative velocity w = −v (V + D u_D).
+/// With them, S depends on u through the relative velocity w = −v (V + D u_D), where V is the base
+/// velocity of the disc and D u_D = (V·∇) u_D the convected part.
 ///
 /// A node of a sticking interface may be held (it sticks), free or released. A free node has
 /// tangential unknowns and no friction. A released node has tangential unknowns and slides: its row
