@@ -65,7 +65,7 @@ class ErrorEstimator {
   bool acceptsAll_ = false;
   double lowestMode_ = 0, highestMode_ = 0;  // rad/s
   double rightRatio_ = 1, leftRatio_ = 1;    // ratios of norms of right and left residuals
-  double measuredRatio_ = 0;                 // largest ratio that unconfirmed() has measured
+  double measuredRatio_ = 0;                 // largest right ratio that unconfirmed() has measured
   double confirmed_ = 0;                     // largest estimate that unconfirmed() has checked
 };
 

@@ -99,8 +99,8 @@ struct Contact {
   bool hasFriction(double swept) const;
   /// Collective. Returns S_a (N×n) for a = `exponent`, 0 or 1. The rows are S x = E⁻¹ c φ τ·[u]
   /// with u = T x, at the gap of each contact node whose flag in `slides` is set; all other rows
-  /// are empty. If a = 0, c is the fixed coefficient of the interface. If a = 1, c is its factor on
-  /// the swept friction. If the interface has no such coefficient, c = 0.
+  /// are empty. If a = 0, c is the fixed coefficient of the node. If a = 1, c is its factor on the
+  /// swept friction. If the node has no such coefficient, c = 0.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, int exponent) const;
   /// Collective. Returns S_0 + f S_1 at the swept friction f.

@@ -5,8 +5,8 @@
 /// where g is the gap, R_N and R_T the normal and the friction force, f the coefficient of
 /// friction, φ the friction law and τ the sliding direction. src/README.md explains the other
 /// symbols, and docs/method.md has the equations in brackets. Nodal vectors have N entries, one per
-/// component of each node; [owned contact node] marks a list with one entry per contact node of
-/// this rank.
+/// component of each node; [contact node] or [owned contact node] marks a list with one entry per
+/// contact node of this rank.
 #include <string>
 #include <vector>
 
