@@ -30,13 +30,16 @@ bool Range::contains(double x) const {
   return (openLow ? x > low : x >= low) && (openHigh ? x < high : x <= high);
 }
 
-std::string Range::text() const {
+std::string Range::bounds() const {
   std::string words;
-  if (std::isfinite(low)) words += (openLow ? "> " : ">= ") + shortest(low);
+  if (std::isfinite(low)) words += (openLow ? " > " : " >= ") + shortest(low);
   if (std::isfinite(high))
-    words += (words.empty() ? "" : " and ") + std::string(openHigh ? "< " : "<= ") + shortest(high);
-  return words.empty() ? "a number" : "a number " + words;
+    words +=
+        (words.empty() ? " " : " and ") + std::string(openHigh ? "< " : "<= ") + shortest(high);
+  return words;
 }
+
+std::string Range::text() const { return "a number" + bounds(); }
 
 RealOption::RealOption(std::string stage, std::string name, std::optional<double> byDefault,
                        std::string unit, Range range, std::string meaning)
@@ -80,8 +83,8 @@ RealListOption::RealListOption(std::string stage, std::string name, std::string 
                                std::string unit, Range range, std::string meaning, bool ranges)
     : Option(std::move(stage), std::move(name), std::move(byDefault), std::move(unit),
              std::move(meaning),
-             std::string(ranges ? "first:last:step or " : "") + "a comma-separated list, each " +
-                 range.text()),
+             std::string(ranges ? "first:last:step or " : "") +
+                 "a comma-separated list of numbers" + range.bounds()),
       range_(range),
       ranges_(ranges) {}
 

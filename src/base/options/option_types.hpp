@@ -17,6 +17,8 @@ struct Range {
          high = std::numeric_limits<double>::infinity();
   bool openLow = false, openHigh = false;
   bool contains(double x) const;
+  /// Returns the ends, such as " >= 0"; empty without ends.
+  std::string bounds() const;
   std::string text() const;
 };
 inline constexpr Range anyReal{};

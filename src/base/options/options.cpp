@@ -189,7 +189,7 @@ std::string manual(const std::string& wanted) {
       "squeal -options_file CASE.yaml [-option value …]: flutter instability of brakes in steady "
       "sliding (brake squeal)\n"
       "Lengths in m, masses in kg, times in s, unless the case uses another consistent system. <…> "
-      "stands for a name.\n"
+      "is a name that you choose or that the mesh contains.\n"
       "Numbers are zero or have a magnitude between 1e-50 and 1e50. Lists are separated by commas; "
       "quote a list that contains blanks.\n";
   const auto options = Option::all();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Error estimates for the eigenvalues of the reduced problem as approximations of the full one.
+/// Error estimates for the eigenvalues of the reduced problem as approximations of the eigenvalues
+/// of the full problem. docs/method.md, section 11, has the equations in brackets.
 #include <vector>
 
 #include "base/checkpoint/archive.hpp"
@@ -11,39 +12,44 @@
 
 namespace squeal::reduction {
 
-/// Estimates |δs|/|s| by [M.36] from sketches of residuals. The ratio of the norms of K0⁻¹ and
-/// diag(K0)⁻¹, computed from residuals that are solved for, converts the latter norm into the
-/// former.
+/// Estimates the relative error |δs|/|s| of an eigenvalue s by [M.36]. The estimate needs the
+/// residual in the norm √(rᵀ K0⁻¹ r), which takes a solve with K0. A sketch, a product of the
+/// residual with few random vectors [M.39], gives the norm √(rᵀ diag(K0)⁻¹ r) cheaply. The
+/// estimator measures the ratio of the two norms for a few residuals by solving with K0. It
+/// multiplies the cheap norm by the largest ratio.
 class ErrorEstimator {
  public:
   /// A backward error below this is round-off and needs no correction.
   static constexpr double rounding = 1e-14;
-  /// Borrows the basis during the lifetime of the object. `frequencies` belong to the free modes
-  /// that start it, rad/s, ascending.
+  /// Borrows the basis during the lifetime of the object. `frequencies` are those of the free modes
+  /// in the basis, rad/s, ascending.
   ErrorEstimator(ProjectedBasis& basis, const std::vector<double>& frequencies,
                  const Settings& settings);
-  /// Makes errorRatio() return zero, for a basis that is never corrected.
+  /// Makes errorRatio() return zero, for a basis that the program never corrects.
   void acceptAll() { acceptsAll_ = true; }
-  /// Records that the basis no longer contains the modes.
+  /// Records that the basis no longer contains the free modes. The estimates then use only the
+  /// right residuals.
   void dropModes() { highestMode_ = 0; }
-  /// Records a correction by residuals, whose ratio of norms the basis provides.
+  /// Reads the ratio of the norms of the residuals that were last added to the basis.
   void recordCorrection();
 
-  /// Not collective. Sets the errors of the pairs of a point, whose projected problem is `problem`.
+  /// Not collective. Sets the errors of the eigenpairs of a point of the sweep. `problem` is the
+  /// problem projected on the basis at that point.
   void estimate(PointState& state, const linalg::DenseProblem& problem) const;
   /// Returns the estimate of |δs|, 1/s.
   double absoluteError(const PointSolution& solution, std::size_t pair) const;
-  /// Returns true if the error is within the tolerance. If s is zero within its error, the error is
-  /// relative to the lowest free mode: in s itself, or in s² for a problem in s².
+  /// Returns true if the relative error |δs|/|s| of the eigenvalue is within the tolerance. If s is
+  /// zero within its error, the lowest angular frequency ω_1 of the free modes replaces |s|. The
+  /// ratio is then squared if the problem has only even powers of s.
   bool isExactEnough(const PointSolution& solution, const pencil::Eigenvalue& e) const;
-  /// Returns the ratio of the errors of a pair to the tolerances. It is 0 if only round-off
-  /// remains.
+  /// Returns the backward error divided by its limit, or the same ratio of the error estimate if it
+  /// is larger. It is 0 if only round-off remains.
   double errorRatio(const PointSolution& solution, std::size_t pair) const;
-  /// Returns true if all errors of the point are within the tolerances.
+  /// Returns true if all errors of the point are within their limits.
   bool isAccurate(const PointSolution& solution) const;
-  /// Collective. Solves for the residuals of the pair with the largest estimate of all points so
-  /// far. If this shows that the estimates are too small, returns the points that are no longer
-  /// accurate.
+  /// Collective. Measures the ratio of the norms for the residuals of the eigenpair with the
+  /// largest estimate. If this raises the ratio, all estimates grow. Returns the points that are
+  /// not accurate afterwards; none if no estimate exceeds those already checked.
   std::vector<PointState*> unconfirmed(std::vector<PointState>& states);
   /// Not collective. Writes or reads the ratios.
   void serialise(checkpoint::Archive& archive);
@@ -58,9 +64,9 @@ class ErrorEstimator {
   const Settings settings_;
   bool acceptsAll_ = false;
   double lowestMode_ = 0, highestMode_ = 0;  // rad/s
-  double rightRatio_ = 1, leftRatio_ = 1;    // Basis::energyRatios of the residuals
-  double measuredRatio_ = 0;                 // of the right residuals that a solve has checked
-  double confirmed_ = 0;                     // the largest estimate that a solve has checked
+  double rightRatio_ = 1, leftRatio_ = 1;    // ratios of norms of right and left residuals
+  double measuredRatio_ = 0;                 // largest right ratio that unconfirmed() has measured
+  double confirmed_ = 0;                     // largest estimate that unconfirmed() has checked
 };
 
 }  // namespace squeal::reduction

@@ -65,8 +65,9 @@ std::string TrackedLine::statement() const {
     text += formatted(
         "all tracked to friction %g, where there are %d: %d entered and %d left across the edge",
         last.friction, branches.inBandAt(last), branches.entered, branches.left);
-    if (activeSet.size() > 1)
-      text += formatted(", through %zu changes of the active set", activeSet.size() - 1);
+    if (const auto changes = activeSet.size() - 1; activeSet.size() > 1)
+      text +=
+          formatted(", through %zu change%s of the active set", changes, changes == 1 ? "" : "s");
   } else {
     text += "not all tracked:";
     for (const auto& gap : branches.gaps)
@@ -78,7 +79,7 @@ std::string TrackedLine::statement() const {
                       criticals.size(), open == 1 ? "is" : "are");
   return wholeSpace ? text
                     : text +
-                          "; assumed: the basis holds every eigenvalue of the full problem that "
+                          "; assumed: the basis contains every eigenvalue of the full problem that "
                           "crosses the edge of the band";
 }
 

@@ -2,24 +2,31 @@
 #pragma once
 /// Contact as a change of variables, with trial functions T and test functions L(f):
 ///   u = T x + p u0 + u_g,   L(f) = T + f Nᵀ S   [3.6].
+/// Here u are the nodal displacements, x the unknowns, and f the coefficient of friction. u0 are
+/// the prescribed displacements, scaled by the pressure factor p, and u_g closes the initial gaps.
+/// src/README.md lists all symbols, and docs/method.md has the equations in brackets. Lists marked
+/// [contact node] have one entry per contact node of this rank.
 ///
-/// At each contact node of the pad, the variables z are the tangential displacements and the gap g
-/// instead of the Cartesian displacement; at all other nodes they are the Cartesian displacement:
+/// At each contact node of the pad, the variables z are the tangential displacements and the gap g.
+/// At all other nodes they are the Cartesian displacement. With the matrix A of this change and the
+/// unit normal n from disc (D) to pad (P):
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
-/// A selection B removes held components and periodic images from z: T = A B.
+/// A selection B removes held components and periodic images from z, so that T = A B.
 ///
-/// On tri6 and quad8 faces, z contains gap coefficients h instead of the nodal gaps g = E h,
-/// because the shape functions of h have positive integrals [M.12].
+/// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
+/// nodal gaps g = E h [M.12]. With h, a uniform pressure has positive forces at all nodes.
+/// gap_basis.hpp defines E.
 ///
-/// Friction is a product of two matrices with a row per contact node. N gives the normal force from
-/// the nodal forces r, and S gives the slip of u = T x, with the jump [u] = u_P − u_D:
-///   R_N = N r,   S x = E⁻¹ φ τ·[u].
+/// Friction enters through two matrices with a row per contact node. N extracts the normal forces
+/// from the nodal forces r. S computes the slip from the displacement jump [u] = u_P − u_D between
+/// pad and disc, along the sliding direction τ, weighted by the friction law φ:
+///   R_N = N r,   S x = E⁻¹ φ τ·[u],   u = T x.
 /// The test functions add the friction force due to R_N to the tangential rows:
-///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r,
-/// that is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc. If interfaces have
-/// their own coefficients, S_0 + f S_1 replaces f S. S_0 holds the rows of interfaces with a fixed
-/// coefficient, scaled by it; S_1 holds the rows of interfaces with the swept friction, scaled by
-/// their factors [M.56].
+///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.
+/// This force is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc. If interfaces
+/// have their own coefficients, S_0 + f S_1 replaces f S [M.56]. S_0 has the rows of interfaces
+/// with a fixed coefficient, multiplied by it. S_1 has the rows of the other interfaces, multiplied
+/// by their factor on the swept friction f.
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -38,10 +45,10 @@ using interfaces::Role;
 
 /// The sliding of a contact node in steady motion.
 struct Slip {
-  Point direction{};                    ///< τ = w/|w|; zero where |w| = 0
-  double speed = 0;                     ///< |w|, m/s
-  double law = 1;                       ///< φ(|w|)
-  double slope = 0;                     ///< dφ/d|w|, s/m
+  Point direction{};  ///< τ = w/|w|, w the relative velocity of the pad; zero where |w| = 0
+  double speed = 0;   ///< |w|, m/s
+  double law = 1;     ///< friction law φ(|w|)
+  double slope = 0;   ///< dφ/d|w|, s/m
   interfaces::Coefficient coefficient;  ///< factor of φ; zero without sliding
 
   /// Return the coefficient of friction of the node for the value `swept` of the sweep, and its
@@ -55,7 +62,7 @@ struct Contact {
   const mesh::Mesh* mesh = nullptr;  ///< borrowed
   interfaces::Interfaces interfaces;
   FrictionLaw law;
-  OwnedMat periodic;  ///< P, N×N: copies u of primaries to their images; the identity elsewhere
+  OwnedMat periodic;  ///< P, N×N: copies the displacement of each node to its periodic image
   Kinematics kinematics;
   Sliding sliding;
 
@@ -66,31 +73,34 @@ struct Contact {
   /// Returns true if the slip is the same at all points of a sweep, that is, without convective
   /// terms and with a constant friction law.
   bool slipIsConstant() const { return !sliding.convected && law.constant(); }
-  /// Collective. Returns the slip, [contact node], at the speed factor v, from the part of
-  ///   w = −v (V + D u_D)   [2.15]
-  /// in the tangent plane. If `displacement` u is null, or without convective terms, w = −v V.
+  /// Collective. Returns the slip, [contact node], at the speed factor v. The relative velocity is
+  ///   w = −v (V + D u_D)   [2.15],
+  /// projected on the tangent plane. Without convective terms, or if `displacement` u is null, it
+  /// is w = −v V.
   std::vector<Slip> slip(double speed, Vec displacement) const;
-  /// Collective. Converts normal forces R_N to the normal components of the nodal contact forces,
-  /// E⁻ᵀ R_N; both in newtons, [contact node]. On faces whose E is the identity they are equal.
+  /// Collective. Returns the normal components E⁻ᵀ R_N of the nodal contact forces, N, from normal
+  /// forces R_N, N; both [contact node]. They are equal on faces whose E is the identity.
   std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
-  /// Collective. Returns the same without R_N of the nodes where closed[contact node] is not set.
+  /// Collective. Returns the same, with R_N = 0 at the nodes that are not closed.
   std::vector<double> nodalForce(std::vector<double> normalForce, const Mask& closed) const;
-  /// Collective. Returns the gaps at the nodes, E h, m, from the gap unknowns, both [contact node].
+  /// Collective. Returns the gaps E h at the nodes, m, from the gap unknowns h, m; both [contact
+  /// node].
   std::vector<double> nodalGap(const std::vector<double>& gap) const;
-  /// Collective. Returns Eᵀ v of forces v at the nodes, both [contact node].
+  /// Collective. Returns Eᵀ v for forces v at the nodes; both [contact node].
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
-  /// Collective. Returns E⁻¹ v of values v at the nodes, both [contact node].
+  /// Collective. Returns E⁻¹ v for gaps v at the nodes; both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
-  /// Returns the exponents with which the swept friction enters the coefficients of the interfaces:
-  /// 0 for a fixed coefficient, 1 for a swept one. The same on all ranks.
+  /// Returns the powers of the swept friction in the coefficients of the interfaces: 0 if any
+  /// coefficient is fixed, 1 if any is swept. The same on all ranks.
   std::vector<int> frictionExponents() const;
   /// Returns true if any interface sticks. The same on all ranks.
   bool hasSticking() const;
   /// Returns true if any interface has friction at `swept`. The same on all ranks.
   bool hasFriction(double swept) const;
-  /// Collective. Returns S_a (N×n) for a = `exponent`. The gap row of each contact node i with
-  /// slides[i] set gives E⁻¹ c φ τ·[u] of u = T x, where c is the part of the coefficient with the
-  /// power a of the swept friction. All other rows are empty.
+  /// Collective. Returns S_a (N×n) for a = `exponent`, 0 or 1. The rows are S x = E⁻¹ c φ τ·[u]
+  /// with u = T x, at the gap of each contact node whose flag in `slides` is set; all other rows
+  /// are empty. If a = 0, c is the fixed coefficient of the node. If a = 1, c is its factor on the
+  /// swept friction. If the node has no such coefficient, c = 0.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, int exponent) const;
   /// Collective. Returns S_0 + f S_1 at the swept friction f.

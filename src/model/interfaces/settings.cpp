@@ -14,10 +14,12 @@ namespace {
 const std::vector<std::string> roleNames{"sliding", "sticking", "frictionless", "tied"},
     slaveNames{"finer", "pad", "disc"};
 
-const TextOption padOption("contact", "contact_<interface>_pad", "",
-                           "surface group of the pad side of an interface");
-const TextOption discOption("contact", "contact_<interface>_disc", "",
-                            "surface group of the disc side; the two meshes need not match");
+const TextOption padOption(
+    "contact", "contact_<interface>_pad", "",
+    "pad side of an interface (a pair of surfaces in contact): a named surface of the mesh");
+const TextOption discOption(
+    "contact", "contact_<interface>_disc", "",
+    "disc side of an interface: a named surface; the two meshes need not match");
 const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obstacle_velocity",
                                             "0,0,0", "m/s", anyReal,
                                             "sliding velocity, in the plane of the pad face, of a "
@@ -30,25 +32,27 @@ const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, 
                               "velocity; sticking: no tangential motion; frictionless: no "
                               "tangential force; tied: bonded");
 const RealOption factorOption("contact", "contact_<interface>_friction_factor", 1.0, "",
-                              nonNegative, "factor on -flutter_friction of a sliding interface");
+                              nonNegative,
+                              "coefficient of friction of a sliding interface divided by "
+                              "-flutter_friction");
 const RealOption frictionOption(
     "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
-    "fixed coefficient of friction of a sliding interface, used instead of -flutter_friction if "
-    "given; sticking interface: largest ratio of tangential to normal force at which a node "
-    "sticks");
+    "sliding interface: fixed coefficient of friction that replaces -flutter_friction if given; "
+    "sticking interface: limit of the ratio of tangential to normal force of each node");
 const FlagOption releaseOption("contact", "contact_<interface>_release", false,
-                               "on: nodes of a sticking interface beyond "
-                               "-contact_<interface>_friction slide, with that coefficient of "
-                               "friction; off: they stick and are reported");
-const WordOrRealOption gapOption("contact", "contact_<interface>_gap", 0.0, "m", "measured",
-                                 "initial gap, without load; measured: the distance between the "
-                                 "surfaces of the mesh; negative: interference fit");
+                               "release of the nodes of a sticking interface that exceed the limit "
+                               "-contact_<interface>_friction; on: they slide, with this limit as "
+                               "coefficient of friction; off: they stick and are reported");
+const WordOrRealOption gapOption(
+    "contact", "contact_<interface>_gap", 0.0, "m", "measured",
+    "initial gap, without load; measured: the distance between the two "
+    "surfaces of the mesh; negative: interference fit");
 const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
-                               "slave side of an interface whose meshes do not match: its nodes "
-                               "carry the gap unknowns");
+                               "side whose nodes carry the gaps if the two meshes do not match; "
+                               "finer: the side with the finer mesh");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
-                              "largest distance at which faces of meshes that do not match are "
-                              "paired; 0 = automatic (half the size of a face)");
+                              "largest distance between two faces that the program pairs if the "
+                              "two meshes do not match; 0 = automatic (half the size of a face)");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
     "slave surface group of a tie, preferably the one with the finer mesh");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Results of the stages after the steady states, for a mesh and for matrices from files.
+/// Results of all stages after steady sliding, for a mesh and for matrices from files.
 #include <mpi.h>
 
 #include <string>
@@ -11,17 +11,19 @@
 
 namespace squeal::analysis {
 
-/// Eigenvalues, and what follows from them.
+/// The eigenvalues of a sweep, the onset of nonlinearity of its modes, and the motions after
+/// flutter.
 struct Flutter {
   std::vector<sweep_solver::ModalSegment> segments = {};
-  std::vector<regime::ModeOnset> onsets = {};  ///< of the unstable modes whose shapes are stored
+  std::vector<regime::ModeOnset> onsets = {};  ///< first separation, stick or slip of the stored
+                                               ///< unstable modes as they grow
   std::vector<regime::Study> regimes = {};     ///< motions after flutter
-  /// Failures, each with its point and remedy, which leave all other results valid. They have been
-  /// printed.
+  /// Messages of failures, each with the point of the sweep and the remedy. All other results are
+  /// valid. The program has already printed the messages.
   std::vector<std::string> failures = {};
-  bool complete = true;  ///< false if the run has been asked to stop
+  bool complete = true;  ///< false if a signal has stopped the run
 
-  /// Not collective. Adds the reason why a stage has no result, and prints it.
+  /// Not collective. Adds and prints the reason why a stage has no result.
   void addFailure(MPI_Comm comm, const std::string& reason);
   /// Adds the results of further points. `complete` becomes that of `more`.
   void append(Flutter more);

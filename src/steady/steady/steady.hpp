@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady sliding (paper, section 3): equilibrium with
-///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4].
+/// Steady sliding: equilibrium with unilateral contact and Coulomb friction,
+///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4],
+/// where g is the gap, R_N and R_T the normal and the friction force, f the coefficient of
+/// friction, φ the friction law and τ the sliding direction. src/README.md explains the other
+/// symbols, and docs/method.md has the equations in brackets. Nodal vectors have N entries, one per
+/// component of each node; [contact node] or [owned contact node] marks a list with one entry per
+/// contact node of this rank.
 #include <string>
 #include <vector>
 
@@ -17,12 +22,12 @@ namespace squeal::steady {
 
 /// The steady state of one contact node.
 struct ContactState {
-  double gap = 0;  ///< n·[u], m
-  double coefficient =
-      0;  ///< gap unknown h (g = E h), m, ≥ 0; equal to the gap except on tri6 and quad8
+  double gap = 0;  ///< n·(u_P − u_D), m
+  /// Gap unknown h, m, ≥ 0. It differs from the gap only on faces tri6 and quad8 (gap_basis.hpp).
+  double coefficient = 0;
   double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
   double pressure = 0;     ///< R_N over the nodal area, Pa
-  Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces the reaction
+  Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces the tangential reaction
 };
 
 /// The contact forces of one interface.
@@ -30,18 +35,17 @@ struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
   Point moment{};  ///< of both forces on the pad about the origin, N·m (in plane problems: along z)
-  /// Largest |R_T| / R_N of the closed, held nodes of a sticking interface: the least coefficient
-  /// of friction that makes them stick; zero on other interfaces.
+  /// Largest |R_T| / R_N of the closed nodes of a sticking interface that stick: the least
+  /// coefficient of friction that the interface needs. Zero on other interfaces.
   double leastFriction = 0;
   Point worst{};  ///< position of the node with this ratio, m
   std::optional<double>
       stickingLimit;       ///< coefficient of friction of a sticking interface, if given
-  PetscInt overLimit = 0;  ///< held nodes above the limit of the interface
+  PetscInt overLimit = 0;  ///< sticking nodes above the limit of the interface
   PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
-  PetscInt unheld = 0;  ///< closed nodes of a sticking interface that neither stick nor slide: free
-                        ///< along the surface
-  /// Magnitude of the sum of the moments on both sides, N·m; not zero if coupled surfaces are
-  /// apart.
+  PetscInt unheld = 0;     ///< closed nodes of a sticking interface without tangential force
+  /// Magnitude of the sum of the moments on both sides, N·m. It is not zero if there is a distance
+  /// between surfaces whose meshes do not match.
   double momentDefect = 0;
 };
 
@@ -49,26 +53,27 @@ struct Resultant {
 struct Solution {
   sweep::Parameters at;
   bool converged = false;
-  std::string reason;  ///< SNES converged reason, or why there is no solution
-  /// If there is no solution: the last point for which one was found on the path from a solved
-  /// neighbour.
+  std::string reason;  ///< why SNES, PETSc's nonlinear solver, stopped, or why there is no solution
+  /// Set if there is no solution here, and a path of solutions from another point of the sweep ends
+  /// on the way: the parameters at its end.
   std::optional<sweep::Parameters> existsTo;
-  double tolerance = 0;  ///< requested of SNES, relative
-  int iterations = 0;    ///< Newton steps of SNES; 0 if it is not called
+  double tolerance = 0;  ///< relative tolerance of SNES
+  int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
   /// Relative residual: its 2-norm divided by that at zero displacements [M.15].
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
   std::vector<ContactState> contact;  ///< [owned contact node]
   std::vector<contact::Slip> slip;    ///< [owned contact node] slip of sliding interfaces
-  contact::Mask closed;               ///< [owned contact node] active: closed and pressed
-  Sticking sticking;                  ///< stick state of the nodes of sticking interfaces
-  int revisions = 0;                  ///< number of revisions of `sticking` for this state
-  double negligibleForce = 0;         ///< contact forces below this are round-off, N
-  PetscInt openNodes = 0;             ///< contact nodes that are not active, over all ranks
-  double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
+  contact::Mask closed;         ///< [owned contact node] 1: closed, with R_N > negligibleForce
+  Sticking sticking;            ///< stick state of the nodes of sticking interfaces
+  int revisions = 0;            ///< number of revisions of `sticking` for this state
+  double negligibleForce = 0;   ///< contact forces below this are round-off, N
+  PetscInt openNodes = 0;       ///< contact nodes that are not closed, over all ranks
+  double smallestPressure = 0;  ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
-  double imbalance = 0;  ///< worst |contact + supports + load| of a connected part over the sum of
-                         ///< the magnitudes of all nodal forces
+  /// Largest resultant of the forces on a connected part (contact, supports and load), divided by
+  /// the sum of the magnitudes of all nodal forces.
+  double imbalance = 0;
   /// If another solution at the same parameters is known: the number of contact nodes, over all
   /// ranks, whose state differs; otherwise 0.
   PetscInt nodesOfAnother = 0;
@@ -81,20 +86,27 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
-/// Without convective terms (approximation A) the problem is linear except for the inequalities.
-/// With them, S depends on u through w = −v (V + D u_D). Free nodes of sticking interfaces have
-/// tangential unknowns; released nodes also have a row in S, with the limit of friction of the
-/// interface as coefficient.
+/// T maps the unknowns x to displacements, N extracts normal forces from nodal forces, and S gives
+/// the slip weighted by φ. The factors v and p scale speed and pressure.
+///
+/// Convective terms are those of matter that carries its displacement along. Without them
+/// (approximation A, -motion_convective off) the problem is linear except for the inequalities.
+/// With them, S depends on u through the relative velocity w = −v (V + D u_D), where V is the base
+/// velocity of the disc and D u_D = (V·∇) u_D the convected part.
+///
+/// A node of a sticking interface may be held (it sticks), free or released. A free node has
+/// tangential unknowns and no friction. A released node has tangential unknowns and slides: its row
+/// in S has the friction limit of the interface as coefficient.
 class Problem {
  public:
   /// Collective. Borrows mesh, bodies and contact during the lifetime of the object.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
-  /// Collective. The same with free or released nodes of sticking interfaces.
+  /// Collective. The same, with a given state of the nodes of sticking interfaces.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
           Sticking sticking);
-  /// Collective. Solves with SNES VI (-steady_snes_*). The initial guess is the solution with the
-  /// active set of `system` closed, computed with the factorisation of `system`. Nodes of sticking
+  /// Collective. Solves with SNES VI (-steady_snes_*). The initial guess keeps the gaps of the
+  /// active set of `system` closed; the factorisation of `system` computes it. Nodes of sticking
   /// interfaces stick at first; nextHolds() then updates their state until it no longer changes.
   /// `converged` and `reason` report whether there is a solution. Throws Error if |w| = 0 at a node
   /// with friction.
@@ -117,7 +129,7 @@ class Problem {
   /// update is needed but impossible, the solution is marked as not converged.
   std::optional<Sticking> nextHolds(Solution& solution) const;
   /// Collective. Sets the remaining members of a solution from the unknowns x. `left` is the 2-norm
-  /// of the natural residual at x, N.
+  /// of the natural residual at x, N: of F, with min(R_N, 0) in the rows of gaps g ≤ 0.
   void conclude(Vec x, double left, Solution& solution) const;
   /// Collective. Returns b with the pressures and the centrifugal forces of this point, N entries,
   /// N.
@@ -137,7 +149,7 @@ class Problem {
   /// sticking interfaces.
   const contact::Transformation& transformation() const { return transformation_; }
   const elasticity::Bodies& bodies() const { return bodies_; }
-  /// Collective on the first call. Returns the projections of K by this transformation.
+  /// Collective on the first call. Returns Tᵀ K T and N K T, with this transformation T.
   const contact::Projection& stiffness() const;
 
  private:
