@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/system/mpi.hpp"
+#include "model/contact/hourglass.hpp"
 #include "model/contact/loose.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "model/mesh/vector.hpp"
@@ -97,6 +98,7 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, interfac
                   .kinematics = std::move(kinematics),
                   .sliding = std::move(sliding)};
   rejectRigidBodyModes(mesh, contact, bodies.springs);
+  rejectHourglassModes(mesh, contact, bodies);
   return contact;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/contact/contact.hpp"
+#include "model/contact/supports.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::contact {
@@ -13,14 +14,6 @@ namespace squeal::contact {
 /// A connected part of the mesh that can move without strain.
 struct RigidBodyMode {
   std::string body, motion;  ///< names of its bodies, and the rigid motion in words
-};
-
-/// The frictionless contact that supports bodies.
-struct SupportingContact {
-  bool any = true;     ///< false: contact supports nothing
-  Mask closed = {};    ///< [contact node] 0 if it is open; empty: all are closed
-  Mask released = {};  ///< [contact node] 1 if a sticking node is free along the
-                       ///< surface; empty: all stick
 };
 
 /// Collective. Returns the part with the rigid-body mode of the least support by constraints,

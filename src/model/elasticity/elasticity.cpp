@@ -12,6 +12,7 @@
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/face.hpp"
 #include "model/elasticity/ground.hpp"
+#include "model/elasticity/hourglass.hpp"
 #include "model/elasticity/inertia.hpp"
 #include "model/material/material.hpp"
 
@@ -32,6 +33,13 @@ std::vector<double> onAllComponents(const std::vector<double>& scalar, int count
       for (int d = 0; d < dimension; ++d)
         full[(i * dimension + d) * size + j * dimension + d] = scalar[i * count + j];
   return full;
+}
+
+/// Returns the table of a cell for its stiffness.
+const ShapeTable& stiffnessRule(const Material& material, const ShapeTable& table,
+                                const std::vector<Point>& points) {
+  return material.reducedIntegration ? *element::underintegratedTable(table.type)
+                                     : gradientTable(table, points);
 }
 
 /// Selects the cells of one body, or all.
@@ -89,7 +97,7 @@ CellMatrices cellMatrices(const mesh::Mesh& mesh, const Bodies& bodies, std::opt
     const auto nodes = block.nodesOf(e);
     const bool bubbles = bodies.settings.isIncompatible(table.name);
     const auto cellStiffness =
-        stiffness(gradientTable(table, points), points, material.law, bubbles);
+        stiffness(stiffnessRule(material, table, points), points, material.law, bubbles);
     const auto cellMass = mass(table, points, material.density, bodies.settings.mass);
     sums.stiffness.add(nodes, cellStiffness, false);
     sums.mass.add(nodes, cellMass, true);
@@ -170,7 +178,10 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
   bodies.settings = settings;
   bodies.motions = motionsOf(mesh.bodies, mesh.dimension, settings.motions);
   bodies.materials = material::materialsOf(mesh, materials);
+  requireHex20(mesh, bodies.materials);
   assembleMatrices(mesh, bodies);
+  bodies.exposed = exposedCells(mesh, bodies.materials);
+  warnOfHourglass(mesh, bodies.exposed);
   warnOfFoldedCells(mesh);
   warnOfLocking(mesh, bodies);
   if (settings.convective) {
@@ -214,8 +225,9 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec di
     for (PetscInt node : nodes)
       for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[mesh.dimension * node + d]);
     const bool bubbles = bodies.settings.isIncompatible(table.name);
-    const auto cell = geometricStiffness(gradientTable(table, points), points,
-                                         bodies.materials[block.body[e]].law, bubbles, u);
+    const Material& material = bodies.materials[block.body[e]];
+    const auto cell = geometricStiffness(stiffnessRule(material, table, points), points,
+                                         material.law, bubbles, u);
     k.add(nodes, onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
   });
   return k.finish(SymmetryClass::symmetric);

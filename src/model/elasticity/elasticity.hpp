@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/petsc/owned.hpp"
+#include "model/elasticity/hourglass.hpp"
 #include "model/elasticity/motion.hpp"
 #include "model/elasticity/settings.hpp"
 #include "model/material/material.hpp"
@@ -28,12 +29,14 @@ struct Bodies {
   OwnedVec springs;      ///< stiffness of grounded springs, N entries, N/m; null if none
   std::vector<Motion> motions;                ///< [body], base motions
   std::vector<material::Material> materials;  ///< [body]
+  std::vector<ExposedCell> exposed;           ///< of all ranks
   Settings settings;
 };
 
 /// Collective. Assembles the matrices and loads of all bodies. Throws Error for materials and
 /// motions that do not suit the mesh, for an inverted element (the message names body and cell),
-/// and for convective terms on a body whose place changes as its matter moves.
+/// for convective terms on a body whose place changes as its matter moves, and for reduced
+/// integration of other cells than hex20.
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
                 const Settings& settings);
 

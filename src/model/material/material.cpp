@@ -87,6 +87,7 @@ std::vector<Material> materialsOf(const mesh::Mesh& mesh, const Settings& settin
                          .density = body.density,
                          .massDamping = body.massDamping,
                          .stiffnessDamping = body.stiffnessDamping,
+                         .reducedIntegration = body.reducedIntegration,
                          .poisson = poissonRatio(body, mesh.dimension, settings.planeStress)});
   }
   return materials;

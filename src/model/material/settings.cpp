@@ -62,6 +62,10 @@ const RealOption lossFactorOption(
     "frequency f = _loss_frequency, larger above it and smaller below");
 const RealOption lossFrequencyOption("material", "material_<group>_loss_frequency", std::nullopt,
                                      "Hz", positive, "frequency at which _loss_factor applies");
+const ChoiceOption integrationOption(
+    "material", "material_<group>_integration", {"full", "reduced"}, "full",
+    "quadrature of the stiffness; reduced: 2x2x2 points (C3D20R), only for hex20 cells; mass and "
+    "loads always have full integration");
 const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
                                "assumption of plane problems: plane strain or plane stress");
 
@@ -199,6 +203,7 @@ BodySettings bodyGiven(const std::string& body) {
   settings.density = densityOption.get(body);
   settings.massDamping = rayleighMassOption.get(body);
   settings.stiffnessDamping = stiffnessDamping(body);
+  settings.reducedIntegration = integrationOption.get(body) == "reduced";
   return settings;
 }
 
@@ -209,9 +214,10 @@ std::set<std::string> groupsGiven() {
   for (const auto& group : youngOption.subjects()) groups.insert(group);
   for (const auto* law : anisotropicLaws())
     for (const auto& group : law->subjects()) groups.insert(group);
-  for (const Option* option : std::vector<const Option*>{
-           &poissonOption, &densityOption, &rayleighMassOption, &rayleighStiffnessOption,
-           &lossFactorOption, &lossFrequencyOption, &orientationOption, &cylindricalOption})
+  for (const Option* option :
+       std::vector<const Option*>{&poissonOption, &densityOption, &rayleighMassOption,
+                                  &rayleighStiffnessOption, &lossFactorOption, &lossFrequencyOption,
+                                  &orientationOption, &cylindricalOption, &integrationOption})
     for (const auto& group : option->subjects())
       if (!groups.count(group))
         throw Error("option -" + youngOption.fullName(group) +
@@ -247,6 +253,10 @@ std::string orientationName(const std::string& body) {
 
 std::string cylindricalName(const std::string& body) {
   return "-" + cylindricalOption.fullName(body);
+}
+
+std::string integrationName(const std::string& body) {
+  return "-" + integrationOption.fullName(body);
 }
 
 }  // namespace squeal::material

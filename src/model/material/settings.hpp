@@ -35,6 +35,7 @@ struct BodySettings {
   double density = 0;                    ///< kg/m³
   double massDamping = 0;                ///< α, 1/s: C = α M + …
   double stiffnessDamping = 0;           ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
+  bool reducedIntegration = false;       ///< of the stiffness of hex20 cells
 };
 
 struct Settings {
@@ -55,5 +56,7 @@ std::string howToGiveMaterials();
 /// `-material_<group>_orientation` and `-material_<group>_cylindrical`.
 std::string orientationName(const std::string& body);
 std::string cylindricalName(const std::string& body);
+/// Returns the same for `-material_<group>_integration`.
+std::string integrationName(const std::string& body);
 
 }  // namespace squeal::material

@@ -31,14 +31,22 @@ const std::string
     density = " -material_beam_density 7850 ";
 
 // CalculiX 2.20, *ELASTIC, TYPE=ANISO and TYPE=ORTHO with *ORIENTATION 1,0.5,0.2,-0.3,1,0.4:
-// eigenvalues of the matrices of C3D20 that it writes with *FREQUENCY, SOLVER=MATRIXSTORAGE.
+// eigenvalues of the stiffness of C3D20 or C3D20R and the mass of C3D20 that it writes with
+// *FREQUENCY, SOLVER=MATRIXSTORAGE.
 TEST(Anisotropy, FrequenciesOfABoxAreThoseOfCalculiX) {
-  test::expectFrequencies("-material_beam_anisotropic " + general + turned + density,
-                          {1269.221582, 2373.525521, 4808.180535, 6565.010290, 9752.818121,
-                           10660.930276, 14261.701912, 15588.234401});
-  test::expectFrequencies("-material_beam_orthotropic " + orthotropic + turned + density,
-                          {1365.832237, 2515.780129, 4872.059309, 7165.652863, 10304.499813,
-                           11075.195014, 14585.604637, 17082.747476});
+  const std::string reduced = " -material_beam_integration reduced ",
+                    anisotropicBox = "-material_beam_anisotropic " + general + turned + density,
+                    orthotropicBox = "-material_beam_orthotropic " + orthotropic + turned + density;
+  test::expectFrequencies(anisotropicBox, {1269.221582, 2373.525521, 4808.180535, 6565.010290,
+                                           9752.818121, 10660.930276, 14261.701912, 15588.234401});
+  test::expectFrequencies(anisotropicBox + reduced,
+                          {1262.275366, 2361.244687, 4772.651748, 6507.006388, 9720.539760,
+                           10619.265221, 14124.486213, 15396.895210});
+  test::expectFrequencies(orthotropicBox, {1365.832237, 2515.780129, 4872.059309, 7165.652863,
+                                           10304.499813, 11075.195014, 14585.604637, 17082.747476});
+  test::expectFrequencies(orthotropicBox + reduced,
+                          {1359.664825, 2505.844261, 4836.198672, 7117.863810, 10275.682644,
+                           11044.697928, 14461.045198, 16930.905441});
 }
 
 /// The indices of the rows of the constants.
