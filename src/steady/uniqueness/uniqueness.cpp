@@ -132,7 +132,7 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
                    const std::vector<double>& frictions, const Settings& settings) {
   if (contact.interfaces.totalNodes == 0) return undecided(frictions, "there is no contact node");
   if (const auto mode =
-          contact::rigidBodyMode(*contact.mesh, contact, bodies.springs, {.any = false}))
+          contact::rigidBodyMode(*contact.mesh, contact, bodies, {.any = false}))
     return undecided(
         frictions,
         "body '" + mode->body +
