@@ -97,7 +97,7 @@ Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings,
     moveOntoMasters(mesh, exchange, all);
   all.constraints = constraints::constraintsOf(mesh, supports);
   all.coupled = constraints::coupledNodes(mesh, supports);
-  for (const auto& coupling : supports.couplings) all.couplings.push_back(coupling.name);
+  all.couplings = constraints::couplingLabels(supports);
   report(mesh, exchange, all);
   warnOfLost(mesh, exchange, all, Role::tied);
   warnOfLittleCover(mesh, all);
