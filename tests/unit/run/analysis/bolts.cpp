@@ -17,9 +17,9 @@ namespace {
 
 /// Bars of length 1 along z with Poisson's ratio 0, so that they are springs: the bolt with the
 /// area 1, cut by `section` at its middle, and the sleeve with the area 2, of two halves that touch
-/// there. `side` is a face of
-/// the bolt that does not cut it.
+/// there.
 const char* const geometry = R"(
+Geometry.AutoCoherence = 0;  // the halves of the sleeve touch, they are not joined
 Macro Column  // x0, w, z0, h -> s (bottom), top, volume
   p = newp;
   Point(p) = {x0, 0, z0}; Point(p+1) = {x0+w, 0, z0};
@@ -38,7 +38,6 @@ e[] = Extrude{0, 0, 0.5}{ Surface{middle}; Layers{2}; Recombine; };
 Physical Surface("bolt_low") = {bottom};
 Physical Surface("bolt_high") = {e[0]};
 Physical Surface("section") = {middle};
-Physical Surface("side") = {e[2]};
 Physical Volume("bolt") = {lower, e[1]};
 x0 = 3; w = 2; z0 = 0; h = 0.5; Call Column;
 Physical Surface("sleeve_low") = {s};
@@ -109,7 +108,7 @@ TEST(Bolts, ForceAndThenSeparation) {
   EXPECT_EQ(loaded.open, 0);
   const auto apart = stateWith(tightened + pulled(1.1 * opening));
   EXPECT_NEAR(apart.bolt / (1.1 * opening), 1, exact);
-  EXPECT_EQ(apart.joint, 0);
+  EXPECT_LT(apart.joint, exact * force);
   EXPECT_GT(apart.open, 0);
 }
 
@@ -149,6 +148,35 @@ TEST(Bolts, FrequenciesAreThoseOfTheUncutBody) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(cut[i] / uncut[i], 1, 1e-9) << i;
 }
 
+TEST(Bolts, SectionMustCutThroughItsBody) {
+  // A bar of 2 × 1 cells in two layers, with a section below one of the two cells above it.
+  const std::string file = test::writeFile("notch.geo", R"(
+Point(1) = {0, 0, 0}; Point(2) = {0, 1, 0}; Line(1) = {1, 2}; Transfinite Curve{1} = 2;
+a[] = Extrude{1, 0, 0}{ Line{1}; Layers{1}; Recombine; };
+b[] = Extrude{1, 0, 0}{ Line{a[0]}; Layers{1}; Recombine; };
+c[] = Extrude{0, 0, 1}{ Surface{a[1]}; Layers{1}; Recombine; };
+d[] = Extrude{0, 0, 1}{ Surface{b[1]}; Layers{1}; Recombine; };
+e[] = Extrude{0, 0, 1}{ Surface{c[0]}; Layers{1}; Recombine; };
+f[] = Extrude{0, 0, 1}{ Surface{d[0]}; Layers{1}; Recombine; };
+Physical Volume("bolt") = {c[1], d[1], e[1], f[1]};
+Physical Surface("low") = {a[1], b[1]};
+Physical Surface("notch") = {c[0]};
+Physical Surface("section") = {c[0], d[0]};
+)");
+  const auto message = [&](const std::string& section) {
+    test::setOptions("-mesh_file " + file + test::material("bolt", "1e9", "0.3", "1000") +
+                     "-constraint_low_clamped xyz -bolt_b_force 1 -bolt_b_section " + section);
+    return test::errorOf(
+        [] { analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given()); });
+  };
+  EXPECT_NE(message("notch").find("option -bolt_b_section notch: the section does not cut through "
+                                  "its body: cells on both sides of it share the node at"),
+            std::string::npos)
+      << message("notch");
+  // Cut through, the upper half is loose: nothing holds the bolt against its force.
+  EXPECT_NE(message("section").find("can move rigidly"), std::string::npos) << message("section");
+}
+
 TEST(Bolts, FaultsAreNamed) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"", "option -bolt_b_section: give either -bolt_b_force or -bolt_b_shortening"},
@@ -157,8 +185,9 @@ TEST(Bolts, FaultsAreNamed) {
       {"-bolt_b_force 1 -bolt_c_force 1", "option -bolt_c_force needs -bolt_c_section"},
       {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section nothing",
        "option -bolt_c_section nothing names group 'nothing', which is not in the mesh"},
-      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section side",
-       "option -bolt_c_section side: a face of the section has"},
+      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section bolt_low",
+       "option -bolt_c_section bolt_low: a face of the section has 0 cells of a body below and 1 "
+       "above"},
       {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section bolt",
        "group 'bolt' has dimension 3; a boundary of dimension 2 is wanted"},
       {"-bolt_b_force 1 -bolt_b_axis 0,0,0", "option -bolt_b_axis: must not be zero"},
