@@ -220,8 +220,10 @@ void Couplings::addDistributed(int coupling) {
   }
   const Matrix3 inverse = inverseInertia(nodes, centre, mesh_.dimension, given),
                 arm = crossMatrix(minus(reference.position, centre));
-  CoupledNode displacement{.node = reference.displacement - mesh_.firstNode, .coupling = coupling},
-      rotation{.node = reference.rotation - mesh_.firstNode, .coupling = coupling};
+  CoupledNode displacement{
+      .node = reference.displacement - mesh_.firstNode, .coupling = coupling, .distributed = true},
+      rotation{
+          .node = reference.rotation - mesh_.firstNode, .coupling = coupling, .distributed = true};
   if (rotation.node < 0 || rotation.node >= mesh_.ownedNodes) displacement.node = -1;
   for (const auto& [node, part, position, weight] : nodes) {
     const Matrix3 turns = scaled(product(inverse, crossMatrix(minus(position, centre))), weight);

@@ -30,6 +30,7 @@ struct CoupledMaster {
 struct CoupledNode {
   PetscInt node;                        ///< local node
   int coupling;                         ///< index into Settings::couplings
+  bool distributed = false;             ///< it is the reference node of a distributed coupling
   Matrix3 own{};                        ///< [component][component of z]
   std::array<unsigned char, 3> free{};  ///< [component of z] 1 if it is an unknown
   /// 1 if no master depends on others, otherwise the largest level of its masters plus 1
