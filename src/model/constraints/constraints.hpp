@@ -30,6 +30,12 @@ struct DependentComponent {
   double constant;  ///< m, or rad
 };
 
+/// A direction in which a group holds a node.
+struct HeldDirection {
+  Point direction;  ///< unit
+  int group;        ///< index into Constraints::groups
+};
+
 /// The origin of an equation: a support of a node that follows others, or an option.
 struct EquationOrigin {
   int group = -1;      ///< of the support, index into Constraints::groups; −1: an option
@@ -54,7 +60,10 @@ struct Constraints {
   std::vector<std::string> groups;  ///< groups with a clamp
   /// [owned node · dimension + component] prescribed value where held, m, or rad
   std::vector<double> displacement;
-  std::map<PetscInt, Matrix3> axes;           ///< [owned node] turned axes, by rows
+  std::map<PetscInt, Matrix3> axes;  ///< [owned node] turned axes, by rows
+  /// [owned node with turned axes] the directions as given, which may be oblique, without those
+  /// that follow from others
+  std::map<PetscInt, std::vector<HeldDirection>> given;
   bool anyTurned = false;                     ///< any rank has turned axes
   std::vector<DependentComponent> dependent;  ///< owned by this rank
   bool anyDependent = false;                  ///< on any rank

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
@@ -150,21 +151,50 @@ std::vector<double> Conditions::multipliers(Vec forces) const {
   return found;
 }
 
+/// Adds the force of all supports of a node. It lies in the span of their directions.
+void Conditions::addSupport(PetscInt node, const Point& force, ConditionForces& found) const {
+  const auto& constraints = all_.constraints;
+  const auto given = constraints.given.find(node);
+  if (given == constraints.given.end()) {
+    for (int d = 0; d < mesh_.dimension; ++d) {
+      const int group = constraints.heldBy[mesh_.dimension * node + d];
+      Point part{};
+      part[d] = force[d];
+      if (group >= 0) found.supports[group].addNode(mesh_, node, part);
+    }
+    return;
+  }
+  //   Σ_j (d_i·d_j) λ_j = d_i·force
+  const auto& directions = given->second;
+  mesh::Matrix3 gram{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    for (std::size_t j = 0; j < directions.size(); ++j)
+      gram[i][j] = mesh::dot(directions[i].direction, directions[j].direction);
+  const mesh::Matrix3 inverse = mesh::inverse(gram, mesh::determinant(gram));
+  for (std::size_t j = 0; j < directions.size(); ++j) {
+    double factor = 0;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      factor += inverse[j][i] * mesh::dot(directions[i].direction, force);
+    found.supports[directions[j].group].addNode(mesh_, node, directions[j].direction, factor);
+  }
+}
+
 /// Subtracts the forces of the equations from `forces`, and adds them to `found`.
 void Conditions::takeEquations(const std::vector<double>& multipliers, Vec forces,
                                ConditionForces& found) const {
   const auto& constraints = all_.constraints;
   const WriteArray values(forces);
-  const auto take = [&](PetscInt node, const Point& force, Wrench& sum) {
+  const auto take = [&](PetscInt node, const Point& force) {
     for (int d = 0; d < mesh_.dimension; ++d) values[mesh_.dimension * node + d] -= force[d];
-    sum.addNode(mesh_, node, force);
   };
+  std::map<PetscInt, Point> onFollowers;  // [owned node] force of its supports
   for (std::size_t i = 0; i < multipliers.size(); ++i) {
     const auto& origin = constraints.origins[i];
     if (origin.group >= 0) {
       const PetscInt node = origin.node - mesh_.firstNode;
-      if (node >= 0 && node < mesh_.ownedNodes)
-        take(node, mesh::scaled(origin.direction, multipliers[i]), found.supports[origin.group]);
+      if (node < 0 || node >= mesh_.ownedNodes) continue;
+      Point& sum = onFollowers[node];
+      sum = mesh::plus(sum, origin.direction, multipliers[i]);
       continue;
     }
     for (const auto& term : constraints.equations[origin.option].terms) {
@@ -173,8 +203,13 @@ void Conditions::takeEquations(const std::vector<double>& multipliers, Vec force
       Point force{};
       force[mesh_.dimension == 2 && term.rotation ? 0 : term.component] =
           multipliers[i] * term.factor;
-      take(node, force, found.equations[origin.option]);
+      take(node, force);
+      found.equations[origin.option].addNode(mesh_, node, force);
     }
+  }
+  for (const auto& [node, force] : onFollowers) {
+    take(node, force);
+    addSupport(node, force, found);
   }
 }
 
@@ -185,14 +220,18 @@ void Conditions::addSupports(Vec forces, ConditionForces& found) const {
   for (const auto& coupled : all_.coupled) holds[coupled.node] = {};
   for (const auto& tied : all_.tied) holds[tied.connection.node] = tied.apart;
   const ReadArray values(forces);
-  for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
+  for (PetscInt node = 0; node < mesh_.ownedNodes; ++node) {
+    Point sum{};
+    bool any = false;
     for (int d = 0; d < mesh_.dimension; ++d) {
       const PetscInt at = mesh_.dimension * node + d;
       if (!constraints.held[at] || constraints.heldBy[at] < 0 || !holds[node][d]) continue;
       const Point e = constraints.direction(node, d);
-      const double force = mesh::dot(e, componentsAt(mesh_, values.data(), node));
-      found.supports[constraints.heldBy[at]].addNode(mesh_, node, e, force);
+      sum = mesh::plus(sum, e, mesh::dot(e, componentsAt(mesh_, values.data(), node)));
+      any = true;
     }
+    if (any) addSupport(node, sum, found);
+  }
 }
 
 ConditionForces Conditions::of(Vec forces) const {

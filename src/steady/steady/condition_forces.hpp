@@ -30,7 +30,7 @@ class Conditions {
   explicit Conditions(const contact::Contact& contact);
   /// Collective. Returns the forces whose sum at each node is `forces`, N entries, N: the forces
   /// that the bodies need for equilibrium, without those of contact. A component that several
-  /// groups hold counts for the last one (Constraints::heldBy).
+  /// groups hold counts for one of them.
   ConditionForces of(Vec forces) const;
 
  private:
@@ -44,6 +44,7 @@ class Conditions {
   void takeEquations(const std::vector<double>& multipliers, Vec forces,
                      ConditionForces& found) const;
   void addSupports(Vec forces, ConditionForces& found) const;
+  void addSupport(PetscInt node, const Point& force, ConditionForces& found) const;
 
   const contact::Contact& contact_;
   const interfaces::Interfaces& all_;

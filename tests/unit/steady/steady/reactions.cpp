@@ -226,6 +226,26 @@ TEST(Reactions, OfSlantedSupports) {
   moved.expect("support", "tip", opposite(moved.row("support", "clamped")));
 }
 
+// Each of three groups holds a node in its own direction, and none is across another one.
+TEST(Reactions, OfObliqueSupports) {
+  const std::string groups =
+      "-constraint_tip_clamped x -constraint_tip_frame e -frame_e_x 1,0.5,0 -frame_e_xy 0,1,0 "
+      "-constraint_top_clamped x -constraint_top_frame f -frame_f_x 0,1,1 -frame_f_xy 1,1,0 "
+      "-load_gravity 1e3,2e3,3e3 ";
+  for (const std::string coupled : {"",
+                                    "-reference_s_position 0.9,0.1,0 -coupling_d_reference s "
+                                    "-coupling_d_nodes tip "}) {
+    const Balance found(clamp + groups + coupled);
+    const Wrench tip = found.row("support", "tip"), top = found.row("support", "top");
+    for (const auto& [force, direction] :
+         {std::pair{tip.force, Point{1, 0.5, 0}}, {top.force, Point{0, 1, 1}}}) {
+      EXPECT_GT(mesh::length(force), 1);
+      EXPECT_LT(mesh::length(mesh::cross(force, mesh::unit(direction))),
+                1e-9 * mesh::length(force));
+    }
+  }
+}
+
 /// The clamped end follows a reference node.
 const std::string end = atEccentric + "-coupling_c_nodes tip " + force + moment +
                         "-reference_s_position -0.1,0.3,0.2 -coupling_d_reference s "
@@ -311,6 +331,38 @@ TEST(Reactions, OfTies) {
   }
 }
 
+// Where masters are held, too, a support of a tied node holds it instead of the tie, or in turned
+// axes is implied.
+TEST(Reactions, OfSupportsThatOthersImply) {
+  for (const std::string frame :
+       {"", "-constraint_pad_low_frame f -frame_f_x 3,4,0 -frame_f_xy 0,1,0 "}) {
+    test::setOptions(blocks("0") +
+                     "-tie_t_slave pad_low -tie_t_master disc_high "
+                     "-load_pad_high_force 100,200,-3000 -constraint_disc_high_clamped xyz "
+                     "-constraint_pad_low_clamped yz " +
+                     frame);
+    const Balance found;
+    EXPECT_NEAR(found.row("support", "pad_low").force[2], frame.empty() ? 3000 : 0, 1e-6);
+  }
+}
+
+TEST(Reactions, OfStickingContact) {
+  for (const std::string limit :
+       {"", "-contact_c_friction 0.2 -contact_c_release on ",
+        "-contact_c_friction 0.01 -contact_c_release on -ground_pad_low_stiffness 1e9,1e9,1e4 "}) {
+    test::setOptions(blocks("0") +
+                     "-contact_c_pad pad_low -contact_c_disc disc_high -contact_c_role sticking "
+                     "-load_pad_high_pressure 1e5 -load_pad_high_force 3000,1000,0 " +
+                     limit);
+    const Balance found;
+    const Wrench force = found.row("interface", "c");
+    EXPECT_NEAR(force.force[2], 1e5 * 0.8 * 0.8, 10);
+    if (limit.empty()) {
+      EXPECT_NEAR(force.force[0], -3000, 1e-6);
+    }
+  }
+}
+
 TEST(Reactions, OfContactBetweenBodies) {
   const std::string slide =
       "-contact_c_pad pad_low -contact_c_disc disc_high -motion_disc_velocity 1,0,0 "
@@ -335,6 +387,26 @@ TEST(Reactions, OfThePeriodicLayers) {
       EXPECT_GT(std::abs(interface.force[1]), 1e-3);
       EXPECT_NEAR(std::abs(interface.force[0]), friction * std::abs(interface.force[1]), 1e-12);
     }
+}
+
+// In the plane a reference node has one rotation.
+TEST(Reactions, InThePlane) {
+  test::setOptions(
+      "-mesh_file meshes/layer.geo -mesh_set nx=12,ny=4 " +
+      test::material("layer", "1", "0.3", "1") +
+      "-contact_plate_pad top -contact_plate_obstacle_velocity 1,0,0 "
+      "-contact_plate_obstacle_displacement 0,-0.01,0 "
+      "-reference_r_position 0.5,-1.5 -coupling_c_reference r -coupling_c_nodes bottom "
+      "-constraint_r_clamped xy -constraint_r_clamped_rotation z "
+      "-reference_s_position 5,1 -coupling_d_reference s -coupling_d_nodes left "
+      "-coupling_d_kind distributed -load_s_force 1e-3,2e-3 -load_s_moment 0,0,3e-3 "
+      "-bushing_b_from s -bushing_b_stiffness 0.01,0.02,0.03 ");
+  const Balance found(sweep::Parameters{0.3});
+  const Wrench loaded = forceAt({5, 1, 0}, {1e-3, 2e-3, 0}, {0, 0, 3e-3});
+  found.expect("load", "force", loaded);
+  found.expect("coupling", "d", opposite(sum(loaded, found.row("bushing", "b"))));
+  EXPECT_GT(std::abs(found.row("bushing", "b").moment[2]), 1e-6);
+  found.expect("coupling", "c", opposite(found.row("support", "r")));
 }
 
 TEST(Reactions, OfMovingMatter) {
