@@ -130,6 +130,31 @@ TEST(Outputs, Modes) {
   }
 }
 
+TEST(Outputs, Reactions) {
+  const CsvTable table = readCsv(layerRun().folder / "reactions.csv");
+  EXPECT_EQ(table.header,
+            "friction,speed,pressure,kind,name,force_x_n,force_y_n,force_z_n,moment_x_n_m,"
+            "moment_y_n_m,moment_z_n_m");
+  const auto friction = table.column("friction"), x = table.column("force_x_n"),
+             y = table.column("force_y_n"), moment = table.column("moment_z_n_m");
+  const auto kind = table.words("kind"), name = table.words("name");
+  ASSERT_EQ(kind.size(), 3 * 4U);  // points and rows
+  const double normal = pressure * period;
+  for (std::size_t i = 0; i < kind.size(); i += 4) {
+    EXPECT_EQ(friction[i], std::vector<double>({0, 0.2, 0.4})[i / 4]);
+    EXPECT_EQ(kind[i] + " " + name[i], "support bottom");
+    EXPECT_NEAR(x[i], -friction[i] * normal, 1e-9 * normal);
+    EXPECT_NEAR(y[i], normal, 1e-9 * normal);
+    EXPECT_EQ(kind[i + 1] + " " + name[i + 1], "interface plate");
+    EXPECT_NEAR(x[i + 1], friction[i] * normal, 1e-9 * normal);
+    EXPECT_NEAR(y[i + 1], -normal, 1e-9 * normal);
+    EXPECT_EQ(kind[i + 2] + " " + name[i + 2], "periodic images");
+    EXPECT_EQ(kind[i + 3] + name[i + 3], "sum");
+    for (const double value : {x[i + 3], y[i + 3], moment[i + 3]})
+      EXPECT_NEAR(value, 0, 1e-10 * normal);
+  }
+}
+
 TEST(Outputs, SteadyTables) {
   for (double friction : {0.0, 0.2, 0.4}) {
     SCOPED_TRACE("friction " + shortest(friction));

@@ -143,6 +143,7 @@ void Supports::turnNode(PetscInt node, const std::vector<Held>& list, std::strin
     if (length > dependent) {
       rest.direction = mesh::scaled(rest.direction, 1 / length), rest.value /= length;
       axes.push_back(rest);
+      found_.given[node].push_back({held.direction, held.group});
     } else if (std::abs(rest.value) > dependent * std::abs(held.value)) {
       failure = disagreement(held.group);
     }

@@ -95,9 +95,10 @@ class Couplings {
 void Couplings::add(CoupledNode node, std::string& failure) {
   const auto [at, isNew] = nodes_.try_emplace(node.node, node);
   if (isNew || at->second.coupling == node.coupling) return;
-  const auto labels = couplingLabels(settings_);
-  failure = labels[node.coupling] + ": the node at " + placeText(mesh_.coordinates[node.node]) +
-            " follows " + labels[at->second.coupling] +
+  const auto names = couplingNames(settings_);
+  failure = names[node.coupling].label() + ": the node at " +
+            placeText(mesh_.coordinates[node.node]) + " follows " +
+            names[at->second.coupling].label() +
             " already; a node can follow one coupling: take it out of one group, or couple the "
             "reference nodes";
 }
@@ -220,8 +221,10 @@ void Couplings::addDistributed(int coupling) {
   }
   const Matrix3 inverse = inverseInertia(nodes, centre, mesh_.dimension, given),
                 arm = crossMatrix(minus(reference.position, centre));
-  CoupledNode displacement{.node = reference.displacement - mesh_.firstNode, .coupling = coupling},
-      rotation{.node = reference.rotation - mesh_.firstNode, .coupling = coupling};
+  CoupledNode displacement{
+      .node = reference.displacement - mesh_.firstNode, .coupling = coupling, .distributed = true},
+      rotation{
+          .node = reference.rotation - mesh_.firstNode, .coupling = coupling, .distributed = true};
   if (rotation.node < 0 || rotation.node >= mesh_.ownedNodes) displacement.node = -1;
   for (const auto& [node, part, position, weight] : nodes) {
     const Matrix3 turns = scaled(product(inverse, crossMatrix(minus(position, centre))), weight);
@@ -257,12 +260,11 @@ std::vector<CoupledNode> Couplings::finish() {
 
 }  // namespace
 
-std::vector<std::string> couplingLabels(const Settings& settings) {
-  std::vector<std::string> labels;
-  for (const auto& coupling : settings.couplings)
-    labels.push_back("coupling '" + coupling.name + "'");
-  for (const auto& bolt : settings.bolts) labels.push_back("bolt '" + bolt.name + "'");
-  return labels;
+std::vector<CouplingName> couplingNames(const Settings& settings) {
+  std::vector<CouplingName> names;
+  for (const auto& coupling : settings.couplings) names.push_back({"coupling", coupling.name});
+  for (const auto& bolt : settings.bolts) names.push_back({"bolt", bolt.name});
+  return names;
 }
 
 std::vector<CoupledNode> coupledNodes(const mesh::Mesh& mesh, const Settings& settings) {

@@ -108,9 +108,9 @@ struct Interfaces {
   std::vector<TiedNode> tied;              ///< owned by this rank, in the order of local nodes
   std::vector<LostNode> lost;              ///< owned by this rank
   constraints::Constraints constraints;
-  std::vector<std::string> couplings;             ///< labels of couplings and bolts
-  std::vector<constraints::CoupledNode> coupled;  ///< owned by this rank, by local node
-  PetscInt totalNodes = 0;                        ///< contact nodes of all ranks
+  std::vector<constraints::CouplingName> couplings;  ///< couplings, then bolts
+  std::vector<constraints::CoupledNode> coupled;     ///< owned by this rank, by local node
+  PetscInt totalNodes = 0;                           ///< contact nodes of all ranks
   /// [local node] index into `options` of the contact with a gap at the node, −1 if there is none;
   /// includes ghosts and periodic images
   std::vector<int> interfaceOf;

@@ -98,7 +98,7 @@ Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings,
     moveOntoMasters(mesh, exchange, all);
   all.constraints = constraints::constraintsOf(mesh, supports);
   all.coupled = constraints::coupledNodes(mesh, supports);
-  all.couplings = constraints::couplingLabels(supports);
+  all.couplings = constraints::couplingNames(supports);
   report(mesh, exchange, all);
   warnOfLost(mesh, exchange, all, Role::tied);
   warnOfLittleCover(mesh, all);
