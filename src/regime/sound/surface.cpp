@@ -8,13 +8,14 @@
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
 #include "model/elasticity/assembly.hpp"
+#include "model/elasticity/boundary.hpp"
 #include "model/elasticity/face.hpp"
 #include "model/mesh/vector.hpp"
-#include "regime/sound/boundary.hpp"
 
 namespace squeal::sound {
 namespace {
 
+using elasticity::BoundaryFace;
 using element::shapeTable;
 using Marks = std::vector<unsigned char>;  // [local node]
 
@@ -138,7 +139,7 @@ RadiatingSurface radiatingSurface(const mesh::Mesh& mesh, const contact::Contact
   const OwnedVec sums = elasticity::nodalVector(mesh);
   elasticity::Triples triples;
   RadiatingSurface surface;
-  for (const auto& face : boundaryFaces(mesh)) {
+  for (const auto& face : elasticity::boundaryFaces(mesh)) {
     const auto [points, normals] = geometryOf(mesh, face);
     if (isHidden(hidden, face) || isHeld(mesh, held, face, normals)) continue;
     const auto& table = shapeTable(face.type);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "model/elasticity/boundary.hpp"
 #include "model/elasticity/face.hpp"
-#include "regime/sound/boundary.hpp"
 #include "support/model/element_patch.hpp"
 #include "support/model/model.hpp"
 #include "support/model/steel_brake.hpp"
@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(Elements, Patch, testing::ValuesIn(test::patch::element
 TEST_P(Patch, BoundaryOfTheUnitCell) {
   build();
   double sums[2] = {0, 0};
-  for (const auto& face : sound::boundaryFaces(mesh)) {
+  for (const auto& face : elasticity::boundaryFaces(mesh)) {
     const auto& table = element::shapeTable(face.type);
     std::vector<mesh::Point> points;
     for (const PetscInt node : face.nodes) points.push_back(mesh.coordinates[node]);

@@ -5,7 +5,7 @@
 
 #include "model/mesh/mesh.hpp"
 
-namespace squeal::sound {
+namespace squeal::elasticity {
 
 /// A boundary face of the bodies; a line in the plane.
 struct BoundaryFace {
@@ -19,4 +19,4 @@ struct BoundaryFace {
 /// known faces.
 std::vector<BoundaryFace> boundaryFaces(const mesh::Mesh& mesh);
 
-}  // namespace squeal::sound
+}  // namespace squeal::elasticity

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "regime/sound/boundary.hpp"
+#include "model/elasticity/boundary.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "model/element/shape.hpp"
 #include "model/mesh/vector.hpp"
 
-namespace squeal::sound {
+namespace squeal::elasticity {
 namespace {
 
 using element::ShapeTable;
@@ -68,7 +68,7 @@ LocalFace faceOf(const ShapeTable& cell, const Corners& corners) {
       }
     if (result.nodes.size() == there.size()) return result;
   }
-  throw Error("stage regime: the faces of cells of the type " + cell.name + " are not supported");
+  throw Error("the faces of cells of the type " + cell.name + " are not supported");
 }
 
 std::vector<LocalFace> facesOf(const ShapeTable& cell) {
@@ -93,7 +93,7 @@ BoundaryFace boundaryFace(const mesh::Mesh& mesh, std::span<const PetscInt> cell
     face.nodes.push_back(cell[node]);
     points.push_back(mesh.coordinates[cell[node]]);
   }
-  const auto normals = elasticity::faceNormals(shapeTable(local.type), points, 1);
+  const auto normals = faceNormals(shapeTable(local.type), points, 1);
   Point normal{};
   for (std::size_t i = 0; i < normals.size(); ++i) normal[i % 3] += normals[i];
   const Point outwards = mesh::minus(centreOf(mesh, face.nodes), centreOf(mesh, cell));
@@ -161,4 +161,4 @@ std::vector<BoundaryFace> boundaryFaces(const mesh::Mesh& mesh) {
   return result;
 }
 
-}  // namespace squeal::sound
+}  // namespace squeal::elasticity
