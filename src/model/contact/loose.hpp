@@ -29,6 +29,11 @@ struct SupportingContact {
 std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact& contact,
                                            Vec springs, const SupportingContact& holding);
 
+/// Collective. Returns 1 for each connected part that takes part in a rigid-body mode with these
+/// supports, [part].
+std::vector<unsigned char> looseParts(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
+                                      const SupportingContact& holding);
+
 /// Collective. Throws Error, naming the body, if a body has a rigid-body mode with closed
 /// frictionless contact.
 void rejectRigidBodyModes(const mesh::Mesh& mesh, const Contact& contact, Vec springs);
