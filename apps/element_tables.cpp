@@ -17,7 +17,8 @@ namespace {
 
 // gmsh's numbers of the cells that the program supports, of their faces and edges, and of a point.
 const std::vector<int> types{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
-const std::vector<int> reducedTypes{9, 11};  // tri6, tet10: see stiffnessTable()
+const std::vector<int> reducedTypes{9, 11};       // tri6, tet10: see stiffnessTable()
+const std::vector<int> underintegratedTypes{17};  // hex20: see underintegratedTable()
 
 /// The numbers of all tables, in the order of their members.
 struct Numbers {
@@ -106,15 +107,18 @@ std::string functionOf(const std::string& name, const std::string& tables) {
 
 std::string source() {
   Numbers numbers;
-  std::string full, reduced;
+  std::string full, reduced, underintegrated;
   for (const int type : types) full += tabulate(type, 0, numbers);
   for (const int type : reducedTypes) reduced += tabulate(type, 2, numbers);
+  for (const int type : underintegratedTypes) underintegrated += tabulate(type, 3, numbers);
   return "// Written by element_tables with gmsh " GMSH_API_VERSION
          ".\n"
          "#include \"model/element/tables.hpp\"\n\n"
          "namespace squeal::element {\nnamespace {\nconst double numbers[] = {\n" +
          numbers.text + "};\n}  // namespace\n\n" + functionOf("fullTables", full) + "\n" +
-         functionOf("reducedTables", reduced) + "\n}  // namespace squeal::element\n";
+         functionOf("reducedTables", reduced) + "\n" +
+         functionOf("underintegratedTables", underintegrated) +
+         "\n}  // namespace squeal::element\n";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/system/mpi.hpp"
+#include "model/contact/hourglass.hpp"
 #include "model/contact/loose.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "model/mesh/vector.hpp"
@@ -96,7 +97,8 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, interfac
                   .periodic = std::move(periodic),
                   .kinematics = std::move(kinematics),
                   .sliding = std::move(sliding)};
-  rejectRigidBodyModes(mesh, contact, bodies.springs);
+  rejectRigidBodyModes(mesh, contact, bodies);
+  rejectHourglassModes(mesh, contact, bodies);
   return contact;
 }
 

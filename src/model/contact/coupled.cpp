@@ -60,7 +60,8 @@ Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
   OwnedMat stressed;
   if (prestress) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stressed.out()));
-    check(MatAXPY(stressed, 1, prestress, SAME_NONZERO_PATTERN));
+    check(MatAXPY(stressed, 1, prestress,
+                  bodies.linkStiffness ? SUBSET_NONZERO_PATTERN : SAME_NONZERO_PATTERN));
     check(MatSetOption(stressed, MAT_SYMMETRIC, PETSC_TRUE));
   }
   const auto projected = [&](Mat x) { return project(contact, result.transformation, x); };

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "model/contact/contact.hpp"
+#include "model/contact/supports.hpp"
+#include "model/elasticity/elasticity.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::contact {
@@ -15,27 +17,22 @@ struct RigidBodyMode {
   std::string body, motion;  ///< names of its bodies, and the rigid motion in words
 };
 
-/// The frictionless contact that supports bodies.
-struct SupportingContact {
-  bool any = true;     ///< false: contact supports nothing
-  Mask closed = {};    ///< [contact node] 0 if it is open; empty: all are closed
-  Mask released = {};  ///< [contact node] 1 if a sticking node is free along the
-                       ///< surface; empty: all stick
-};
-
 /// Collective. Returns the part with the rigid-body mode of the least support by constraints,
-/// springs (Bodies::springs, may be null) and this contact. Returns none if all parts are
+/// springs, bushings and this contact. Returns none if all parts are
 /// supported.
 std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact& contact,
-                                           Vec springs, const SupportingContact& holding);
+                                           const elasticity::Bodies& bodies,
+                                           const SupportingContact& holding);
 
 /// Collective. Returns 1 for each connected part that takes part in a rigid-body mode with these
 /// supports, [part].
-std::vector<unsigned char> looseParts(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
+std::vector<unsigned char> looseParts(const mesh::Mesh& mesh, const Contact& contact,
+                                      const elasticity::Bodies& bodies,
                                       const SupportingContact& holding);
 
 /// Collective. Throws Error, naming the body, if a body has a rigid-body mode with closed
 /// frictionless contact.
-void rejectRigidBodyModes(const mesh::Mesh& mesh, const Contact& contact, Vec springs);
+void rejectRigidBodyModes(const mesh::Mesh& mesh, const Contact& contact,
+                          const elasticity::Bodies& bodies);
 
 }  // namespace squeal::contact

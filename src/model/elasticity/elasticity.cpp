@@ -7,12 +7,14 @@
 #include "base/session/stages.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
+#include "model/attachments/forms.hpp"
 #include "model/elasticity/assembly.hpp"
 #include "model/elasticity/convection.hpp"
 #include "model/elasticity/element.hpp"
-#include "model/elasticity/face.hpp"
 #include "model/elasticity/ground.hpp"
+#include "model/elasticity/hourglass.hpp"
 #include "model/elasticity/inertia.hpp"
+#include "model/elasticity/loads.hpp"
 #include "model/material/material.hpp"
 
 namespace squeal::elasticity {
@@ -32,6 +34,13 @@ std::vector<double> onAllComponents(const std::vector<double>& scalar, int count
       for (int d = 0; d < dimension; ++d)
         full[(i * dimension + d) * size + j * dimension + d] = scalar[i * count + j];
   return full;
+}
+
+/// Returns the table of a cell for its stiffness.
+const ShapeTable& stiffnessRule(const Material& material, const ShapeTable& table,
+                                const std::vector<Point>& points) {
+  return material.reducedIntegration ? *element::underintegratedTable(table.type)
+                                     : gradientTable(table, points);
 }
 
 /// Selects the cells of one body, or all.
@@ -83,7 +92,7 @@ CellMatrices cellMatrices(const mesh::Mesh& mesh, const Bodies& bodies, std::opt
     const auto nodes = block.nodesOf(e);
     const bool bubbles = bodies.settings.isIncompatible(table.name);
     const auto cellStiffness =
-        stiffness(gradientTable(table, points), points, material.law, bubbles);
+        stiffness(stiffnessRule(material, table, points), points, material.law, bubbles);
     const auto cellMass = mass(table, points, material.density, bodies.settings.mass);
     sums.stiffness.add(nodes, cellStiffness, false);
     sums.mass.add(nodes, cellMass, true);
@@ -108,43 +117,59 @@ void assembleMatrices(const mesh::Mesh& mesh, Bodies& bodies) {
   bodies.damping = sums.damping->finish(SymmetryClass::rounded);
 }
 
-/// Collective. Returns the centrifugal forces of these motions, [body].
-OwnedVec centrifugalForces(const mesh::Mesh& mesh, const Bodies& bodies,
-                           const std::vector<Motion>& motions) {
-  OwnedVec forces = nodalVector(mesh);
-  if (bodies.settings.centrifugal)
-    forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
-                          const std::vector<Point>& points) {
-      const Motion& motion = motions[block.body[e]];
-      if (motion.speed != 0)
-        addLoad(forces, mesh, block.nodesOf(e),
-                centrifugal(table, points, bodies.materials[block.body[e]].density, motion), 1);
-    });
-  check(VecAssemblyBegin(forces));
-  check(VecAssemblyEnd(forces));
-  return forces;
+/// Collective. Returns Σ factor δδᵀ over the forms, N×N; null if all factors are zero.
+OwnedMat formMatrix(const mesh::Mesh& mesh, const std::vector<attachments::Form>& forms,
+                    double attachments::Form::*factor) {
+  Triples triples;
+  bool any = false;
+  for (const auto& form : forms) {
+    if (form.*factor == 0) continue;
+    any = true;
+    if (mpi::rank(mesh.comm) > 0) continue;
+    for (const auto& a : form.terms)
+      for (const auto& b : form.terms)
+        for (int i = 0; i < mesh.dimension; ++i)
+          for (int j = 0; j < mesh.dimension; ++j)
+            triples.add(mesh.dimension * a.node + i, mesh.dimension * b.node + j,
+                        form.*factor * a.direction[i] * b.direction[j]);
+  }
+  if (!any) return {};
+  return toMatrix(mesh, triples, SymmetryClass::symmetric);
 }
 
-/// Collective. Returns pressures and centrifugal forces.
-OwnedVec loadOf(const mesh::Mesh& mesh, const Bodies& bodies) {
-  OwnedVec load = nodalVector(mesh);
-  std::vector<double> pressure;
-  for (const auto& surface : mesh.surfaces) {
-    const auto given = bodies.settings.pressure.find(surface);
-    pressure.push_back(given == bodies.settings.pressure.end() ? 0 : given->second);
-  }
-  for (const auto& block : mesh.faces)
-    for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      const double p = pressure[block.surface[e]];
-      const auto nodes = block.nodesOf(e);
-      if (p != 0)
-        addLoad(load, mesh, nodes,
-                faceNormals(shapeTable(block.type), pointsOf(mesh, nodes), block.sign[e]), -p);
-    }
-  check(VecAssemblyBegin(load));
-  check(VecAssemblyEnd(load));
-  check(VecAXPY(load, 1, bodies.centrifugal));
-  return load;
+/// Collective. Adds a matrix, which may be null, to another one, which is created if it is null.
+void addMatrix(OwnedMat& sum, Mat matrix) {
+  if (!matrix) return;
+  if (!sum)
+    check(MatDuplicate(matrix, MAT_COPY_VALUES, sum.out()));
+  else
+    check(MatAXPY(sum, 1, matrix, DIFFERENT_NONZERO_PATTERN));
+  check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_TRUE));
+}
+
+/// Collective. Adds springs, bushings and point masses to the matrices.
+void attach(const mesh::Mesh& mesh, const std::vector<attachments::Form>& masses, Bodies& bodies) {
+  using attachments::Form;
+  bodies.links = attachments::linksOf(mesh, bodies.settings.attachments);
+  bodies.linkStiffness = formMatrix(mesh, bodies.links, &Form::stiffness);
+  addMatrix(bodies.stiffness, bodies.linkStiffness);
+  addMatrix(bodies.damping, formMatrix(mesh, bodies.links, &Form::damping));
+  addMatrix(bodies.mass, formMatrix(mesh, masses, &Form::mass));
+}
+
+/// Collective. Sets the loads.
+void assembleLoads(const mesh::Mesh& mesh, const std::vector<attachments::Form>& masses,
+                   Bodies& bodies) {
+  const LoadInput input{mesh, bodies.materials, bodies.settings};
+  bodies.centrifugal = centrifugalForces(input, bodies.motions);
+  auto [hydraulic, constant] = surfaceLoads(input, masses);
+  if (bodies.settings.bodyForces) check(VecAXPY(constant, 1, bodyForces(input, {})));
+  bodies.load = std::move(hydraulic);
+  check(VecAXPY(bodies.load, 1, bodies.centrifugal));
+  check(VecAXPY(bodies.load, 1, constant));
+  PetscReal size = 0;
+  check(VecNorm(constant, NORM_INFINITY, &size));
+  if (size > 0) bodies.constantLoad = std::move(constant);
 }
 
 }  // namespace
@@ -177,7 +202,10 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
   bodies.settings = settings;
   bodies.motions = motionsOf(mesh.bodies, mesh.dimension, settings.motions);
   bodies.materials = material::materialsOf(mesh, materials);
+  requireHex20(mesh, bodies.materials);
   assembleMatrices(mesh, bodies);
+  bodies.exposed = exposedCells(mesh, bodies.materials);
+  warnOfHourglass(mesh, bodies.exposed);
   warnOfFoldedCells(mesh);
   warnOfLocking(mesh, bodies);
   if (settings.convective) {
@@ -185,8 +213,9 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
     bodies.gyroscopic = std::move(terms.gyroscopic);
     bodies.rotationStiffness = std::move(terms.rotationStiffness);
   }
-  bodies.centrifugal = centrifugalForces(mesh, bodies, bodies.motions);
-  bodies.load = loadOf(mesh, bodies);
+  const auto masses = attachments::massesOf(mesh, settings.attachments);
+  attach(mesh, masses, bodies);
+  assembleLoads(mesh, masses, bodies);
   return bodies;
 }
 
@@ -199,7 +228,9 @@ BodyPart bodyPart(const mesh::Mesh& mesh, const Bodies& bodies, int body) {
   BodyPart part;
   part.gyroscopic = std::move(terms.gyroscopic);
   part.rotationStiffness = std::move(terms.rotationStiffness);
-  part.centrifugal = centrifugalForces(mesh, bodies, motions);
+  const LoadInput input{mesh, bodies.materials, bodies.settings};
+  part.centrifugal = centrifugalForces(input, motions);
+  if (bodies.settings.bodyForces) part.weight = bodyForces(input, body);
   part.stiffness = sums.stiffness.finish(SymmetryClass::rounded);
   part.mass = sums.mass.finish(SymmetryClass::rounded);
   part.massDamping = bodies.materials[body].massDamping;
@@ -221,8 +252,9 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec di
     for (PetscInt node : nodes)
       for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[mesh.dimension * node + d]);
     const bool bubbles = bodies.settings.isIncompatible(table.name);
-    const auto cell = geometricStiffness(gradientTable(table, points), points,
-                                         bodies.materials[block.body[e]].law, bubbles, u);
+    const Material& material = bodies.materials[block.body[e]];
+    const auto cell = geometricStiffness(stiffnessRule(material, table, points), points,
+                                         material.law, bubbles, u);
     k.add(nodes, onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
   });
   return k.finish(SymmetryClass::symmetric);

@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "base/petsc/owned.hpp"
+#include "model/attachments/forms.hpp"
+#include "model/elasticity/hourglass.hpp"
 #include "model/elasticity/motion.hpp"
 #include "model/elasticity/settings.hpp"
 #include "model/material/material.hpp"
@@ -23,17 +25,22 @@ struct Bodies {
                         ///< null without convective terms
   OwnedMat rotationStiffness;  ///< K^R = −∫ρ(Dφⱼ)·(Dφᵢ) for the base motions [4.10], N×N, exactly
                                ///< symmetric, N/m; null if G is
-  OwnedVec load;         ///< b, N entries, N: pressures, and centrifugal forces of the base motions
+  OwnedVec load;         ///< b, N entries, N: all loads, and centrifugal forces of the base motions
   OwnedVec centrifugal;  ///< the centrifugal part of b, N entries, N
-  OwnedVec springs;      ///< stiffness of grounded springs, N entries, N/m; null if none
-  std::vector<Motion> motions;                ///< [body], base motions
+  OwnedVec constantLoad;   ///< the part of b that no sweep scales, N entries, N; null if none
+  OwnedMat linkStiffness;  ///< the part of K of springs and bushings, N×N, N/m; null if none
+  std::vector<attachments::Form> links;  ///< springs and bushings, the same on all ranks
+  OwnedVec springs;             ///< stiffness of grounded springs, N entries, N/m; null if none
+  std::vector<Motion> motions;  ///< [body], base motions
   std::vector<material::Material> materials;  ///< [body]
+  std::vector<ExposedCell> exposed;           ///< of all ranks
   Settings settings;
 };
 
 /// Collective. Assembles the matrices and loads of all bodies. Throws Error for materials and
 /// motions that do not suit the mesh, for an inverted element (the message names body and cell),
-/// and for convective terms on a body whose place changes as its matter moves.
+/// for convective terms on a body whose place changes as its matter moves, and for reduced
+/// integration of other cells than hex20.
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
                 const Settings& settings);
 
@@ -52,6 +59,7 @@ struct BodyPart {
   OwnedMat gyroscopic,
       rotationStiffness;  ///< null unless the body moves and there are convective terms
   OwnedVec centrifugal;
+  OwnedVec weight;              ///< gravity, acceleration and spin of the body; null if none
   double massDamping = 0;       ///< α, 1/s: C = α M + …
   double stiffnessDamping = 0;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
 };

@@ -31,6 +31,18 @@ const RealOption pressureOption("load", "load_<group>_pressure", 0.0, "Pa", anyR
                                 "pressure on a surface group, positive inwards");
 const FlagOption centrifugalOption("load", "load_centrifugal", true,
                                    "centrifugal forces on rotating bodies");
+const RealListOption gravityOption("load", "load_gravity", "0,0,0", "m/s2", anyReal,
+                                   "acceleration of gravity, on all bodies and point masses");
+const RealListOption accelerationOption("load", "load_<body>_acceleration", "0,0,0", "m/s2",
+                                        anyReal,
+                                        "force per mass of a body, added to -load_gravity");
+const RealOption spinOption("load", "load_<body>_spin", 0.0, "rad/s", anyReal,
+                            "speed of rotation whose centrifugal forces act on a body that does "
+                            "not move otherwise");
+const RealListOption spinAxisOption("load", "load_<body>_spin_axis", "0,0,1", "", anyReal,
+                                    "direction of the axis of -load_<body>_spin");
+const RealListOption spinOriginOption("load", "load_<body>_spin_origin", "0,0,0", "m", anyReal,
+                                      "point on this axis");
 const RealListOption velocityOption("motion", "motion_<body>_velocity", "0,0,0", "m/s", anyReal,
                                     "velocity of translation of the body's matter");
 const RealOption speedOption("motion", "motion_<body>_speed", 0.0, "rad/s", anyReal,
@@ -84,6 +96,28 @@ std::map<std::string, MotionSettings> motionsGiven() {
   return motions;
 }
 
+/// Reads gravity, accelerations and spins.
+void readBodyForces(Settings& settings) {
+  settings.gravity = gravityOption.vector();
+  for (const auto& body : accelerationOption.subjects())
+    settings.accelerations[body] = accelerationOption.vector(body);
+  for (const Option* option : std::vector<const Option*>{&spinAxisOption, &spinOriginOption})
+    for (const auto& body : option->subjects())
+      if (!spinOption.given(body))
+        throw Error("option -" + option->fullName(body) + " needs -" + spinOption.fullName(body));
+  for (const auto& body : spinOption.subjects()) {
+    if (settings.motions.contains(body) && settings.motions.at(body).speed != 0)
+      throw Error("option -" + spinOption.fullName(body) + ": the body rotates, and " +
+                  "-load_centrifugal gives its centrifugal forces already");
+    settings.spins[body] = {.option = "-" + spinOption.fullName(body),
+                            .speed = spinOption.get(body),
+                            .axis = spinAxisOption.vector(body),
+                            .origin = spinOriginOption.vector(body)};
+  }
+  settings.bodyForces =
+      gravityOption.given() || !settings.accelerations.empty() || !settings.spins.empty();
+}
+
 std::map<std::string, GroundSettings> groundGiven() {
   std::map<std::string, GroundSettings> ground;
   for (const auto& group : stiffnessOption.subjects()) {
@@ -108,7 +142,11 @@ Settings Settings::given() {
   settings.convective = convectiveOption.get();
   for (const auto& surface : pressureOption.subjects())
     settings.pressure[surface] = pressureOption.get(surface);
+  for (const auto& [surface, pressure] : settings.pressure)
+    if (!attachments::isHydraulic(surface)) settings.constantPressure.insert(surface);
   settings.motions = motionsGiven();
+  readBodyForces(settings);
+  settings.attachments = attachments::Settings::given();
   settings.ground = groundGiven();
   return settings;
 }

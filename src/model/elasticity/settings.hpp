@@ -3,10 +3,12 @@
 /// Settings of the elements, loads, base motions and supports of the bodies. Not collective: all
 /// ranks have the same options, and therefore the same results and Errors.
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "base/options/option_types.hpp"
+#include "model/attachments/settings.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {
@@ -37,7 +39,13 @@ struct Settings {
   bool centrifugal = true;  ///< centrifugal forces act on rotating bodies
   /// The matter of moving bodies convects its displacement, D u = (V·∇)u.
   bool convective = false;
-  std::map<std::string, double> pressure;         ///< [surface group], Pa, positive inwards
+  std::map<std::string, double> pressure;            ///< [surface group], Pa, positive inwards
+  std::set<std::string> constantPressure;            ///< surface groups that no sweep scales
+  VectorValue gravity;                               ///< of all bodies and point masses, m/s²
+  std::map<std::string, VectorValue> accelerations;  ///< [body] added to gravity, m/s²
+  std::map<std::string, MotionSettings> spins;  ///< [body] a rotation whose centrifugal forces act
+  bool bodyForces = false;                      ///< gravity, an acceleration or a spin is given
+  attachments::Settings attachments;
   std::map<std::string, MotionSettings> motions;  ///< [body], those with an option
   std::map<std::string, GroundSettings> ground;   ///< [group]
 

@@ -43,4 +43,9 @@ const ShapeTable& stiffnessTable(int gmshType) {
   return reduced ? *reduced : shapeTable(gmshType);
 }
 
+const ShapeTable* underintegratedTable(int gmshType) {
+  static const ByType tables = sorted(underintegratedTables());
+  return find(tables, gmshType);
+}
+
 }  // namespace squeal::element

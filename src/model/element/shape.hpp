@@ -40,5 +40,9 @@ const ShapeTable& shapeTable(int gmshType);
 /// det J > 0 although it changes its sign near an edge. All other cells have the rule of
 /// shapeTable().
 const ShapeTable& stiffnessTable(int gmshType);
+/// Returns the table of hex20 with the rule of reduced integration, 2×2×2 points; null for any
+/// other type. A cell with this rule has 6 hourglass modes: motions without strain at its points
+/// that are not rigid.
+const ShapeTable* underintegratedTable(int gmshType);
 
 }  // namespace squeal::element

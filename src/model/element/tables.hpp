@@ -11,5 +11,7 @@ namespace squeal::element {
 std::span<const ShapeTable> fullTables();
 /// Returns the tables with rules of degree 2.
 std::span<const ShapeTable> reducedTables();
+/// Returns the tables with rules of degree 3 that leave hourglass modes.
+std::span<const ShapeTable> underintegratedTables();
 
 }  // namespace squeal::element

@@ -27,6 +27,10 @@ Matrix3 normalCompliance(const EngineeringConstants& c) {
 /// The two indices of the tensor component of each row: xx, yy, zz, xy, yz, zx.
 constexpr std::size_t first[] = {0, 1, 2, 0, 1, 2}, second[] = {0, 1, 2, 1, 2, 0};
 
+/// The rows of a law in the order of its constants: 11, 22, 33, 12, 13, 23.
+constexpr int rowOf[] = {0, 1, 2, 3, 5, 4};
+constexpr const char* rowName[] = {"11", "22", "33", "12", "13", "23"};
+
 }  // namespace
 
 Hooke isotropic(double young, double poisson, int dimension, bool planeStress) {
@@ -67,6 +71,41 @@ Hooke orthotropic(const EngineeringConstants& c) {
     for (int j = 0; j < 3; ++j) entry(hooke, i, j) = normal[i][j];
   entry(hooke, 3, 3) = c.g12, entry(hooke, 4, 4) = c.g23, entry(hooke, 5, 5) = c.g13;
   return hooke;
+}
+
+Hooke anisotropic(std::span<const double> constants) {
+  Hooke hooke = zeroLaw(6);
+  std::size_t next = 0;
+  for (int column = 0; column < 6; ++column)
+    for (int row = 0; row <= column; ++row) {
+      const bool zero = constants.size() == 9 && column > 2 && row != column;
+      const int i = rowOf[row], j = rowOf[column];
+      entry(hooke, i, j) = entry(hooke, j, i) = zero ? 0 : constants[next++];
+    }
+  return hooke;
+}
+
+std::string violatedRule(const Hooke& solid) {
+  // Cholesky's factorisation of D: the square of a pivot is the ratio of two leading minors.
+  double factor[6][6];
+  for (int i = 0; i < 6; ++i) {
+    const double diagonal = solid(rowOf[i], rowOf[i]);
+    if (!(diagonal > 0)) return formatted("D%s%s must be > 0", rowName[i], rowName[i]);
+    for (int j = 0; j <= i; ++j) {
+      double rest = solid(rowOf[i], rowOf[j]);
+      for (int k = 0; k < j; ++k) rest -= factor[i][k] * factor[j][k];
+      if (j < i)
+        factor[i][j] = rest / factor[j][j];
+      else if (rest > 1e-12 * diagonal)
+        factor[i][i] = std::sqrt(rest);
+      else
+        return formatted(
+            "the determinant of the first %d rows and columns (of 11, 22, 33, 12, 13, 23) must be "
+            "> 0",
+            i + 1);
+    }
+  }
+  return "";
 }
 
 Hooke rotated(const Hooke& hooke, const Axes& axes) {

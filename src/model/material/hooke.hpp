@@ -4,6 +4,7 @@
 /// collective.
 #include <array>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,15 @@ struct EngineeringConstants {
 std::string violatedRule(const EngineeringConstants& constants);
 /// Returns the law, 6×6, in the axes 1, 2, 3 of the material, from constants that violate no rule.
 Hooke orthotropic(const EngineeringConstants& constants);
+
+/// Returns the law, 6×6, in the axes of the material, from the upper triangle of its matrix, column
+/// by column with the rows 11, 22, 33, 12, 13, 23: D1111, D1122, D2222, D1133, …, D2323, Pa. All 21
+/// constants are given or, for an orthotropic material, the nine that are not zero: D1111, D1122,
+/// D2222, D1133, D2233, D3333, D1212, D1313, D2323.
+Hooke anisotropic(std::span<const double> constants);
+/// Returns the first violated rule if the strain energy of a 6×6 law is not positive for every
+/// strain; otherwise an empty text.
+std::string violatedRule(const Hooke& solid);
 
 /// The unit vectors of the axes 1, 2, 3 of a material, orthogonal and right-handed.
 using Axes = std::array<Point, 3>;

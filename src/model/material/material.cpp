@@ -24,13 +24,23 @@ Axes cylindricalAxes(const Point& x, const Point& origin, const Point& k) {
   return {cross(two, k), two, k};
 }
 
+/// Throws Error for a general law with stresses across the plane of a plane problem.
+void requirePlane(const Anisotropy& given, const Hooke& turned) {
+  if (given.general && !mirrorSymmetric(turned))
+    throw Error("option " + given.option +
+                ": the material must be symmetric about the plane of the mesh: strains in the "
+                "plane must cause no shear stress across it");
+}
+
 /// Returns the law with cylindrical axes at each point. Throws Error if the axis is not normal to
 /// the plane of a plane problem.
-Law cylindricalLaw(const Hooke& solid, const CylinderAxis& axis, const std::string& body,
+Law cylindricalLaw(const Anisotropy& given, const CylinderAxis& axis, const std::string& body,
                    int dimension, bool planeStress) {
+  const Hooke& solid = given.stiffness;
   const Point origin = axis.origin, k = axis.direction;
   if (dimension == 2 && std::hypot(k[0], k[1]) > 1e-9)
     throw Error("option " + cylindricalName(body) + ": the axis of a plane problem must be 0,0,1");
+  if (dimension == 2) requirePlane(given, solid);
   return {{}, [=](const Point& x) {
             const Hooke turned = rotated(solid, cylindricalAxes(x, origin, k));
             return dimension == 2 ? inPlane(turned, planeStress) : turned;
@@ -38,12 +48,13 @@ Law cylindricalLaw(const Hooke& solid, const CylinderAxis& axis, const std::stri
 }
 
 Law lawOf(const std::string& name, const BodySettings& body, int dimension, bool planeStress) {
-  if (!body.orthotropy) return {isotropic(body.young, body.poisson, dimension, planeStress), {}};
-  const Hooke solid = orthotropic(body.orthotropy->constants);
-  if (const auto* axis = std::get_if<CylinderAxis>(&body.orthotropy->axes))
-    return cylindricalLaw(solid, *axis, name, dimension, planeStress);
-  const Hooke turned = rotated(solid, std::get<Axes>(body.orthotropy->axes));
+  if (!body.anisotropy) return {isotropic(body.young, body.poisson, dimension, planeStress), {}};
+  const Anisotropy& given = *body.anisotropy;
+  if (const auto* axis = std::get_if<CylinderAxis>(&given.axes))
+    return cylindricalLaw(given, *axis, name, dimension, planeStress);
+  const Hooke turned = rotated(given.stiffness, std::get<Axes>(given.axes));
   if (dimension == 3) return {turned, {}};
+  requirePlane(given, turned);
   if (!mirrorSymmetric(turned))
     throw Error("option " + orientationName(name) +
                 ": one axis of the material must be normal to the plane of the mesh");
@@ -52,12 +63,16 @@ Law lawOf(const std::string& name, const BodySettings& body, int dimension, bool
 
 double poissonRatio(const BodySettings& body, int dimension, bool planeStress) {
   if (dimension == 2 && planeStress) return 0;
-  if (!body.orthotropy) return body.poisson;
-  const Hooke solid = orthotropic(body.orthotropy->constants);
+  if (!body.anisotropy) return body.poisson;
+  const Hooke& solid = body.anisotropy->stiffness;
+  // Voigt's means over all directions: they do not depend on the axes.
   double bulk = 0, shear = 0;
   for (int i = 0; i < 3; ++i) {
-    shear += solid(3 + i, 3 + i) / 3;
-    for (int j = 0; j < 3; ++j) bulk += solid(i, j) / 9;
+    shear += solid(3 + i, 3 + i) / 5;
+    for (int j = 0; j < 3; ++j) {
+      bulk += solid(i, j) / 9;
+      shear += (i == j ? 2 : -1) * solid(i, j) / 30;
+    }
   }
   return (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear);
 }
@@ -72,6 +87,7 @@ std::vector<Material> materialsOf(const mesh::Mesh& mesh, const Settings& settin
                          .density = body.density,
                          .massDamping = body.massDamping,
                          .stiffnessDamping = body.stiffnessDamping,
+                         .reducedIntegration = body.reducedIntegration,
                          .poisson = poissonRatio(body, mesh.dimension, settings.planeStress)});
   }
   return materials;

@@ -15,7 +15,8 @@ struct Material {
   double density;           ///< kg/m³
   double massDamping;       ///< α, 1/s: C = α M + …
   double stiffnessDamping;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
-  /// Poisson's ratio; for an orthotropic body, that of the mean bulk and shear moduli. Zero in
+  bool reducedIntegration;  ///< of the stiffness of hex20 cells, the only cells of the body
+  /// Poisson's ratio; for an anisotropic body, that of the mean bulk and shear moduli. Zero in
   /// plane stress, where the thickness is free to change.
   double poisson;
 };

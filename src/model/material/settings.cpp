@@ -30,12 +30,23 @@ const RealListOption transverseOption(
     "constants of a transversely isotropic body, instead of _young and _poisson: "
     "Ep,Et,nup,nupt,Gt; Ep and nup in the isotropic plane 1-2, Et along axis 3, nupt the "
     "contraction along 3 per stretch in the plane, Gt the shear modulus between 3 and the plane");
+const RealListOption orthotropicOption(
+    "material", "material_<group>_orthotropic", "", "Pa", anyReal,
+    "stiffness matrix of an orthotropic body, instead of _young and _poisson, in the order of "
+    "Abaqus: D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323; the last three are "
+    "shear moduli");
+const RealListOption anisotropicOption(
+    "material", "material_<group>_anisotropic", "", "Pa", anyReal,
+    "stiffness matrix of an anisotropic body, instead of _young and _poisson, in the order of "
+    "Abaqus: D1111, D1122, D2222, D1133, D2233, D3333, D1112, D2212, D3312, D1212, D1113, D2213, "
+    "D3313, D1213, D1313, D1123, D2223, D3323, D1223, D1323, D2323; for engineering shear strains");
 const RealListOption orientationOption(
     "material", "material_<group>_orientation", "1,0,0,0,1,0", "", anyReal,
-    "axes of an orthotropic body: a1,a2,a3,b1,b2,b3 with axis 1 along a and b in the plane 1-2");
+    "axes of an orthotropic or anisotropic body: a1,a2,a3,b1,b2,b3 with axis 1 along a and b in "
+    "the plane 1-2");
 const RealListOption cylindricalOption(
     "material", "material_<group>_cylindrical", "", "m", anyReal,
-    "axis of a body with cylindrical orthotropy, instead of _orientation: ox,oy,oz,kx,ky,kz, a "
+    "axis of a body with cylindrical axes, instead of _orientation: ox,oy,oz,kx,ky,kz, a "
     "point and a direction; axis 1 radial, 2 tangential, 3 along k");
 const RealOption densityOption("material", "material_<group>_density", std::nullopt, "kg/m3",
                                positive, "mass density of the body");
@@ -51,6 +62,10 @@ const RealOption lossFactorOption(
     "frequency f = _loss_frequency, larger above it and smaller below");
 const RealOption lossFrequencyOption("material", "material_<group>_loss_frequency", std::nullopt,
                                      "Hz", positive, "frequency at which _loss_factor applies");
+const ChoiceOption integrationOption(
+    "material", "material_<group>_integration", {"full", "reduced"}, "full",
+    "quadrature of the stiffness; reduced: 2x2x2 points (C3D20R), only for hex20 cells; mass and "
+    "loads always have full integration");
 const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
                                "assumption of plane problems: plane strain or plane stress");
 
@@ -95,6 +110,32 @@ EngineeringConstants constants(const std::string& body) {
   return c;
 }
 
+/// The options of anisotropic laws.
+std::vector<const RealListOption*> anisotropicLaws() {
+  return {&engineeringOption, &transverseOption, &orthotropicOption, &anisotropicOption};
+}
+
+/// Returns the stiffness of an orthotropic or anisotropic body from its matrix.
+Hooke stiffnessMatrix(const std::string& body, const RealListOption& option, std::size_t count) {
+  const Hooke stiffness = anisotropic(numbers(option, body, count));
+  const std::string rule = violatedRule(stiffness);
+  if (!rule.empty())
+    throw Error("option -" + option.fullName(body) +
+                ": the strain energy is not positive for every strain: " + rule);
+  return stiffness;
+}
+
+/// Returns the anisotropic law that the option gives, without axes.
+Anisotropy anisotropy(const std::string& body, const RealListOption& option) {
+  const bool general = &option == &anisotropicOption;
+  Anisotropy law{{}, {}, general, "-" + option.fullName(body)};
+  if (general || &option == &orthotropicOption)
+    law.stiffness = stiffnessMatrix(body, option, general ? 21 : 9);
+  else
+    law.stiffness = orthotropic(constants(body));
+  return law;
+}
+
 /// Returns axes with axis 1 along a and with b in the plane 1-2.
 Axes axesOf(const Point& a, const Point& b) {
   const Point one = unit(a), three = unit(cross(a, b));
@@ -127,29 +168,31 @@ void exclude(const std::string& body, const Option& one, const Option& other) {
 
 /// Throws Error if options of different laws are given.
 void rejectSecondLaw(const std::string& body) {
-  for (const Option* elastic : std::vector<const Option*>{&engineeringOption, &transverseOption}) {
-    exclude(body, *elastic, youngOption);
-    exclude(body, *elastic, poissonOption);
+  const auto laws = anisotropicLaws();
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    exclude(body, *laws[i], youngOption);
+    exclude(body, *laws[i], poissonOption);
+    for (std::size_t j = i + 1; j < laws.size(); ++j) exclude(body, *laws[i], *laws[j]);
   }
-  exclude(body, engineeringOption, transverseOption);
   exclude(body, orientationOption, cylindricalOption);
 }
 
 /// Reads the elastic law of a body.
 void readLaw(const std::string& body, BodySettings& settings) {
   rejectSecondLaw(body);
-  if (engineeringOption.given(body) || transverseOption.given(body)) {
-    settings.orthotropy.emplace(Orthotropy{constants(body), {}});
+  for (const auto* law : anisotropicLaws()) {
+    if (!law->given(body)) continue;
+    settings.anisotropy = anisotropy(body, *law);
     if (cylindricalOption.given(body))
-      settings.orthotropy->axes = cylinderAxis(body);
+      settings.anisotropy->axes = cylinderAxis(body);
     else
-      settings.orthotropy->axes = orientation(body);
+      settings.anisotropy->axes = orientation(body);
     return;
   }
   for (const auto* option : {&orientationOption, &cylindricalOption})
     if (option->given(body))
       throw Error("option -" + option->fullName(body) + " needs -" +
-                  engineeringOption.fullName(body) + " or -" + transverseOption.fullName(body));
+                  engineeringOption.fullName(body) + ", _transverse, _orthotropic or _anisotropic");
   settings.poisson = poissonOption.get(body);
   settings.young = youngOption.get(body);
 }
@@ -160,6 +203,7 @@ BodySettings bodyGiven(const std::string& body) {
   settings.density = densityOption.get(body);
   settings.massDamping = rayleighMassOption.get(body);
   settings.stiffnessDamping = stiffnessDamping(body);
+  settings.reducedIntegration = integrationOption.get(body) == "reduced";
   return settings;
 }
 
@@ -167,16 +211,18 @@ BodySettings bodyGiven(const std::string& body) {
 /// other options but no law.
 std::set<std::string> groupsGiven() {
   std::set<std::string> groups;
+  for (const auto& group : youngOption.subjects()) groups.insert(group);
+  for (const auto* law : anisotropicLaws())
+    for (const auto& group : law->subjects()) groups.insert(group);
   for (const Option* option :
-       std::vector<const Option*>{&youngOption, &engineeringOption, &transverseOption})
-    for (const auto& group : option->subjects()) groups.insert(group);
-  for (const Option* option : std::vector<const Option*>{
-           &poissonOption, &densityOption, &rayleighMassOption, &rayleighStiffnessOption,
-           &lossFactorOption, &lossFrequencyOption, &orientationOption, &cylindricalOption})
+       std::vector<const Option*>{&poissonOption, &densityOption, &rayleighMassOption,
+                                  &rayleighStiffnessOption, &lossFactorOption, &lossFrequencyOption,
+                                  &orientationOption, &cylindricalOption, &integrationOption})
     for (const auto& group : option->subjects())
       if (!groups.count(group))
         throw Error("option -" + youngOption.fullName(group) +
-                    " (or _engineering_constants, _transverse) is missing, but -" +
+                    " (or _engineering_constants, _transverse, _orthotropic, _anisotropic) is "
+                    "missing, but -" +
                     option->fullName(group) + " is given");
   if (groups.empty())
     throw Error("no body: " + howToGiveMaterials() + " for each volume group of the mesh");
@@ -207,6 +253,10 @@ std::string orientationName(const std::string& body) {
 
 std::string cylindricalName(const std::string& body) {
   return "-" + cylindricalOption.fullName(body);
+}
+
+std::string integrationName(const std::string& body) {
+  return "-" + integrationOption.fullName(body);
 }
 
 }  // namespace squeal::material

@@ -13,26 +13,29 @@
 
 namespace squeal::material {
 
-/// The axis of a body with cylindrical orthotropy: axis 1 is radial, 2 tangential, 3 along it.
+/// The axis of a body with cylindrical axes: axis 1 is radial, 2 tangential, 3 along it.
 struct CylinderAxis {
   Point origin{};            ///< a point of the axis, m
   Point direction{0, 0, 1};  ///< unit vector
 };
 
-/// The elastic constants and the axes of an orthotropic body.
-struct Orthotropy {
-  EngineeringConstants constants;
+/// The elastic law and the axes of an anisotropic body.
+struct Anisotropy {
+  Hooke stiffness;  ///< in the axes of the material, 6×6
   std::variant<Axes, CylinderAxis> axes;
+  bool general = false;  ///< it is not orthotropic in these axes
+  std::string option;    ///< that gives the constants, with its dash, for messages
 };
 
 /// The material of one body.
 struct BodySettings {
   double young = 0;                      ///< Young's modulus of an isotropic body, Pa
   double poisson = 0;                    ///< Poisson's ratio of an isotropic body
-  std::optional<Orthotropy> orthotropy;  ///< in place of young and poisson
+  std::optional<Anisotropy> anisotropy;  ///< in place of young and poisson
   double density = 0;                    ///< kg/m³
   double massDamping = 0;                ///< α, 1/s: C = α M + …
   double stiffnessDamping = 0;           ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
+  bool reducedIntegration = false;       ///< of the stiffness of hex20 cells
 };
 
 struct Settings {
@@ -53,5 +56,7 @@ std::string howToGiveMaterials();
 /// `-material_<group>_orientation` and `-material_<group>_cylindrical`.
 std::string orientationName(const std::string& body);
 std::string cylindricalName(const std::string& body);
+/// Returns the same for `-material_<group>_integration`.
+std::string integrationName(const std::string& body);
 
 }  // namespace squeal::material

@@ -107,14 +107,17 @@ void Influences::addSteadyChange(const BodyPoint& state, const steady::Problem& 
   if (influence.member == &sweep::Parameters::pressure) {
     check(VecAXPY(force, -1, bodies_.load));
     check(VecAXPY(force, 1, bodies_.centrifugal));
+    if (bodies_.constantLoad) check(VecAXPY(force, 1, bodies_.constantLoad));
     cause.held = contact_.kinematics.offset;
   }
   if (!influence.member) {
     const auto& part = parts_[influence.body];
-    if (influence.density)
+    if (influence.density) {
       inertiaForms(part.rotationStiffness, part.centrifugal, v * v);
-    else
+      if (part.weight) check(VecAXPY(force, -1, part.weight));
+    } else {
       check(MatMult(part.stiffness, state.solution.displacement, force));
+    }
   }
   influence.change = steady::change(problem, state.solution, state.system, cause);
   influence.responseForce =

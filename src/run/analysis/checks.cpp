@@ -53,6 +53,7 @@ void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact&
   OwnedVec pressures;
   check(VecDuplicate(bodies.load, pressures.out()));
   check(VecWAXPY(pressures, -1, bodies.centrifugal, bodies.load));
+  if (bodies.constantLoad) check(VecAXPY(pressures, -1, bodies.constantLoad));
   PetscReal load = 0, displacement = 0;
   check(VecNorm(pressures, NORM_INFINITY, &load));
   check(VecNorm(contact.kinematics.offset, NORM_INFINITY, &displacement));

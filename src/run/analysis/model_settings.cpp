@@ -20,6 +20,8 @@ mesh::Request meshRequest(const ModelSettings& settings) {
   request.nodeGroups = constraints::constrainedGroups(settings.constraints);
   for (const auto& group : elasticity::groundedGroups(settings.elasticity))
     request.nodeGroups.push_back(group);
+  for (const auto& group : attachments::attachedGroups(settings.elasticity.attachments))
+    request.nodeGroups.push_back(group);
   request.references = settings.constraints.references;
   request.surfaces = elasticity::loadedSurfaces(settings.elasticity);
   request.interfaces = interfaces::interfaceRequests(settings.interfaces);

@@ -14,7 +14,10 @@ Audit auditOf(const Subject& model) {
   Audit audit;
   audit.dimension = model.mesh.dimension;
   audit.bodies = bodyMasses(model);
-  audit.total = totalOf(audit.bodies);
+  audit.points = pointMasses(model);
+  auto all = audit.bodies;
+  all.insert(all.end(), audit.points.begin(), audit.points.end());
+  audit.total = totalOf(all);
   const auto moduli = moduliOf(model);
   for (std::size_t b = 0; b < moduli.size(); ++b)
     audit.waveSpeed.push_back(std::sqrt(moduli[b].largest / model.bodies.materials[b].density));

@@ -17,8 +17,9 @@ namespace squeal::audit {
 /// The results of an audit, the same on all ranks and, within round-off, on any number of ranks.
 struct Audit {
   int dimension = 3;
-  std::vector<BodyMass> bodies;  ///< [body]
-  BodyMass total;
+  std::vector<BodyMass> bodies;    ///< [body]
+  std::vector<BodyMass> points;    ///< point masses
+  BodyMass total;                  ///< of bodies and point masses
   std::vector<double> waveSpeed;   ///< √(E/ρ), with the largest modulus, [body], m/s
   std::vector<CellQuality> cells;  ///< [body]
   std::vector<PartSupports> parts;

@@ -58,14 +58,15 @@ std::string massTable(const Audit& audit) {
       names.push_back(name);
   std::string text = tableHead(names);
   auto bodies = audit.bodies;
+  bodies.insert(bodies.end(), audit.points.begin(), audit.points.end());
   bodies.push_back(audit.total);
   for (const auto& body : bodies) {
     const auto& i = body.inertia;
     const double size = mesh::length(mesh::minus(body.high, body.low));
     Point centre = body.centre;
     for (double& x : centre) x = cleaned(x, size);
-    std::vector<std::string> cells{body.body, std::to_string(body.cells), number(body.mass),
-                                   place(centre)};
+    std::vector<std::string> cells{body.body, body.cells > 0 ? std::to_string(body.cells) : "",
+                                   number(body.mass), place(centre)};
     const double scale = body.mass * size * size;
     constexpr std::size_t components[][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
     for (const auto& [a, b] : components)

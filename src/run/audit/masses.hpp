@@ -28,6 +28,8 @@ struct BodyMass {
 /// is exact within round-off if the edges of the cells are straight and opposite faces of
 /// hexahedra and wedges parallel.
 std::vector<BodyMass> bodyMasses(const Subject& model);
+/// Collective. Returns the point masses, sorted by group, with the names "mass of 'GROUP'".
+std::vector<BodyMass> pointMasses(const Subject& model);
 /// Not collective. Returns the sum over the bodies, with the name "total".
 BodyMass totalOf(const std::vector<BodyMass>& bodies);
 /// Not collective. Returns the sum over the bodies with these indices.

@@ -2,6 +2,7 @@
 #include "run/audit/supports.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "base/petsc/arrays.hpp"
@@ -66,6 +67,23 @@ void countSupports(const Subject& model, Counts& counts) {
   }
 }
 
+/// Counts the ends of springs and bushings.
+void countLinks(const Subject& model, Counts& counts) {
+  const auto& mesh = model.mesh;
+  std::map<std::string, std::set<PetscInt>> nodes;  // global nodes; a bushing has several forms
+  for (const auto& link : model.bodies.links)
+    for (const auto& term : link.terms) {
+      const auto* reference = mesh.referenceWith(term.node);
+      nodes[link.name].insert(reference ? reference->displacement : term.node);
+    }
+  for (const auto& [name, ends] : nodes) {
+    counts.begin(name);
+    for (const PetscInt node : ends)
+      if (node >= mesh.firstNode && node < mesh.firstNode + mesh.ownedNodes)
+        counts.addNode(node - mesh.firstNode);
+  }
+}
+
 void countInterfaces(const Subject& model, Counts& counts) {
   const auto& all = model.contact.interfaces;
   const auto addMasters = [&](const std::vector<coupling::PartShare>& parts) {
@@ -107,10 +125,11 @@ void countCouplings(const Subject& model, Counts& counts) {
 std::vector<PartSupports> partSupports(const Subject& model) {
   Counts counts(model.mesh);
   countSupports(model, counts);
+  countLinks(model, counts);
   countInterfaces(model, counts);
   countCouplings(model, counts);
   auto parts = counts.finish();
-  const auto loose = contact::looseParts(model.mesh, model.contact, model.bodies.springs,
+  const auto loose = contact::looseParts(model.mesh, model.contact, model.bodies,
                                          {.any = false, .closed = {}, .released = {}});
   for (std::size_t part = 0; part < parts.size(); ++part) parts[part].needsContact = loose[part];
   return parts;

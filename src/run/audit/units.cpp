@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/linalg/lu.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/interfaces/algebra.hpp"
@@ -38,6 +39,23 @@ struct Elastic {
   }
   bool isTonneMm() const { return young <= largestMpa && densityTonne.contains(density); }
 };
+
+/// Returns the Young's moduli along the axes of the material: 1/S_ii with S = D⁻¹.
+Moduli moduliAlongAxes(const material::Hooke& law) {
+  linalg::DenseMatrix matrix(6, 6);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) matrix(i, j) = law(i, j);
+  const linalg::Lu<double> factors(std::move(matrix));
+  Moduli moduli{INFINITY, 0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<double> compliance(6, 0.0);
+    compliance[i] = 1;
+    factors.solve(compliance);
+    moduli.least = std::min(moduli.least, 1 / compliance[i]);
+    moduli.largest = std::max(moduli.largest, 1 / compliance[i]);
+  }
+  return moduli;
+}
 
 /// Adds a finding if √(E/ρ) is a speed that no solid has.
 void judgeSpeed(const Elastic& body, Findings& findings) {
@@ -126,12 +144,8 @@ std::vector<Moduli> moduliOf(const Subject& model) {
   std::vector<Moduli> moduli;
   for (const auto& name : model.mesh.bodies) {
     const auto& material = model.materials.bodies.at(name);
-    if (!material.orthotropy) {
-      moduli.push_back({material.young, material.young});
-      continue;
-    }
-    const auto& c = material.orthotropy->constants;
-    moduli.push_back({std::min({c.e1, c.e2, c.e3}), std::max({c.e1, c.e2, c.e3})});
+    moduli.push_back({material.young, material.young});
+    if (material.anisotropy) moduli.back() = moduliAlongAxes(material.anisotropy->stiffness);
   }
   return moduli;
 }

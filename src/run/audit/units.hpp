@@ -10,7 +10,8 @@ namespace squeal::audit {
 
 /// The moduli of a body.
 struct Moduli {
-  double least = 0, largest = 0;  ///< Young's moduli; different if the body is orthotropic, Pa
+  double least = 0,
+         largest = 0;  ///< Young's moduli; along its axes, if the body is anisotropic, Pa
 };
 /// Not collective. Returns the moduli, [body].
 std::vector<Moduli> moduliOf(const Subject& model);

@@ -63,6 +63,7 @@ OwnedVec Problem::load(const sweep::Parameters& at) const {
   OwnedVec b = elasticity::nodalVector(mesh_);
   check(VecAXPBYPCZ(b, at.pressure, at.speed * at.speed - at.pressure, 0, bodies_.load,
                     bodies_.centrifugal));
+  if (bodies_.constantLoad) check(VecAXPY(b, 1 - at.pressure, bodies_.constantLoad));
   return b;
 }
 
@@ -176,8 +177,7 @@ std::vector<contact::Slip> Problem::slip(double speed, Vec displacement) const {
 
 /// Collective. Returns why a body is under-constrained with these holds; an empty text if none is.
 std::string Problem::whyUnderConstrained(const Sticking& sticking) const {
-  const auto mode =
-      contact::rigidBodyMode(mesh_, contact_, bodies_.springs, {.released = sticking.free()});
+  const auto mode = contact::rigidBodyMode(mesh_, contact_, bodies_, {.released = sticking.free()});
   return mode ? "body '" + mode->body + "' can move rigidly (" + mode->motion +
                     ") while nodes of sticking interfaces slide or are open; add another support"
               : "";
@@ -191,9 +191,8 @@ void Problem::requireSlip(const sweep::Parameters& at) const {
 /// is arbitrary, and no stiffness matrix of this active set is positive definite.
 void Problem::rejectUnderConstrained(Solution& solution) const {
   if (!solution.converged || solution.openNodes == 0) return;
-  const auto mode =
-      contact::rigidBodyMode(mesh_, contact_, bodies_.springs,
-                             {.closed = solution.closed, .released = solution.sticking.free()});
+  const auto mode = contact::rigidBodyMode(
+      mesh_, contact_, bodies_, {.closed = solution.closed, .released = solution.sticking.free()});
   if (!mode) return;
   solution.converged = false;
   solution.reason = formatted(
@@ -368,6 +367,8 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
   };
   const OwnedVec load = this->load(solution.at), springs = elasticity::nodalVector(mesh_);
   if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
+  if (bodies_.linkStiffness)
+    check(MatMultAdd(bodies_.linkStiffness, solution.displacement, springs, springs));
   const ReadArray forces(nodalForces), loads(load), grounded(springs), contacts(contactForces);
   for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
     for (int d = 0; d < dimension && !mesh_.isRotation(mesh_.firstNode + node); ++d) {

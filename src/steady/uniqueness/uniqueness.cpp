@@ -131,8 +131,7 @@ Uniqueness examineMatrixFree(OpenContact& condensed, const std::vector<double>& 
 Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& contact, double speed,
                    const std::vector<double>& frictions, const Settings& settings) {
   if (contact.interfaces.totalNodes == 0) return undecided(frictions, "there is no contact node");
-  if (const auto mode =
-          contact::rigidBodyMode(*contact.mesh, contact, bodies.springs, {.any = false}))
+  if (const auto mode = contact::rigidBodyMode(*contact.mesh, contact, bodies, {.any = false}))
     return undecided(
         frictions,
         "body '" + mode->body +

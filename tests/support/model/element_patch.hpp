@@ -35,6 +35,7 @@ inline const Element elements[] = {
     {"hex8", "hex8", 3, "n=2", "none"},
     {"hex8_incompatible", "hex8", 3, "n=2", "hex8"},
     {"hex20", "hex20", 3, "order=2,serendipity=1", "none"},
+    {"hex20_reduced", "hex20", 3, "order=2,serendipity=1", "none"},
     {"hex27", "hex27", 3, "order=2", "none"},
     {"wedge6", "wedge6", 3, "recombine=0,wedge=1,n=2", "none"},
     {"wedge15", "wedge15", 3, "recombine=0,wedge=1,order=2,serendipity=1", "none"},
@@ -59,7 +60,7 @@ inline std::string patchOptions(const Element& element, const std::string& more 
          material("body", std::to_string(young), std::to_string(poisson), std::to_string(density)) +
          "-constraint_boundary_clamped " + (element.dimension == 2 ? "xy" : "xyz") +
          " -load_boundary_pressure 0 -elasticity_incompatible_modes " + element.incompatible + " " +
-         more;
+         (contains(element.label, "reduced") ? "-material_body_integration reduced " : "") + more;
 }
 
 /// The unit square or cube of distorted cells.

@@ -121,7 +121,7 @@ TEST(Couplings, SlantedSupportIsAnEquation) {
       "-constraint_r_clamped xz -constraint_r_frame f -frame_f_x 3,4,0 "
       "-frame_f_xy 0,1,0 -ground_tip_stiffness 1e8,1e8,1e8");
   expectEqual(byFrame, byEquations);
-  // Coupled along the slanted direction alone, and free along the plane: as with the same plane
+  // Coupled only along the slanted direction, and free along the plane: as with the same plane
   // held at the nodes themselves.
   const std::string grounded =
       "-ground_tip_stiffness 1e8,2e8,3e8 -frame_f_x 3,4,0 -frame_f_xy 0,1,0 ";

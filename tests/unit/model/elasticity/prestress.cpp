@@ -48,15 +48,18 @@ double uniformForm(int dimension) {
 
 TEST(Prestress, UniformStressOnDistortedCells) {
   for (const int dimension : {2, 3})
-    for (const std::string set :
-         {"n=1", "recombine=0", "order=2", "order=2,serendipity=1", "recombine=0,order=2"})
+    for (const std::string set : {"n=1", "recombine=0", "order=2", "order=2,serendipity=1",
+                                  "recombine=0,order=2", "serendipity=1,order=2"})
       for (const std::string incompatible : {"none", "quad4,hex8"}) {
         if (set != "n=1" && incompatible != "none") continue;
         SCOPED_TRACE(formatted("%d dimensions, %s, incompatible %s", dimension, set.c_str(),
                                incompatible.c_str()));
+        const bool reduced = set == "serendipity=1,order=2";
+        if (reduced && dimension == 2) continue;
         const auto [mesh, bodies] =
             test::buildBodies(formatted("-mesh_file meshes/patch_%dd.geo -mesh_set ", dimension) +
                               set + test::material("body", "2", "0.3", "1") +
+                              (reduced ? "-material_body_integration reduced " : "") +
                               "-elasticity_incompatible_modes " + incompatible);
         const OwnedMat k = elasticity::geometricStiffness(mesh, bodies, linearField(mesh, h1));
         const auto v = linearField(mesh, h2);

@@ -106,6 +106,20 @@ TEST(ElementTables, TheStiffnessOfQuadraticSimplicesHasADegreeLess) {
   }
 }
 
+TEST(ElementTables, OnlyHex20HasReducedIntegration) {
+  test::startGmsh();
+  for (int type = 0; type <= lastType; ++type) {
+    SCOPED_TRACE(type);
+    const auto* table = element::underintegratedTable(type);
+    ASSERT_EQ(table != nullptr, type == 17);
+    if (!table) continue;
+    expectNodes(*table);
+    expectRule(*table, 3);
+    EXPECT_EQ(table->points(), 8);
+    EXPECT_EQ(element::shapeTable(type).points(), 27);
+  }
+}
+
 TEST(ElementTables, OtherTypesAreUnknown) {
   for (int type : {-1, 0, 20, 21, 29, 31, 32, 92, 140, 1000}) EXPECT_FALSE(element::isKnown(type));
 }

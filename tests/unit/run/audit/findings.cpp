@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/system/text.hpp"
 #include "run/audit/audit.hpp"
 #include "support/model/blocks_apart.hpp"
 #include "support/model/mesh_text.hpp"
@@ -76,6 +77,16 @@ TEST(Units, ModulusAndDensity) {
   EXPECT_EQ(missingIn(test::audited(block("audit_tonne.msh", size, "2.1e11", "7.85e-9")), 1,
                       {"the density looks like t/mm3"}),
             "");
+}
+
+// The largest of the Young's moduli along the axes gives the wave speed.
+TEST(Units, OrthotropicBody) {
+  const auto options = block("audit_orthotropic.msh", {0.1, 0.05, 0.01}, "2.1e11", "7850");
+  const auto found = test::audited(test::changed(
+      test::changed(options, "-material_box_young 2.1e11", ""), "-material_box_poisson 0.3",
+      "-material_box_engineering_constants 4e9,1e9,2e9,0.3,0.2,0.1,1e9,1e9,1e9"));
+  EXPECT_NEAR(found.waveSpeed.at(0), std::sqrt(4e9 / 7850), 1e-9);
+  EXPECT_EQ(test::linesOf(found), "");
 }
 
 TEST(Units, Pressure) {
@@ -245,6 +256,24 @@ TEST(Supports, AreCountedByPart) {
   EXPECT_EQ(listed(found.parts[0]), "disc supported, support 'disc_low': 9, interface 'face': 9");
   EXPECT_EQ(listed(found.parts[1]),
             "pad supported, support 'pad_high': 9, springs of 'pad_y0': 6, interface 'face': 9");
+}
+
+TEST(Supports, SpringsAndBushings) {
+  const auto found =
+      test::audited(blocks("audit_links.msh", 0.03) +
+                    "-reference_a_position 0.05,0.05,0 -reference_b_position 0.05,0.05,0.03 "
+                    "-coupling_a_reference a -coupling_a_nodes disc_high -coupling_b_reference b "
+                    "-coupling_b_nodes pad_low -spring_s_from a -spring_s_to b "
+                    "-spring_s_stiffness 1e6 -bushing_t_from a -bushing_t_to b "
+                    "-bushing_t_stiffness 1e6,1e6,1e6,1e3,1e3,1e3");
+  for (const auto& part : found.parts) {
+    if (part.part != "a" && part.part != "b") continue;
+    std::vector<std::string> names;
+    for (const auto& support : part.supports) names.push_back(support.by);
+    EXPECT_EQ(joined(names), "bushing 't', spring 's', coupling '" + part.part + "'");
+    for (const auto& support : part.supports) EXPECT_EQ(support.nodes, 1) << support.by;
+  }
+  EXPECT_EQ(found.parts.size(), 4u);
 }
 
 TEST(Supports, PartThatOnlyContactHolds) {

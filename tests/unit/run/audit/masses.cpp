@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/model/blocks_apart.hpp"
@@ -107,6 +108,45 @@ TEST(Masses, Ring) {
     EXPECT_NEAR(ring.inertia[d][d], mass / 12 * (3 * squares + width * width),
                 2e-6 * mass * squares);
   EXPECT_NEAR(ring.inertia[0][1], 0, 1e-12 * mass * squares);
+}
+
+// A dumbbell of two point masses and a light block: the masses at the nodes of a face, and one at a
+// reference node in turned axes.
+TEST(Masses, PointMasses) {
+  test::BlockWriter writer;
+  writer.add("box", {test::hex8, {1, 1, 2}, {-1, -1, -1}, {1, 1, 1}, 0});
+  const auto audit = test::audited(
+      "-mesh_file " + test::writeFile("audit_points.msh", writer.text()) +
+      test::material("box", "1", "0.3", "0.125") +
+      "-constraint_box_low_clamped xyz -mass_box_high_total 4 -reference_r_position 0,0,3 "
+      "-coupling_c_reference r -coupling_c_nodes box_x1 -mass_r_total 5 -mass_r_offset 2,0,0 "
+      "-mass_r_inertia 1,2,3,0,0,0 -mass_r_frame f -frame_f_x 0,1,0 -frame_f_xy -1,0,0");
+  ASSERT_EQ(audit.points.size(), 2u);
+  const auto &face = audit.points[0], &point = audit.points[1];
+  EXPECT_EQ(face.body, "mass of 'box_high'");
+  EXPECT_NEAR(face.mass, 4, 1e-12);
+  EXPECT_NEAR(face.centre[2], 1, 1e-12);
+  EXPECT_NEAR(face.inertia[0][0], 4, 1e-12);  // four nodes at (±1, ±1, 1)
+  EXPECT_NEAR(face.inertia[2][2], 8, 1e-12);
+  EXPECT_EQ(point.body, "mass of 'r'");
+  EXPECT_NEAR(point.centre[0], 0, 1e-12);
+  EXPECT_NEAR(point.centre[1], 2, 1e-12);
+  EXPECT_NEAR(point.centre[2], 3, 1e-12);
+  EXPECT_NEAR(point.inertia[0][0], 2, 1e-12);
+  EXPECT_NEAR(point.inertia[1][1], 1, 1e-12);
+  EXPECT_NEAR(point.inertia[2][2], 3, 1e-12);
+  EXPECT_NEAR(audit.total.mass, 10, 1e-12);
+  EXPECT_NEAR(audit.total.centre[2], (4 * 1 + 5 * 3) / 10.0, 1e-12);
+  EXPECT_NEAR(audit.total.centre[1], 1, 1e-12);
+  ASSERT_EQ(audit.parts.size(), 2u);  // the block and the reference node
+  const auto holds = [&](const audit::PartSupports& part, const std::string& by) {
+    return std::ranges::any_of(part.supports,
+                               [&](const audit::Support& support) { return support.by == by; });
+  };
+  for (const auto& part : audit.parts) {
+    EXPECT_TRUE(holds(part, "coupling 'c'")) << part.part;
+    EXPECT_FALSE(part.needsContact) << part.part;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Springs, bushings and point masses as sums of squares of linear forms of nodal displacements.
+#include <string>
+#include <vector>
+
+#include "model/attachments/settings.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::attachments {
+
+using mesh::Point;
+
+/// A vector times the components of a node.
+struct FormTerm {
+  PetscInt node;    ///< global node
+  Point direction;  ///< in the plane, on the rotation of a reference node, the first component
+};
+
+/// A linear form δ = Σ direction · u of the components of nodes, with
+///   K = stiffness δδᵀ,   C = damping δδᵀ,   M = mass δδᵀ.
+struct Form {
+  std::string name;      ///< "spring 'a'", for messages
+  double stiffness = 0;  ///< N/m, or N·m/rad
+  double damping = 0;    ///< N·s/m, or N·m·s/rad
+  double mass = 0;       ///< kg, or kg·m²
+  Point accelerated{};  ///< of a mass: ∂δ/∂u of a translation of all nodes; zero for rotations
+  std::vector<FormTerm> terms = {};
+};
+
+/// Collective. Returns the springs and bushings. A bushing acts at the middle of its ends or, if
+/// one has no rotation, at that end; rigid arms lead from there to the other one, so that rigid
+/// motions cost no energy. Throws Error, naming the option, for ends of a spring that coincide,
+/// for a bushing whose ends lie apart and have no rotation, for a stiffness about an axis of a node
+/// without rotation, and for a wrong number of components.
+std::vector<Form> linksOf(const mesh::Mesh& mesh, const Settings& settings);
+
+/// Collective. Returns the point masses, the same on all ranks. Throws Error for an inertia or an
+/// offset at a group of nodes, and for an inertia that no mass has.
+std::vector<Form> massesOf(const mesh::Mesh& mesh, const Settings& settings);
+
+/// A force or a moment on an owned node.
+struct NodalForce {
+  PetscInt node;  ///< global node
+  Point value;    ///< N, or N·m; in the plane a moment is the first component
+  bool hydraulic;
+};
+
+/// Collective. Returns the forces on nodes of this rank. Throws Error for a moment on a group of
+/// nodes.
+std::vector<NodalForce> forcesOf(const mesh::Mesh& mesh, const Settings& settings);
+
+}  // namespace squeal::attachments

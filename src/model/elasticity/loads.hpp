@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Loads on all nodal displacements, N entries each, N (moments on reference nodes N·m).
+#include <optional>
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "model/attachments/forms.hpp"
+#include "model/elasticity/motion.hpp"
+#include "model/elasticity/settings.hpp"
+#include "model/material/material.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::elasticity {
+
+/// What the loads depend on; borrowed.
+struct LoadInput {
+  const mesh::Mesh& mesh;
+  const std::vector<material::Material>& materials;  ///< [body]
+  const Settings& settings;
+};
+
+/// Collective. Returns the centrifugal forces of these motions, [body].
+OwnedVec centrifugalForces(const LoadInput& input, const std::vector<Motion>& motions);
+
+/// Collective. Returns gravity, accelerations and spins of the bodies, or of one body. Throws Error
+/// for options of a group that is not a body.
+OwnedVec bodyForces(const LoadInput& input, std::optional<int> body);
+
+/// Pressures and forces on nodes, and the weight of point masses.
+struct SurfaceLoads {
+  OwnedVec hydraulic;  ///< scaled by the pressure of the sweep
+  OwnedVec constant;
+};
+
+/// Collective. Returns these loads.
+SurfaceLoads surfaceLoads(const LoadInput& input, const std::vector<attachments::Form>& masses);
+
+}  // namespace squeal::elasticity
