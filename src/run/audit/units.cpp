@@ -27,6 +27,7 @@ constexpr Range waveSpeed{10, 20'000};                  // m/s
 constexpr double largestMpa = 2e6;                      // MPa
 constexpr double largestSize = 5, smallestSize = 1e-3;  // of a brake, m
 constexpr double smallestPressure = 100;                // Pa, a thousandth of the atmosphere's
+constexpr double largestGravity = 1000;                 // m/s², a hundred times that of the Earth
 constexpr double largestStrain = 0.1;                   // p/E
 
 /// The numbers of a body that the rules judge.
@@ -138,6 +139,22 @@ void judgePressure(const Subject& model, const std::vector<Elastic>& bodies,
   }
 }
 
+/// Adds a finding for a gravity that does not belong to the moduli and densities of all bodies.
+void judgeGravity(const Subject& model, const std::vector<Elastic>& bodies, Findings& findings) {
+  const double gravity = mesh::length(model.bodies.settings.gravity.in(model.mesh.dimension));
+  const auto add = [&](const char* text, const char* remedy) {
+    findings.push_back({Kind::units, Severity::warning,
+                        formatted("the gravity of %.4g m/s2 looks like %s", gravity, text),
+                        remedy});
+  };
+  if (std::ranges::all_of(bodies, &Elastic::isSi) && gravity > largestGravity)
+    add("mm/s2, while the moduli are in Pa and the densities in kg/m3",
+        "give -load_gravity in m/s2");
+  if (std::ranges::all_of(bodies, &Elastic::isTonneMm) && gravity > 0 && gravity < largestGravity)
+    add("m/s2, while the moduli are in MPa and the densities in t/mm3",
+        "give -load_gravity in mm/s2");
+}
+
 }  // namespace
 
 std::vector<Moduli> moduliOf(const Subject& model) {
@@ -162,6 +179,7 @@ Findings unitFindings(const Subject& model, const std::vector<BodyMass>& masses)
   for (const auto& body : bodies) judgeSpeed(body, findings);
   judgeSize(model, bodies, totalOf(masses), findings);
   judgePressure(model, bodies, moduli, findings);
+  judgeGravity(model, bodies, findings);
   return findings;
 }
 

@@ -16,7 +16,8 @@ struct Moduli {
 /// Not collective. Returns the moduli, [body].
 std::vector<Moduli> moduliOf(const Subject& model);
 
-/// Collective. Judges the wave speed √(E/ρ) of each body, the size of the model and its pressures.
+/// Collective. Judges the wave speed √(E/ρ) of each body, the size of the model, its
+/// pressures and its gravity.
 Findings unitFindings(const Subject& model, const std::vector<BodyMass>& masses);
 
 }  // namespace squeal::audit

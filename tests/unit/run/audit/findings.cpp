@@ -102,6 +102,19 @@ TEST(Units, Pressure) {
             "");
 }
 
+TEST(Units, Gravity) {
+  const auto si = block("audit_g.msh", {0.1, 0.05, 0.01}, "2.1e11", "7850"),
+             mm = block("audit_g_mm.msh", {100, 50, 10}, "2.1e5", "7.85e-9");
+  EXPECT_EQ(missingIn(test::audited(si + "-load_gravity 0,0,-9.81"), 0, {}), "");
+  EXPECT_EQ(missingIn(test::audited(si + "-load_gravity 0,0,-9810"), 1,
+                      {"gravity of 9810 m/s2 looks like mm/s2", "-load_gravity in m/s2"}),
+            "");
+  EXPECT_EQ(missingIn(test::audited(mm + "-load_gravity 0,0,-9810"), 0, {}), "");
+  EXPECT_EQ(missingIn(test::audited(mm + "-load_gravity 0,0,-9.81"), 1,
+                      {"gravity of 9.81 m/s2 looks like m/s2", "-load_gravity in mm/s2"}),
+            "");
+}
+
 TEST(Rotation, AxisFarFromTheBody) {
   const auto options =
       blocks("audit_axis.msh", 0) + contact + " -motion_disc_speed 5 -motion_disc_axis 0,0,1 ";
