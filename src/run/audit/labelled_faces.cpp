@@ -46,6 +46,17 @@ std::vector<PetscInt> nodesOf(const Subject& model, int interface) {
   return nodes;
 }
 
+/// Returns the nodes of the bodies on this rank that a coupling joins to a reference node.
+std::vector<PetscInt> coupledNodesOf(const Subject& model, int coupling) {
+  std::vector<PetscInt> nodes;
+  for (const auto& coupled : model.contact.interfaces.coupled)
+    if (coupled.coupling == coupling) {
+      nodes.push_back(model.mesh.globalNode[coupled.node]);
+      for (const auto& master : coupled.masters) nodes.push_back(master.node);
+    }
+  return nodes;
+}
+
 /// Collective. Returns marks at all nodes that are joined to others.
 Marks joinedNodes(const Subject& model) {
   const auto& mesh = model.mesh;
@@ -62,7 +73,10 @@ Marks joinedNodes(const Subject& model) {
             for (const PetscInt node : block.nodesOf(f)) nodes.push_back(mesh.globalNode[node]);
     }
   }
-  for (const auto& coupled : all.coupled) nodes.push_back(mesh.globalNode[coupled.node]);
+  for (int c = 0; c < std::ssize(all.couplings); ++c) {
+    const auto some = coupledNodesOf(model, c);
+    nodes.insert(nodes.end(), some.begin(), some.end());
+  }
   for (const auto& image : mesh.images) {
     nodes.push_back(mesh.globalNode[image.node]);
     nodes.push_back(image.primary);
@@ -121,12 +135,14 @@ LabelledFaces labelledFaces(const Subject& model) {
   const auto& mesh = model.mesh;
   const auto boundary = elasticity::boundaryFaces(mesh);
   const Marks joined = joinedNodes(model);
-  std::vector<Marks> touching;  // [interface]
+  std::vector<Marks> touching;  // [interface], then [coupling]
   const auto& all = model.contact.interfaces;
   for (int i = 0; i < std::ssize(all.options); ++i)  // meshes that do not match have two groups
     touching.push_back(all.reports[i].matching && !all.options[i].onObstacle()
                            ? marked(mesh, nodesOf(model, i))
                            : Marks(mesh.localNodes()));
+  for (int c = 0; c < std::ssize(all.couplings); ++c)
+    touching.push_back(marked(mesh, coupledNodesOf(model, c)));
   const auto named = interfacesOfFaces(model);
   std::vector<FaceLabel> own;
   for (const auto& face : boundary) {

@@ -9,10 +9,11 @@
 namespace squeal::audit {
 
 /// The body of a face and the interfaces that it belongs to: it is in the group of one of their
-/// sides, or all its nodes touch or are tied there.
+/// sides, or all its nodes touch or are tied there. Couplings count as further interfaces.
 struct FaceLabel {
   int body = 0;
-  std::vector<int> interfaces;  ///< ascending
+  std::vector<int> interfaces;  ///< index into Interfaces::options, or their number plus the index
+                                ///< of a coupling; ascending
   auto operator<=>(const FaceLabel&) const = default;
 };
 

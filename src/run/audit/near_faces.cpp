@@ -130,7 +130,8 @@ class Comparison {
     for (const std::size_t m : near_.ofSlave[f]) {
       const auto& other = all_.labels[near_.masters[m].body];
       compareNodes(f, near_.masters[m], other.body);
-      if (other.body == label.body) continue;
+      const bool isOnePart = near_.masters[m].parts[0] == face.parts[0];
+      if (other.body == label.body && isOnePart) continue;
       const auto gap = gapOf(flat_[f], others_[m]);
       if (!gap) continue;
       if (intersect(label.interfaces, other.interfaces)) joined.insert(other.body);
@@ -224,19 +225,21 @@ std::map<Pair, Coincident> coincidentNodes(const mesh::Mesh& mesh,
   return all;
 }
 
-/// Returns a finding on one pair of bodies, from the side with more area.
+/// Returns a finding on one pair of bodies, from the side with more area, or on two parts of a
+/// body.
 Finding facingFinding(const mesh::Mesh& mesh, const Pair& pair, const Facing& facing) {
   const bool touches = facing.relative <= touching;
   const std::string one = "'" + mesh.bodies[pair.first] + "'",
                     other = "'" + mesh.bodies[pair.second] + "'";
-  const std::string what = touches ? "touches body " + other : "lies close to body " + other,
+  const std::string what = std::string(touches ? "touches " : "lies close to ") +
+                           (pair.first == pair.second ? "another part of " : "body ") + other,
                     distance = touches ? ""
                                        : formatted(" at distances from %.3g to %.3g m",
                                                    facing.least, facing.largest);
   return {
       Kind::nearFaces, touches ? Severity::warning : Severity::note,
-      "body " + one + " " + what + " without an interface: " + counted(facing.faces, "face") +
-          " of " + one +
+      (pair.first == pair.second ? "a part of body " : "body ") + one + " " + what +
+          " without an interface: " + counted(facing.faces, "face") + " of " + one +
           formatted(", %.4g %s%s, the first at %s", facing.area, mesh.dimension == 2 ? "m" : "m2",
                     distance.c_str(), interfaces::text(facing.first).c_str()),
       "if the parts touch there, name these faces in a contact, -contact_<interface>_pad and "
@@ -273,18 +276,23 @@ Findings nearFindings(const Subject& model) {
   const auto nodes = coincidentNodes(mesh, found.nodes);
   Findings findings;
   for (const auto& [pair, here] : facing) {
+    if (pair.first == pair.second && nodes.contains(pair)) continue;  // the nodes show it better
     const auto back = facing.find({pair.second, pair.first});
     // Of both sides the one with more area; they may differ where one is smaller than a face.
-    const double opposite = back == facing.end() ? 0 : back->second.area;
+    const double opposite =
+        back == facing.end() || pair.first == pair.second ? 0 : back->second.area;
     const bool isSmaller = std::abs(here.area - opposite) > 1e-6 * here.area
                                ? here.area < opposite
                                : opposite > 0 && pair.first > pair.second;
     if (!isSmaller) findings.push_back(facingFinding(mesh, pair, here));
   }
-  for (const auto& [pair, here] : nodes)
-    if (!facing.contains(pair) && !facing.contains({pair.second, pair.first}) &&
-        (pair.first <= pair.second || !nodes.contains({pair.second, pair.first})))
-      findings.push_back(coincidentFinding(mesh, pair, here));
+  for (const auto& [pair, here] : nodes) {
+    const Pair reversed{pair.second, pair.first};
+    const bool isKnown =
+        pair.first != pair.second && (facing.contains(pair) || facing.contains(reversed) ||
+                                      (pair.first > pair.second && nodes.contains(reversed)));
+    if (!isKnown) findings.push_back(coincidentFinding(mesh, pair, here));
+  }
   return findings;
 }
 

@@ -6,10 +6,11 @@
 
 namespace squeal::audit {
 
-/// Collective. Searches around each boundary face, to a tenth of its size. Faces of two bodies are
-/// a finding if they face each other and belong to no common interface; nodes, if they have the
-/// same place but different numbers, and the first belongs to no interface, coupling or periodic
-/// boundary. Ranks exchange only faces that are near faces of each other.
+/// Collective. Searches around each boundary face, to a tenth of its size. Faces of two bodies, or
+/// of two parts of a body, are a finding if they face each other and belong to no common interface
+/// or coupling; nodes, if they have the same place but different numbers, and the first belongs to
+/// no interface, coupling or periodic boundary. Ranks exchange only faces that are near faces of
+/// each other.
 Findings nearFindings(const Subject& model);
 
 }  // namespace squeal::audit

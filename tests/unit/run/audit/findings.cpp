@@ -152,6 +152,27 @@ TEST(NearFaces, BodiesThatLieCloseAreNotes) {
   EXPECT_EQ(missingIn(test::audited(blocks("audit_apart.msh", 0.01)), 0, {}), "");
 }
 
+// A coupling of both faces joins them; one of each to a reference node of its own does not.
+TEST(NearFaces, CoupledBodies) {
+  const auto options = blocks("audit_coupled.msh", 0) + "-reference_r_position 0.05,0.05,0 ";
+  const std::string one = "-coupling_c_reference r -coupling_c_nodes ";
+  EXPECT_EQ(missingIn(test::audited(options + one + "disc_high,pad_low"), 0, {}), "");
+  EXPECT_EQ(missingIn(test::audited(options + one + "disc_high"), 1, {"touches body 'pad'"}), "");
+}
+
+// Two solids of one group whose meshes do not match.
+TEST(NearFaces, PartsOfOneBody) {
+  test::BlockWriter writer;
+  writer.add("box", {test::hex8, {2, 2, 1}, {0, 0, 0}, {0.1, 0.1, 0.05}, 0});
+  writer.add("box", {test::hex8, {5, 5, 1}, {0.01, 0.01, 0.05}, {0.09, 0.09, 0.1}, 0});
+  EXPECT_EQ(
+      missingIn(test::audited("-mesh_file " + test::writeFile("audit_two.msh", writer.text()) +
+                              test::material("box", "2e11", "0.3", "7800") +
+                              "-constraint_box_x0_clamped xyz"),
+                1, {"(warning): a part of body 'box' touches another part of 'box'"}),
+      "");
+}
+
 // In the plane the faces are lines.
 TEST(NearFaces, Plane) {
   const auto options = test::blocksApart("audit_lines.msh", {3, {4, 1, 2}, {0, 0, -1}, {2, 0, 0}},
