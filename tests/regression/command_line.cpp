@@ -331,7 +331,9 @@ TEST(CommandLine, DryRunSaysWhatARunWouldDo) {
          {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)", "bottom (12 nodes)",
           "plate (12 nodes on a rigid obstacle)",
           "6 points: 2 frictions x 3 speeds x 1 pressures x 1 dampings; 6 steady states",
-          "unknowns     84", "GB on all ranks"});
+          "unknowns     84", "GB on all ranks", "\naudit ", "\n# Audit of the model\n",
+          "\nNo finding.\n", "| layer | 48 | 3 | (1.5, -0.5, 0) | 2.5 |"});
+  EXPECT_EQ(dry("-options_file options/layer.yaml -audit off").find("audit"), std::string::npos);
   expect(dry("-options_file options/external.yaml"),
          {"mass: 2 rows, 2 entries, with s^2", "friction: 2 rows, 1 entries, with s^0, friction^1",
           "unknowns     2,"});

@@ -274,6 +274,16 @@ TEST(Outputs, ProfileOfPetsc) {
     EXPECT_NE(text.find("\n" + std::string(work)), std::string::npos) << work;
 }
 
+TEST(Outputs, Audit) {
+  EXPECT_NE(layerRun().out.find(" s  no finding (audit.md)"), std::string::npos) << layerRun().out;
+  const std::string text = contentOf(layerRun().folder / "audit.md");
+  for (const char* piece :
+       {"# Audit of the model\n", "\nNo finding.\n", "| layer | 48 | 3 | (1.5, -0.5, 0) | 2.5 |",
+        "| layer | support 'bottom': 12, interface 'plate': 12, periodic images: 10 | supported |"})
+    EXPECT_NE(text.find(piece), std::string::npos) << piece << "\n" << text;
+  EXPECT_NE(contentOf(layerRun().folder / "manifest.txt").find("\naudit.md\n"), std::string::npos);
+}
+
 TEST(Outputs, TerminalTable) {
   for (const char* stage :
        {"mesh", "elasticity", "contact", "steady", "modes", "flutter", "report"})

@@ -66,6 +66,20 @@ struct SlaveSide {
   int sign;             ///< +1 if it is the pad, −1 if it is the disc
 };
 
+/// The nodes of an interface without a condition because they follow from another one.
+struct LossReport {
+  PetscInt nodes = 0;
+  Point first{};                    ///< the place of one of them, m
+  std::vector<std::string> owners;  ///< labels of the interfaces that they follow from
+};
+
+/// The cells that the adjustment of a tie stretches or compresses.
+struct StrainReport {
+  PetscInt cells = 0;  ///< with a change of a distance of corners by more than a tenth
+  double change = 0;   ///< largest change of a distance of two corners, relative to it
+  Point where{};       ///< their middle in the file, m
+};
+
 /// A report on an interface, the same on all ranks.
 struct InterfaceReport {
   bool matching = true;         ///< node on node, or a rigid obstacle
@@ -78,10 +92,12 @@ struct InterfaceReport {
   double largestGap = 0;   ///< largest distance of the touching surfaces, m
   PetscInt dropped = 0;    ///< touching nodes without a condition: too little covered, or left
                            ///< to another interface
+  LossReport loss;
   // The following apply only to ties.
   PetscInt carried = 0;          ///< held components of tied nodes that the master carries
   PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
   double largestAdjustment = 0;  ///< largest move of a tied node, m
+  StrainReport strain;
 };
 
 /// A node that an interface leaves to another one, owned by this rank.

@@ -79,4 +79,12 @@ Model buildModel(MPI_Comm comm, const ModelSettings& settings) {
   return model;
 }
 
+audit::Audit auditModel(const Model& model, const ModelSettings& settings,
+                        const std::string& place) {
+  Stage stage(model.mesh->comm, "audit");
+  auto found = audit::auditOf({*model.mesh, model.bodies, model.contact, settings.materials});
+  stage.finish(audit::summaryOf(found) + place);
+  return found;
+}
+
 }  // namespace squeal::analysis
