@@ -9,11 +9,11 @@ _squeal() {
       ;;
     -help)
       _squeal_words "general mesh frame matrices material elasticity reference ground spring
-        bushing mass coupling equation constraint load motion friction contact tie
-        steady modes flutter regime report"
+        bushing mass coupling equation bolt constraint load motion friction contact
+        tie steady modes flutter regime report"
       return
       ;;
-    -checkpoint | -resume | -quiet | -dry_run | -elasticity_prestress | \
+    -checkpoint | -resume | -quiet | -dry_run | -audit | -elasticity_prestress | \
     -load_centrifugal | -motion_convective | -steady_full | -steady_uniqueness | \
     -modes_sturm | -flutter_direct_confirm | -flutter_sensitivities | \
     -flutter_track | -flutter_critical | -flutter_friction_damping | \
@@ -67,14 +67,14 @@ _squeal() {
       ;;
   esac
   _squeal_words "-options_file -dry_run -help -help_json -version -checkpoint
-    -checkpoint_interval -resume -quiet -log_json -progress -mesh_straighten
-    -mesh_file -mesh_scale -mesh_set -mesh_size -mesh_order -elasticity_mass
-    -elasticity_incompatible_modes -elasticity_prestress -elasticity_plane
-    -load_centrifugal -load_gravity -motion_convective -friction_law
-    -friction_static_ratio -friction_decay_speed -friction_table_speed
-    -friction_table_factor -steady_full -steady_path -steady_uniqueness
-    -steady_uniqueness_dense -steady_uniqueness_pmatrix -modes_count
-    -modes_solver -modes_block_size -modes_tolerance -modes_sturm
+    -checkpoint_interval -resume -quiet -log_json -progress -audit
+    -mesh_straighten -mesh_file -mesh_scale -mesh_set -mesh_size -mesh_order
+    -elasticity_mass -elasticity_incompatible_modes -elasticity_prestress
+    -elasticity_plane -load_centrifugal -load_gravity -motion_convective
+    -friction_law -friction_static_ratio -friction_decay_speed
+    -friction_table_speed -friction_table_factor -steady_full -steady_path
+    -steady_uniqueness -steady_uniqueness_dense -steady_uniqueness_pmatrix
+    -modes_count -modes_solver -modes_block_size -modes_tolerance -modes_sturm
     -flutter_direct_count -flutter_direct_band -flutter_direct_limit
     -flutter_direct_confirm -flutter_method -flutter_modal_damping -flutter_band
     -flutter_band_damping -flutter_accuracy -flutter_unstable_tolerance

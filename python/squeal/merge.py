@@ -237,7 +237,9 @@ def _joined_summary(parts, taken, out, left):
         ),
         "not_merged": {
             "results.h5": "mode shapes and fields are in the parts",
-            "modes.csv, steady_*.csv, contact_path.csv, onset.csv, regime*.csv": "in the parts",
+            "modes.csv, steady_*.csv, reactions.csv, contact_path.csv, onset.csv, regime*.csv": (
+                "in the parts"
+            ),
             **{f"{name}.csv": "not in all parts" for name in left},
         },
         "frictions": sorted(frictions, key=lambda entry: [entry[name] for name in order]),

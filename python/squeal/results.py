@@ -155,6 +155,12 @@ class Results:
         return self.table("contact_path")
 
     @functools.cached_property
+    def reactions(self):
+        """The forces and moments that hold and join the bodies at each point; None for matrices
+        from files."""
+        return self.table("reactions")
+
+    @functools.cached_property
     def friction_work(self):
         """The growth that the friction of each interface adds to the stored modes; None for
         matrices from files."""

@@ -11,6 +11,22 @@ import re
 VERDICTS = ("unstable", "undecided", "uncertified", "stable", "neutral")  # the gravest first
 CLASSES = ("growing", "steady", "periodic", "modulated", "irregular", "nothing measured")
 
+REACTIONS = (
+    "support",
+    "ground",
+    "spring",
+    "bushing",
+    "equation",
+    "reference",
+    "coupling",
+    "tie",
+    "interface",
+    "offset",
+    "periodic",
+    "load",
+    "sum",
+)
+
 
 @dataclasses.dataclass(frozen=True)
 class Column:
@@ -72,6 +88,7 @@ UNITS = {
     "m2_per_s2": "m²/s²",
     "m_per_s": "m/s",
     "hz": "Hz",
+    "n_m": "N m",
     "pa": "Pa",
     "db": "dB re 1e-12 W",
     "m2": "m²",
@@ -202,6 +219,14 @@ TABLES = {
                 "unheld",
                 "beyond_friction",
             ),
+        )
+    ),
+    "reactions": Table(
+        (
+            *POINT[:3],
+            word("kind", *REACTIONS),
+            word("name", empty=True),
+            *numbers("force_x_n force_y_n force_z_n moment_x_n_m moment_y_n_m moment_z_n_m"),
         )
     ),
     "onset": Table(

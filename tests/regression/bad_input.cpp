@@ -94,7 +94,7 @@ TEST(BadInput, Options) {
        {"-modes_count 100000", "30 unknowns"}},
       {"friction_negative",
        with(layer, {{"flutter_friction", "-0.1"}}),
-       {"-flutter_friction -0.1", "a number >= 0"}},
+       {"-flutter_friction -0.1", "numbers >= 0"}},
       {"friction_no_step",
        with(layer, {{"flutter_friction", "0:0.6"}}),
        {"-flutter_friction 0:0.6", "first:last:step"}},

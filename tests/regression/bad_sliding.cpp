@@ -71,7 +71,7 @@ TEST(BadSliding, FactorOfNothing) {
        {"-flutter_damping", "there is none", "rayleigh"}},
       {"damping_negative",
        with(layer, {{"flutter_damping", "-1"}}),
-       {"-flutter_damping", "-1", "a number >= 0"}},
+       {"-flutter_damping", "-1", "numbers >= 0"}},
       {"pressure_of_nothing",
        with(unpressed, {{"flutter_pressure", "2"}}),
        {"-flutter_pressure", "there are none", "-load_<group>"}},

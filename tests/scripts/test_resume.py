@@ -166,6 +166,11 @@ class Resumed(unittest.TestCase):
                 .max(initial=0),
                 SAME,
             )
+        if theirs.reactions is not None:  # computed from the displacements of the checkpoint
+            columns = [name for name in theirs.reactions if name.startswith(("force", "moment"))]
+            here, there = (one.reactions[columns].to_numpy() for one in (ours, theirs))
+            self.assertEqual(here.shape, there.shape)
+            self.assertLess(np.abs(here - there).max(), SAME * np.abs(there).max())
         solves = [
             [
                 part["solves"]

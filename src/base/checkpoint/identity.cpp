@@ -20,9 +20,9 @@ constexpr const char* rankCount = "the number of ranks";
 
 /// Returns true for an option that does not affect the computed results.
 bool isIndifferent(const std::string& name) {
-  static const std::vector<std::string> exact{"resume",      "checkpoint", "checkpoint_interval",
-                                              "quiet",       "progress",   "log_json",
-                                              "options_file"};
+  static const std::vector<std::string> exact{"resume", "checkpoint",  "checkpoint_interval",
+                                              "quiet",  "progress",    "log_json",
+                                              "audit",  "options_file"};
   return std::ranges::find(exact, name) != exact.end() || name.starts_with("report_") ||
          name.starts_with("log_");
 }

@@ -30,10 +30,10 @@ Point onRotation(const Point& direction, int dimension) {
 /// Adds factor · e·(u + θ × arm) of a node to a form.
 void addTranslation(Form& form, const PointNode& node, const Point& e, const Point& arm,
                     double factor, int dimension) {
-  form.terms.push_back({node.displacement, scaled(e, factor)});
+  form.terms.push_back({node.displacement, scaled(e, factor), false});
   const Point turn = cross(arm, e);
   if (node.rotation >= 0 && mesh::length(turn) > 0)
-    form.terms.push_back({node.rotation, scaled(onRotation(turn, dimension), factor)});
+    form.terms.push_back({node.rotation, scaled(onRotation(turn, dimension), factor), false});
 }
 
 /// The components of a bushing: the first of the six axes, then the number of translations and of
@@ -69,10 +69,11 @@ Form springOf(const mesh::Mesh& mesh, const SpringSettings& spring) {
                 formatted("(%g, %g, %g)", to.position[0], to.position[1], to.position[2]) +
                 ", so the spring has no direction; use -bushing_" + spring.name + "_stiffness");
   const Point n = mesh::unit(line);
-  return {.name = "spring '" + spring.name + "'",
+  return {.kind = "spring",
+          .name = spring.name,
           .stiffness = spring.stiffness,
           .damping = spring.damping,
-          .terms = {{to.displacement, n}, {from.displacement, scaled(n, -1)}}};
+          .terms = {{to.displacement, n, true}, {from.displacement, scaled(n, -1), false}}};
 }
 
 /// The two ends of a bushing and the point where it acts.
@@ -119,7 +120,7 @@ void addBushing(const mesh::Mesh& mesh, const BushingSettings& bushing, const Se
   for (int k = 0; k < std::ssize(stiffness); ++k) {
     if (stiffness[k] == 0 && damping[k] == 0) continue;
     Form form{
-        .name = "bushing '" + bushing.name + "'", .stiffness = stiffness[k], .damping = damping[k]};
+        .kind = "bushing", .name = bushing.name, .stiffness = stiffness[k], .damping = damping[k]};
     const Point& e = axes[layout.axis(k)];
     const auto addEnd = [&](const PointNode& end, double factor) {
       if (!layout.turns(k)) {
@@ -130,10 +131,12 @@ void addBushing(const mesh::Mesh& mesh, const BushingSettings& bushing, const Se
         throw Error("option " + bushingStiffnessName(bushing.name) +
                     ": stiffness about an axis needs reference nodes at both ends; the other "
                     "nodes have no rotation");
-      form.terms.push_back({end.rotation, scaled(onRotation(e, dimension), factor)});
+      form.terms.push_back({end.rotation, scaled(onRotation(e, dimension), factor), false});
     };
     addEnd(ends.from, -1);
+    const std::size_t ofFrom = form.terms.size();
     if (ends.to) addEnd(*ends.to, 1);
+    for (std::size_t i = ofFrom; i < form.terms.size(); ++i) form.terms[i].isTo = true;
     forms.push_back(std::move(form));
   }
 }
@@ -163,13 +166,16 @@ void requireInertia(const std::vector<double>& moments, const std::string& group
 /// Adds the rotary inertia of the mass of a reference node.
 void addInertia(const mesh::Mesh& mesh, const MassSettings& mass, const PointNode& node,
                 const Matrix3& axes, std::vector<Form>& forms) {
-  const std::string name = "mass of '" + mass.group + "'";
   if (mesh.dimension == 2) {
     const double j = mass.inertia.size() == 6 ? mass.inertia[2] : mass.inertia[0];
     if (mass.inertia.size() != 6 && mass.inertia.size() != 1)
       throw Error("option " + inertiaName(mass.group) + ": in the plane must be one number, Jzz");
     if (j < 0) throw Error("option " + inertiaName(mass.group) + ": Jzz must not be negative");
-    if (j > 0) forms.push_back({.name = name, .mass = j, .terms = {{node.rotation, {1, 0, 0}}}});
+    if (j > 0)
+      forms.push_back({.kind = "mass",
+                       .name = mass.group,
+                       .mass = j,
+                       .terms = {{node.rotation, {1, 0, 0}, false}}});
     return;
   }
   if (mass.inertia.size() != 6)
@@ -180,9 +186,11 @@ void addInertia(const mesh::Mesh& mesh, const MassSettings& mass, const PointNod
   requireInertia(moments, mass.group);
   for (int k = 0; k < 3; ++k)
     if (moments[k] > 0)
-      forms.push_back({.name = name,
-                       .mass = moments[k],
-                       .terms = {{node.rotation, {tensor(0, k), tensor(1, k), tensor(2, k)}}}});
+      forms.push_back(
+          {.kind = "mass",
+           .name = mass.group,
+           .mass = moments[k],
+           .terms = {{node.rotation, {tensor(0, k), tensor(1, k), tensor(2, k)}, false}}});
 }
 
 /// Adds the mass of each node, with the centre of mass at the end of `arm`.
@@ -191,7 +199,7 @@ void addMass(const PointNode& node, double mass, const Point& arm, const std::st
   for (int d = 0; d < dimension; ++d) {
     Point e{};
     e[d] = 1;
-    Form form{.name = "mass of '" + group + "'", .mass = mass, .accelerated = e};
+    Form form{.kind = "mass", .name = group, .mass = mass, .accelerated = e};
     addTranslation(form, node, e, arm, 1, dimension);
     forms.push_back(std::move(form));
   }

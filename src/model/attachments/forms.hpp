@@ -13,14 +13,16 @@ using mesh::Point;
 
 /// A vector times the components of a node.
 struct FormTerm {
-  PetscInt node;    ///< global node
-  Point direction;  ///< in the plane, on the rotation of a reference node, the first component
+  PetscInt node;      ///< global node
+  Point direction;    ///< in the plane, on the rotation of a reference node, the first component
+  bool isTo = false;  ///< it belongs to the end `to` of a spring or bushing
 };
 
 /// A linear form δ = Σ direction · u of the components of nodes, with
 ///   K = stiffness δδᵀ,   C = damping δδᵀ,   M = mass δδᵀ.
 struct Form {
-  std::string name;      ///< "spring 'a'", for messages
+  std::string kind;      ///< "spring", "bushing" or "mass"
+  std::string name;      ///< of the spring or bushing, or group of the mass
   double stiffness = 0;  ///< N/m, or N·m/rad
   double damping = 0;    ///< N·s/m, or N·m·s/rad
   double mass = 0;       ///< kg, or kg·m²

@@ -3,6 +3,7 @@
 /// Supports: clamped, guided and displaced groups of nodes, in any axes.
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/constraints/settings.hpp"
@@ -29,6 +30,27 @@ struct DependentComponent {
   double constant;  ///< m, or rad
 };
 
+/// A direction in which a group holds a node.
+struct HeldDirection {
+  Point direction;  ///< unit
+  int group;        ///< index into Constraints::groups
+};
+
+/// The origin of an equation: a support of a node that follows others, or an option.
+struct EquationOrigin {
+  int group = -1;      ///< of the support, index into Constraints::groups; −1: an option
+  int option = -1;     ///< index into Constraints::equations; −1: a support
+  PetscInt node = -1;  ///< global node that the support holds
+  Point direction{};   ///< in which it holds the node
+};
+
+/// A component whose force gives those of the equations. An equation Σ w u = value exerts the
+/// forces λ w, where λ sums factor · force over its pivots.
+struct EquationPivot {
+  PetscInt row;                                 ///< owned node · dimension + component
+  std::vector<std::pair<int, double>> origins;  ///< index into Constraints::origins, and factor
+};
+
 /// The components that are held at the nodes owned by this rank. They refer to the axes of the
 /// node: x, y, z or, where a support is in other directions, turned axes. The second list of each
 /// node with turned axes has the held components first.
@@ -38,14 +60,22 @@ struct Constraints {
   std::vector<std::string> groups;  ///< groups with a clamp
   /// [owned node · dimension + component] prescribed value where held, m, or rad
   std::vector<double> displacement;
-  std::map<PetscInt, Matrix3> axes;           ///< [owned node] turned axes, by rows
+  std::map<PetscInt, Matrix3> axes;  ///< [owned node] turned axes, by rows
+  /// [owned node with turned axes] the directions as given, which may be oblique, without those
+  /// that follow from others
+  std::map<PetscInt, std::vector<HeldDirection>> given;
   bool anyTurned = false;                     ///< any rank has turned axes
   std::vector<DependentComponent> dependent;  ///< owned by this rank
   bool anyDependent = false;                  ///< on any rank
+  std::vector<EquationOrigin> origins;        ///< of all equations, the same on all ranks
+  std::vector<EquationPivot> pivots;          ///< owned by this rank
   /// [owned node · dimension + component] 1 if supports act on the Cartesian component directly, or
   /// on nodes that follow it
   std::vector<unsigned char> supported;
   std::vector<EquationSettings> equations;
+  /// Values of held components that no sweep scales, for their rows, owned node · dimension +
+  /// component: the lengths of bolts. Constraints::displacement is zero there.
+  std::map<PetscInt, double> locked;
 
   /// Returns the direction of a component of an owned node.
   Point direction(PetscInt node, int component) const;
@@ -56,6 +86,10 @@ struct Constraints {
 /// Not collective. Returns the local node of a term of an equation on the rank that owns it, −1 on
 /// the others.
 PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term);
+
+/// Not collective. Keeps the length of a bolt, [section of the mesh]: the displacement of its
+/// reference node along the normal, m.
+void lockBolt(const mesh::Mesh& mesh, int section, double opening, Constraints& constraints);
 
 /// Collective. Returns the supports. Throws Error for a component that is given twice or does not
 /// exist in the dimension, and for two groups that disagree. Warns of displacements of components

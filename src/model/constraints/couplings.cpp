@@ -73,6 +73,7 @@ class Couplings {
   Couplings(const mesh::Mesh& mesh, const Settings& settings) : mesh_(mesh), settings_(settings) {}
   void addRigid(int coupling);
   void addDistributed(int coupling);
+  void addSections();
   std::vector<CoupledNode> finish();
 
  private:
@@ -93,12 +94,12 @@ class Couplings {
 
 void Couplings::add(CoupledNode node, std::string& failure) {
   const auto [at, isNew] = nodes_.try_emplace(node.node, node);
-  const auto& coupling = settings_.couplings[node.coupling];
-  const auto& other = settings_.couplings[at->second.coupling];
   if (isNew || at->second.coupling == node.coupling) return;
-  failure = head(coupling) + "the node at " + placeText(mesh_.coordinates[node.node]) +
-            " follows coupling '" + other.name +
-            "' already; a node can follow one coupling: take it out of one group, or couple the "
+  const auto names = couplingNames(settings_);
+  failure = names[node.coupling].label() + ": the node at " +
+            placeText(mesh_.coordinates[node.node]) + " follows " +
+            names[at->second.coupling].label() +
+            " already; a node can follow one coupling: take it out of one group, or couple the "
             "reference nodes";
 }
 
@@ -220,8 +221,10 @@ void Couplings::addDistributed(int coupling) {
   }
   const Matrix3 inverse = inverseInertia(nodes, centre, mesh_.dimension, given),
                 arm = crossMatrix(minus(reference.position, centre));
-  CoupledNode displacement{.node = reference.displacement - mesh_.firstNode, .coupling = coupling},
-      rotation{.node = reference.rotation - mesh_.firstNode, .coupling = coupling};
+  CoupledNode displacement{
+      .node = reference.displacement - mesh_.firstNode, .coupling = coupling, .distributed = true},
+      rotation{
+          .node = reference.rotation - mesh_.firstNode, .coupling = coupling, .distributed = true};
   if (rotation.node < 0 || rotation.node >= mesh_.ownedNodes) displacement.node = -1;
   for (const auto& [node, part, position, weight] : nodes) {
     const Matrix3 turns = scaled(product(inverse, crossMatrix(minus(position, centre))), weight);
@@ -235,6 +238,20 @@ void Couplings::addDistributed(int coupling) {
   failTogether(mesh_.comm, failure);
 }
 
+/// Adds the upper nodes of the sections of bolts, which follow the lower ones and the opening.
+void Couplings::addSections() {
+  std::string failure;
+  for (const auto& [node, lower, section, lowerPart] : mesh_.sectionPairs) {
+    const auto& reference = mesh_.references[mesh_.sections[section].reference];
+    CoupledNode found{.node = node, .coupling = int(std::ssize(settings_.couplings)) + section};
+    found.masters = {
+        {lower, identity(), lowerPart, mesh_.coordinates[node], false},
+        {reference.displacement, identity(), reference.part, reference.position, false}};
+    add(found, failure);
+  }
+  failTogether(mesh_.comm, failure);
+}
+
 std::vector<CoupledNode> Couplings::finish() {
   std::vector<CoupledNode> list;
   for (auto& [node, coupled] : nodes_) list.push_back(std::move(coupled));
@@ -242,6 +259,13 @@ std::vector<CoupledNode> Couplings::finish() {
 }
 
 }  // namespace
+
+std::vector<CouplingName> couplingNames(const Settings& settings) {
+  std::vector<CouplingName> names;
+  for (const auto& coupling : settings.couplings) names.push_back({"coupling", coupling.name});
+  for (const auto& bolt : settings.bolts) names.push_back({"bolt", bolt.name});
+  return names;
+}
 
 std::vector<CoupledNode> coupledNodes(const mesh::Mesh& mesh, const Settings& settings) {
   Couplings couplings(mesh, settings);
@@ -255,6 +279,7 @@ std::vector<CoupledNode> coupledNodes(const mesh::Mesh& mesh, const Settings& se
     else
       couplings.addDistributed(i);
   }
+  couplings.addSections();
   return couplings.finish();
 }
 

@@ -38,7 +38,27 @@ linalg::DenseMatrix gramOf(const mesh::Mesh& mesh, const Contact& contact,
   return std::move(gram.sum);
 }
 
+/// Returns true if an eigenvalue of the Gram matrix belongs to a rigid-body mode.
+bool isFree(double eigenvalue, double largest) {
+  // A support that extends over a thousandth of the model still restrains a rotation, with 1e-6 of
+  // its weight for a translation.
+  return eigenvalue <= 1e-12 * std::max(largest, 1.0);
+}
+
 }  // namespace
+
+std::vector<unsigned char> looseParts(const mesh::Mesh& mesh, const Contact& contact,
+                                      const elasticity::Bodies& bodies,
+                                      const SupportingContact& holding) {
+  const RigidMotions motions = rigidMotions(mesh);
+  linalg::DenseMatrix g = gramOf(mesh, contact, bodies, motions, holding);
+  const auto eigenvalues = linalg::symmetricEigen(g);
+  std::vector<unsigned char> loose(mesh.parts, 0);
+  for (int i = 0; i < motions.size(); ++i)
+    for (int k = 0; k < motions.size() && isFree(eigenvalues[k], eigenvalues.back()); ++k)
+      if (std::abs(g(i, k)) > 1e-6) loose[i / motions.perPart()] = 1;
+  return loose;
+}
 
 std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact& contact,
                                            const elasticity::Bodies& bodies,
@@ -46,9 +66,7 @@ std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact
   const RigidMotions motions = rigidMotions(mesh);
   linalg::DenseMatrix g = gramOf(mesh, contact, bodies, motions, holding);
   const auto eigenvalues = linalg::symmetricEigen(g);
-  // A support that extends over a thousandth of the model still restrains a rotation, with 1e-6 of
-  // its weight for a translation.
-  if (eigenvalues.front() > 1e-12 * std::max(eigenvalues.back(), 1.0)) return std::nullopt;
+  if (!isFree(eigenvalues.front(), eigenvalues.back())) return std::nullopt;
   int worst = 0;
   double most = -1;
   for (int part = 0; part < mesh.parts; ++part) {

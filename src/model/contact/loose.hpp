@@ -24,6 +24,12 @@ std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact
                                            const elasticity::Bodies& bodies,
                                            const SupportingContact& holding);
 
+/// Collective. Returns 1 for each connected part that takes part in a rigid-body mode with these
+/// supports, [part].
+std::vector<unsigned char> looseParts(const mesh::Mesh& mesh, const Contact& contact,
+                                      const elasticity::Bodies& bodies,
+                                      const SupportingContact& holding);
+
 /// Collective. Throws Error, naming the body, if a body has a rigid-body mode with closed
 /// frictionless contact.
 void rejectRigidBodyModes(const mesh::Mesh& mesh, const Contact& contact,

@@ -84,10 +84,10 @@ Point centreOf(const mesh::Mesh& mesh, std::span<const PetscInt> nodes) {
   return sum;
 }
 
-/// Returns the face of a cell with its sign.
-BoundaryFace boundaryFace(const mesh::Mesh& mesh, std::span<const PetscInt> cell,
+/// Returns the face of a cell of a body with its sign.
+BoundaryFace boundaryFace(const mesh::Mesh& mesh, std::span<const PetscInt> cell, int body,
                           const LocalFace& local) {
-  BoundaryFace face{local.type, {}, 1};
+  BoundaryFace face{local.type, {}, 1, body};
   std::vector<Point> points;
   for (const int node : local.nodes) {
     face.nodes.push_back(cell[node]);
@@ -120,7 +120,7 @@ Single singleFaces(const mesh::Mesh& mesh) {
         if (found != faces.end())
           faces.erase(found);
         else
-          faces.emplace(key, boundaryFace(mesh, cell, local));
+          faces.emplace(key, boundaryFace(mesh, cell, block.body[e], local));
       }
   }
   return faces;

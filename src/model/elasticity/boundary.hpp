@@ -12,6 +12,7 @@ struct BoundaryFace {
   int type = 0;                 ///< gmsh element type
   std::vector<PetscInt> nodes;  ///< local nodes, in gmsh's order
   int sign = 1;  ///< +1 if the normal by node order points out of the cell, −1 if into it
+  int body = 0;  ///< of the cell, index into Mesh::bodies
 };
 
 /// Collective. Returns the boundary faces of the cells of this rank. Bodies in contact have

@@ -50,25 +50,19 @@ CellFilter cellsOf(std::optional<int> body) {
   };
 }
 
-/// Collective. Warns of nearly incompressible bodies with linear cells, which lock: such a cell
-/// cannot deform at constant volume at each point of its rule. Incompatible modes remove the
-/// locking.
+constexpr double leastLocking = 0.49;  // the bulk modulus is 50 times the shear modulus
+
+/// Collective. Warns of nearly incompressible bodies with linear cells.
 void warnOfLocking(const mesh::Mesh& mesh, const Bodies& bodies) {
-  constexpr double least = 0.49;  // the bulk modulus is 50 times the shear modulus
   const auto& materials = bodies.materials;
-  std::vector<PetscInt> counts(materials.size(), 0);
-  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
-                        const std::vector<Point>&) {
-    if (table.order == 1 && !bodies.settings.isIncompatible(table.name)) ++counts[block.body[e]];
-  });
-  mpi::reduce<PetscInt>(mesh.comm, counts, MPI_SUM);
+  const auto counts = linearCells(mesh, bodies.settings);
   for (std::size_t b = 0; b < counts.size(); ++b)
-    if (counts[b] > 0 && materials[b].poisson > least)
+    if (counts[b] > 0 && locks(materials[b].poisson))
       printWarning(
           mesh.comm,
           formatted("warning: body '%s', with a Poisson's ratio of %.6g, has %" PetscInt_FMT
                     " linear cells, which lock above %g: use a mesh of second order",
-                    mesh.bodies[b].c_str(), materials[b].poisson, counts[b], least));
+                    mesh.bodies[b].c_str(), materials[b].poisson, counts[b], leastLocking));
 }
 
 /// The matrices of all cells, or of those of one body.
@@ -179,6 +173,19 @@ void assembleLoads(const mesh::Mesh& mesh, const std::vector<attachments::Form>&
 }
 
 }  // namespace
+
+bool locks(double poisson) { return poisson > leastLocking; }
+
+std::vector<PetscInt> linearCells(const mesh::Mesh& mesh, const Settings& settings) {
+  std::vector<PetscInt> counts(mesh.bodies.size(), 0);
+  for (const auto& block : mesh.cells) {
+    const ShapeTable& table = shapeTable(block.type);
+    if (table.order == 1 && !settings.isIncompatible(table.name))
+      for (const int body : block.body) ++counts[body];
+  }
+  mpi::reduce<PetscInt>(mesh.comm, counts, MPI_SUM);
+  return counts;
+}
 
 OwnedVec nodalVector(const mesh::Mesh& mesh) {
   OwnedVec vector;

@@ -44,6 +44,13 @@ struct Bodies {
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
                 const Settings& settings);
 
+/// Returns true if a material of this Poisson's ratio is so nearly incompressible that linear cells
+/// without incompatible modes lock: such a cell cannot deform at constant volume at each point of
+/// its rule.
+bool locks(double poisson);
+/// Collective. Returns the number of linear cells without incompatible modes, [body].
+std::vector<PetscInt> linearCells(const mesh::Mesh& mesh, const Settings& settings);
+
 /// The contribution of one body to Bodies, on all nodal displacements. Its matrices and its vector
 /// are derivatives: K, and the part of C with K, with respect to a factor on its moduli, and all
 /// others with respect to a factor on its density.

@@ -80,18 +80,23 @@ OwnedMat turnedAxes(const mesh::Mesh& mesh, const Interfaces& all) {
   return rows;
 }
 
+OwnedMat rowsOfLevel(const mesh::Mesh& mesh, const Interfaces& all, int level) {
+  const auto levels = levelsOfFollowers(mesh, all);
+  std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
+  countBlocks(all, level, blocks);
+  OwnedMat factor = nodalMatrix(mesh, blocks);
+  for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
+    if (levels[node] != level) setDiagonal(factor, mesh.dimension, mesh.firstNode + node);
+  setFollowers(mesh, all, level, factor);
+  assembled(factor);
+  return factor;
+}
+
 OwnedMat followedRows(const mesh::Mesh& mesh, const Interfaces& all) {
   OwnedMat rows;
   if (all.constraints.anyTurned) rows = turnedAxes(mesh, all);
-  const auto levels = levelsOfFollowers(mesh, all);
   for (int level = 1; level <= all.levels; ++level) {
-    std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
-    countBlocks(all, level, blocks);
-    OwnedMat factor = nodalMatrix(mesh, blocks);
-    for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-      if (levels[node] != level) setDiagonal(factor, mesh.dimension, mesh.firstNode + node);
-    setFollowers(mesh, all, level, factor);
-    assembled(factor);
+    OwnedMat factor = rowsOfLevel(mesh, all, level);
     rows = rows ? product(factor, rows) : std::move(factor);
   }
   return rows;
@@ -108,8 +113,8 @@ void rejectTwoMasters(const mesh::Mesh& mesh, const Interfaces& all) {
   for (const auto& coupled : all.coupled)
     if (const std::string& other = masters[coupled.node]; !other.empty())
       failure = "over-constrained: the node at " + text(mesh.coordinates[coupled.node]) +
-                " follows coupling '" + all.couplings[coupled.coupling] + "' and " + other +
-                "; take it out of the group of the coupling, or exchange slave and master";
+                " follows " + all.couplings[coupled.coupling].label() + " and " + other +
+                "; take it out of the group, or exchange slave and master";
   failTogether(mesh.comm, failure);
 }
 

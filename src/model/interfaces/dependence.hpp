@@ -24,6 +24,10 @@ void setFollowers(const mesh::Mesh& mesh, const Interfaces& all, int level, Mat 
 /// u = Qᵀ z, N×N; the identity at all other nodes, and at contact nodes and followers.
 OwnedMat turnedAxes(const mesh::Mesh& mesh, const Interfaces& all);
 
+/// Collective. Returns the rows of the followers of this level, N×N; those of all other nodes are
+/// rows of the identity.
+OwnedMat rowsOfLevel(const mesh::Mesh& mesh, const Interfaces& all, int level);
+
 /// Collective. Returns u = A z of all ties, couplings and turned axes, N×N, before equations. Rows
 /// of contact nodes are those of the identity.
 OwnedMat followedRows(const mesh::Mesh& mesh, const Interfaces& all);

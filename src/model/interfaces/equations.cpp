@@ -12,37 +12,13 @@
 #include "base/system/text.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "model/interfaces/dependence.hpp"
+#include "model/interfaces/elimination.hpp"
 
 namespace squeal::interfaces {
 namespace {
 
 using constraints::DependentComponent;
 using constraints::Term;
-
-/// Where an equation comes from: a support of a node that follows others, or an option.
-struct Source {
-  PetscInt row = -1;  // of the held component
-  int component = 0, group = -1;
-  int interface = -1, coupling = -1;  // which the node follows; −1: not this one
-  int option = -1;                    // index into Constraints::equations
-  double value = 0;                   // m, or rad
-  Point place{};
-  int terms = 0;
-};
-
-/// The state of a component in the equations, the same on all ranks.
-struct Component {
-  PetscInt row = -1;
-  bool inContact = false, held = false, isRotation = false;
-  double value = 0;
-};
-
-/// An equation Σ w u = value of components.
-struct Equation {
-  const Source* source;
-  std::map<PetscInt, double> weights;  // [row]
-  double value, scale;
-};
 
 /// The equations of all ranks, ordered by position, independent of the partition.
 struct Equations {
@@ -70,11 +46,22 @@ Equations heldFollowers(const mesh::Mesh& mesh, const Interfaces& all, Mat rows)
   std::vector<Term> terms;
   const auto add = [&](PetscInt node, int interface, int coupling) {
     for (int d = 0; d < mesh.dimension; ++d) {
-      const PetscInt at = mesh.dimension * node + d, row = mesh.dimension * mesh.firstNode + at;
+      const PetscInt at = mesh.dimension * node + d, row = mesh.dimension * (mesh.firstNode + node);
       if (!constraints.held[at] || constraints.heldBy[at] < 0) continue;
-      const int used = appendRow(rows, row, 1, terms);
-      sources.push_back({row, d, constraints.heldBy[at], interface, coupling, -1,
-                         constraints.displacement[at], mesh.coordinates[node], used});
+      const Point direction = constraints.direction(node, d);
+      int used = 0;
+      for (int c = 0; c < mesh.dimension; ++c)
+        if (direction[c] != 0) used += appendRow(rows, row + c, direction[c], terms);
+      sources.push_back({.node = mesh.firstNode + node,
+                         .direction = direction,
+                         .component = d,
+                         .group = constraints.heldBy[at],
+                         .isTurned = constraints.axes.contains(node),
+                         .interface = interface,
+                         .coupling = coupling,
+                         .value = constraints.displacement[at],
+                         .place = mesh.coordinates[node],
+                         .terms = used});
     }
   };
   for (const auto& tied : all.tied) add(tied.connection.node, tied.interface, -1);
@@ -108,10 +95,6 @@ struct Piece {
   int equation;
   Term term;
 };
-
-std::string headOf(const constraints::EquationSettings& equation) {
-  return "option " + constraints::equationName(equation.name) + " '" + equation.text + "': ";
-}
 
 /// Collective. Returns the sources and equations of the options.
 Equations optionEquations(const mesh::Mesh& mesh, const Interfaces& all, Mat rows) {
@@ -174,147 +157,6 @@ double largestArm(const std::vector<const Equations*>& equations,
   return arm;
 }
 
-/// Equations solved for the pivots, which appear in no other equation.
-class Elimination {
- public:
-  /// `arm`, m, is the length that makes rotations comparable to displacements.
-  Elimination(const Interfaces& all, const std::map<PetscInt, Component>& components, double arm)
-      : all_(all), components_(components), arm_(arm) {}
-  void add(Equation equation);
-  /// Returns the equation of each pivot, [pivot], with the weight 1 at the pivot.
-  const std::map<PetscInt, Equation>& solved() const { return solved_; }
-  /// Returns the equations that depend on the others, exactly or nearly.
-  const std::vector<const Source*>& idle() const { return idle_; }
-  /// Throws Error if a component depends on others and one belongs to a contact node, whose
-  /// unknowns are not Cartesian components.
-  void rejectContact() const;
-
- private:
-  void insertKnown(Equation& equation) const;
-  PetscInt pivotOf(const Equation& equation) const;
-  void subtract(Equation& from, const Equation& what, PetscInt pivot) const;
-  /// Returns the magnitude of a weight, with rotations in units of 1/arm.
-  double size(PetscInt row, double weight) const {
-    return std::abs(weight) / (components_.at(row).isRotation ? arm_ : 1);
-  }
-  void setIdle(const Equation& equation);
-  std::string nameOf(const Source& source) const;
-  const Interfaces& all_;
-  const std::map<PetscInt, Component>& components_;
-  double arm_;
-  std::map<PetscInt, Equation> solved_;
-  std::map<PetscInt, std::set<PetscInt>> pivotsWith_;  // [other] pivots whose equations have it
-  std::vector<const Source*> idle_;
-};
-
-void Elimination::subtract(Equation& from, const Equation& what, PetscInt pivot) const {
-  const double factor = from.weights.at(pivot);
-  for (const auto& [row, weight] : what.weights) {
-    double& sum = from.weights[row];
-    sum -= factor * weight;
-    if (size(row, sum) < 1e-13 * from.scale || row == pivot) from.weights.erase(row);
-  }
-  from.value -= factor * what.value;
-}
-
-void Elimination::insertKnown(Equation& equation) const {
-  const auto weights = equation.weights;
-  for (const auto& [row, weight] : weights)
-    if (const Component& component = components_.at(row); component.held) {
-      equation.value -= weight * component.value;
-      equation.weights.erase(row);
-    } else if (const auto found = solved_.find(row); found != solved_.end()) {
-      subtract(equation, found->second, row);
-    }
-}
-
-/// Returns the component with the largest weight, if possible one that is not in contact; −1 if all
-/// weights are too small.
-PetscInt Elimination::pivotOf(const Equation& equation) const {
-  // Only ties have quadrature errors.
-  const double least = equation.source->interface >= 0 ? leastPivot : 1e-10;
-  PetscInt pivot = -1;
-  for (const bool inContact : {false, true}) {
-    double most = least * equation.scale;
-    for (const auto& [row, weight] : equation.weights)
-      if (components_.at(row).inContact == inContact && size(row, weight) > most * (1 + 1e-9))
-        most = size(row, weight), pivot = row;
-    if (pivot >= 0) break;
-  }
-  return pivot;
-}
-
-std::string Elimination::nameOf(const Source& source) const {
-  if (source.option >= 0) return headOf(all_.constraints.equations[source.option]);
-  const std::string& group = all_.constraints.groups[source.group];
-  const std::string follows = source.interface >= 0
-                                  ? all_.options[source.interface].label() + " at " +
-                                        text(source.place) + ", which follows the master; "
-                                  : "coupling '" + all_.couplings[source.coupling] + "' at " +
-                                        text(source.place) + ", which follows other nodes; ";
-  return "option -constraint_" + group + "_clamped holds component " + "xyz"[source.component] +
-         " of a node of " + follows;
-}
-
-void Elimination::setIdle(const Equation& equation) {
-  // With u = ū at all remaining components of a support, the equation must hold.
-  const Source& source = *equation.source;
-  double rest = equation.value, size = std::abs(source.value);
-  for (const auto& [row, weight] : equation.weights) {
-    if (source.interface >= 0) rest -= weight * source.value;
-    size = std::max(size, std::abs(components_.at(row).value));
-  }
-  for (const auto& [row, other] : solved_) size = std::max(size, std::abs(other.value));
-  if (std::abs(rest) > 1e-9 * size)
-    throw Error(nameOf(source) + (source.option >= 0
-                                      ? "it contradicts other equations and supports"
-                                      : "the displacement differs from that of other supports of "
-                                        "slave and master"));
-  idle_.push_back(&source);
-}
-
-void Elimination::add(Equation equation) {
-  for (const auto& [row, weight] : equation.weights)
-    equation.scale = std::max(equation.scale, size(row, weight));
-  insertKnown(equation);
-  const PetscInt pivot = pivotOf(equation);
-  if (pivot < 0) {
-    setIdle(equation);
-    return;
-  }
-  const double weight = equation.weights.at(pivot);
-  for (auto& [row, value] : equation.weights) value /= weight;
-  equation.value /= weight, equation.scale = size(pivot, 1);
-  if (const auto with = pivotsWith_.find(pivot); with != pivotsWith_.end()) {
-    for (const PetscInt other : std::set<PetscInt>(with->second)) {
-      Equation& before = solved_.at(other);
-      if (!before.weights.contains(pivot)) continue;  // it has cancelled since
-      subtract(before, equation, pivot);
-      for (const auto& [row, value] : before.weights)
-        if (row != other) pivotsWith_[row].insert(other);
-    }
-    pivotsWith_.erase(pivot);
-  }
-  for (const auto& [row, value] : equation.weights)
-    if (row != pivot) pivotsWith_[row].insert(pivot);
-  solved_.emplace(pivot, std::move(equation));
-}
-
-void Elimination::rejectContact() const {
-  for (const auto& [pivot, equation] : solved_) {
-    const bool alone = equation.weights.size() == 1;
-    if (alone && equation.source->option < 0) continue;
-    for (const auto& [row, weight] : equation.weights)
-      if (components_.at(row).inContact)
-        throw Error(nameOf(*equation.source) +
-                    (equation.source->option >= 0
-                         ? "a node in contact is in it; choose other nodes"
-                         : "it depends on " + std::to_string(equation.weights.size()) +
-                               " components, at least one in contact; let the other side be the "
-                               "slave"));
-  }
-}
-
 /// Stores the solution in the constraints of this rank.
 void apply(const mesh::Mesh& mesh, const Elimination& elimination, Interfaces& all) {
   auto& constraints = all.constraints;
@@ -323,6 +165,7 @@ void apply(const mesh::Mesh& mesh, const Elimination& elimination, Interfaces& a
     if (equation.weights.size() > 1) constraints.anyDependent = true;
     const PetscInt at = pivot - first;
     if (at < 0 || at >= mesh.dimension * mesh.ownedNodes) continue;
+    constraints.pivots.push_back({at, {equation.origins.begin(), equation.origins.end()}});
     if (equation.weights.size() == 1) {
       constraints.held[at] = 1, constraints.heldBy[at] = equation.source->group;
       constraints.displacement[at] = equation.value;
@@ -334,9 +177,9 @@ void apply(const mesh::Mesh& mesh, const Elimination& elimination, Interfaces& a
     constraints.dependent.push_back(std::move(dependent));
   }
   for (const Source* source : elimination.idle())
-    if (source->interface >= 0)
+    if (source->interface >= 0 && !source->isTurned)  // ties leave out only components
       for (auto& tied : all.tied)
-        if (mesh.firstNode + tied.connection.node == source->row / mesh.dimension)
+        if (mesh.firstNode + tied.connection.node == source->node)
           tied.apart[source->component] = 1;
 }
 
@@ -361,14 +204,20 @@ void solveEquations(const mesh::Mesh& mesh, Interfaces& all) {
   const auto components = componentsOf(mesh, all, {&supports, &options});
   Elimination elimination(all, components, largestArm({&supports, &options}, components));
   const PetscInt first = mesh.dimension * mesh.firstNode;
-  for (const auto* equations : {&supports, &options})
-    for (const auto& equation : equations->list) {
+  auto& origins = all.constraints.origins;
+  for (const auto* equations : {&supports, &options}) {
+    const int before = std::ssize(origins);
+    for (const auto& source : equations->sources)
+      origins.push_back({source.group, source.option, source.node, source.direction});
+    for (Equation equation : equations->list) {
+      equation.origins = {{before + int(equation.source - equations->sources.data()), 1}};
       elimination.add(equation);
       if (equation.source->interface >= 0) ++all.reports[equation.source->interface].carried;
       for (const auto& [row, weight] : equation.weights)
         if (const PetscInt at = row - first; at >= 0 && at < mesh.dimension * mesh.ownedNodes)
           all.constraints.supported[at] = 1;
     }
+  }
   elimination.rejectContact();
   apply(mesh, elimination, all);
 }

@@ -72,6 +72,9 @@ class Owners {
   }
   /// Returns true if the contact has the gap of the lost node nevertheless.
   bool isMet(const LostNode& lost) const {
+    const auto own = gaps_.find(mesh_.firstNode + lost.node);
+    if (own != gaps_.end() && all_.slideTogether(own->second, lost.interface))
+      return all_.options[own->second].friction == all_.options[lost.interface].friction;
     const auto tied = tied_.find(lost.node);
     if (tied == tied_.end() || all_.options[lost.interface].isTied()) return false;
     if (const auto other = parts_.find(lost.interface); other != parts_.end())
@@ -111,9 +114,7 @@ class Owners {
 
 /// The lost nodes of an interface, of all ranks.
 struct Loss {
-  PetscInt count = 0;
-  Point first{};
-  std::vector<std::string> owners;
+  LossReport report;
   std::array<double, 2> areas{};  // of the lost nodes, of the slave, m² (m)
 };
 
@@ -132,12 +133,12 @@ Loss lossOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, cons
   Loss loss;
   places = concatenated(mesh.comm, places);
   mpi::reduce<int>(mesh.comm, owns, MPI_MAX);
-  loss.count = places.size();
-  if (loss.count == 0) return loss;
-  loss.first = *std::min_element(places.begin(), places.end());
+  loss.report.nodes = places.size();
+  if (places.empty()) return loss;
+  loss.report.first = *std::min_element(places.begin(), places.end());
   loss.areas = areasOf(mesh, exchange, all.slaves[interface].surface, marks);
   for (std::size_t i = 0; i < owns.size(); ++i)
-    if (owns[i]) loss.owners.push_back(all.options[i].label());
+    if (owns[i]) loss.report.owners.push_back(all.options[i].label());
   return loss;
 }
 
@@ -159,15 +160,16 @@ void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, 
   for (int i = 0; i < std::ssize(all.options); ++i) {
     const auto& options = all.options[i];
     if (options.isTied() != (role == Role::tied)) continue;
-    const Loss loss = lossOf(mesh, exchange, all, i, owners);
-    if (loss.count == 0) continue;
-    if (all.reports[i].matching && !options.isTied()) all.reports[i].dropped = loss.count;
+    const auto [loss, areas] = lossOf(mesh, exchange, all, i, owners);
+    if (loss.nodes == 0) continue;
+    if (all.reports[i].matching && !options.isTied()) all.reports[i].dropped = loss.nodes;
+    all.reports[i].loss = loss;
     printWarning(
         mesh.comm,
         formatted("warning: %s: %" PetscInt_FMT " nodes of '%s', %.3g of %.4g m2, first that "
                   "at %s, follow from %s and %s; %s",
-                  options.label().c_str(), loss.count, all.slaves[i].surface.c_str(), loss.areas[0],
-                  loss.areas[1], text(loss.first).c_str(), joined(loss.owners, " and ").c_str(),
+                  options.label().c_str(), loss.nodes, all.slaves[i].surface.c_str(), areas[0],
+                  areas[1], text(loss.first).c_str(), joined(loss.owners, " and ").c_str(),
                   options.isTied() ? "are not tied here" : "have no gap here",
                   options.isTied() ? "exchange slave and master of one of the ties"
                                    : "if that is a tie, exchange its slave and master"));

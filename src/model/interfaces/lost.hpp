@@ -13,10 +13,10 @@ namespace squeal::interfaces {
 double areaOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                   const Interfaces& all, int interface);
 
-/// Collective. Warns of the lost nodes of ties (Role::tied) or of interfaces in contact (any other
-/// role), with their number, area, position and the remedy. Nodes whose condition holds
-/// nevertheless do not count: nodes that follow a node with the same gap, and nodes tied to the
-/// surface they touch.
+/// Collective. Reports the lost nodes of ties (Role::tied) or of interfaces in contact (any other
+/// role) in InterfaceReport::loss, and warns of them with number, area, position and remedy. Nodes
+/// whose condition holds nevertheless do not count: nodes that follow a node with the same gap, and
+/// nodes tied to the surface they touch.
 void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all,
                 Role role);
 

@@ -66,6 +66,20 @@ struct SlaveSide {
   int sign;             ///< +1 if it is the pad, −1 if it is the disc
 };
 
+/// The nodes of an interface without a condition because they follow from another one.
+struct LossReport {
+  PetscInt nodes = 0;
+  Point first{};                    ///< the place of one of them, m
+  std::vector<std::string> owners;  ///< labels of the interfaces that they follow from
+};
+
+/// The cells that the adjustment of a tie stretches or compresses.
+struct StrainReport {
+  PetscInt cells = 0;  ///< with a change of a distance of corners by more than a tenth
+  double change = 0;   ///< largest change of a distance of two corners, relative to it
+  Point where{};       ///< their middle in the file, m
+};
+
 /// A report on an interface, the same on all ranks.
 struct InterfaceReport {
   bool matching = true;         ///< node on node, or a rigid obstacle
@@ -78,10 +92,12 @@ struct InterfaceReport {
   double largestGap = 0;   ///< largest distance of the touching surfaces, m
   PetscInt dropped = 0;    ///< touching nodes without a condition: too little covered, or left
                            ///< to another interface
+  LossReport loss;
   // The following apply only to ties.
   PetscInt carried = 0;          ///< held components of tied nodes that the master carries
   PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
   double largestAdjustment = 0;  ///< largest move of a tied node, m
+  StrainReport strain;
 };
 
 /// A node that an interface leaves to another one, owned by this rank.
@@ -108,19 +124,20 @@ struct Interfaces {
   std::vector<TiedNode> tied;              ///< owned by this rank, in the order of local nodes
   std::vector<LostNode> lost;              ///< owned by this rank
   constraints::Constraints constraints;
-  std::vector<std::string> couplings;             ///< names of the couplings
-  std::vector<constraints::CoupledNode> coupled;  ///< owned by this rank, by local node
-  PetscInt totalNodes = 0;                        ///< contact nodes of all ranks
+  std::vector<constraints::CouplingName> couplings;  ///< couplings, then bolts
+  std::vector<constraints::CoupledNode> coupled;     ///< owned by this rank, by local node
+  PetscInt totalNodes = 0;                           ///< contact nodes of all ranks
   /// [local node] index into `options` of the contact with a gap at the node, −1 if there is none;
   /// includes ghosts and periodic images
   std::vector<int> interfaceOf;
   int levels = 1;     ///< largest level of a connection of all ranks
   GapBasis gapBasis;  ///< E
 
+  /// Returns true if a node that two interfaces share has the same gap on both: they slide on the
+  /// same surface of a disc.
+  bool slideTogether(int one, int other) const;
   /// Returns true if the local node has a gap on the slave surface of this name.
-  bool hasGapOn(const std::string& surface, PetscInt node) const {
-    return interfaceOf[node] >= 0 && slaves[interfaceOf[node]].surface == surface;
-  }
+  bool hasGapOn(const std::string& surface, PetscInt node) const;
   /// Returns the slave side of a contact interface with this surface, borrowed; null if there is
   /// none.
   const SlaveSide* slaveOf(const std::string& surface) const;
@@ -132,8 +149,8 @@ std::string describe(const Interfaces& all, int interface);
 /// Collective. Adds the nodes in contact to `ties`, the result of findTies(). A node belongs to one
 /// interface: ties precede sliding interfaces, and these precede sticking and frictionless ones.
 /// `periodic`, N×N, copies u of primaries to their images. Throws Error for surfaces that do not
-/// meet, for a node in two sliding interfaces, and for slaves that depend on each other in a
-/// circle.
+/// meet, for a node in two interfaces that slide on different discs, and for slaves that depend on
+/// each other in a circle.
 Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, Mat periodic,
                      Interfaces ties);
 

@@ -179,20 +179,13 @@ void rejectFolded(const mesh::Mesh& mesh, const std::vector<Point>& file, const 
   }
 }
 
-/// The most stretched or compressed cell of a tie on one rank.
-struct Strain {
-  double change = 0;   ///< largest change of a distance of two corners, relative to it
-  Point where{};       ///< their middle in the file, m
-  PetscInt count = 0;  ///< cells with a change that is worth a warning
-};
-
 constexpr double largestChange = 0.1;  // of a distance; curved cuts on usual meshes cause less
 
 /// Returns the strains by the tie, [interface], of the node with the largest move in each cell.
-std::vector<Strain> strainsOf(const mesh::Mesh& mesh, const std::vector<Point>& file,
-                              const Moves& moves, const std::vector<double>& tieOf,
-                              std::size_t interfaces) {
-  std::vector<Strain> strains(interfaces);
+std::vector<StrainReport> strainsOf(const mesh::Mesh& mesh, const std::vector<Point>& file,
+                                    const Moves& moves, const std::vector<double>& tieOf,
+                                    std::size_t interfaces) {
+  std::vector<StrainReport> strains(interfaces);
   const auto way = [&](PetscInt node) { return tieOf[node] > 0 ? length(moves[node]) : 0; };
   for (const auto& block : mesh.cells) {
     const std::size_t corners = element::shapeTable(block.type).corners;
@@ -213,25 +206,26 @@ std::vector<Strain> strainsOf(const mesh::Mesh& mesh, const std::vector<Point>& 
           largest = change;
           middle = mesh::scaled(plus(file[nodes[i]], file[nodes[j]]), 0.5);
         }
-      Strain& strain = strains[std::lround(tieOf[most]) - 1];
-      strain.count += largest > largestChange;
+      StrainReport& strain = strains[std::lround(tieOf[most]) - 1];
+      strain.cells += largest > largestChange;
       if (largest > strain.change) strain.change = largest, strain.where = middle;
     }
   }
   return strains;
 }
 
-/// Collective. Warns of ties that have stretched or compressed cells.
-void warnOfStrain(const mesh::Mesh& mesh, const std::vector<Point>& file, const Moves& moves,
-                  const std::vector<double>& tieOf, const Interfaces& ties) {
+/// Collective. Reports ties that have stretched or compressed cells, and warns of them.
+void reportStrain(const mesh::Mesh& mesh, const std::vector<Point>& file, const Moves& moves,
+                  const std::vector<double>& tieOf, Interfaces& ties) {
   const auto strains = strainsOf(mesh, file, moves, tieOf, ties.options.size());
   for (std::size_t i = 0; i < strains.size(); ++i) {
-    const auto all = concatenated(mesh.comm, std::vector<Strain>{strains[i]});
-    const Strain& worst = *std::max_element(
-        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.change < b.change; });
-    PetscInt count = 0;
-    for (const Strain& strain : all) count += strain.count;
-    if (count == 0) continue;
+    const auto all = concatenated(mesh.comm, std::vector<StrainReport>{strains[i]});
+    StrainReport& worst = ties.reports[i].strain;
+    worst = *std::max_element(all.begin(), all.end(),
+                              [](const auto& a, const auto& b) { return a.change < b.change; });
+    worst.cells = 0;
+    for (const auto& strain : all) worst.cells += strain.cells;
+    if (worst.cells == 0) continue;
     const auto& options = ties.options[i];
     const std::string adjust = adjustName(options.surfaces.name);
     printWarning(
@@ -240,7 +234,7 @@ void warnOfStrain(const mesh::Mesh& mesh, const std::vector<Point>& file, const 
                   " cells by more than %g %%, at most by %.3g %% at %s; give a smaller %s, "
                   "or %s off",
                   options.label().c_str(), options.surfaces.pad.name.c_str(),
-                  options.surfaces.disc.name.c_str(), count, 100 * largestChange,
+                  options.surfaces.disc.name.c_str(), worst.cells, 100 * largestChange,
                   100 * worst.change, text(worst.where).c_str(), searchName(options).c_str(),
                   adjust.c_str()));
   }
@@ -263,7 +257,7 @@ void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange, I
   for (const auto& node : ties.tied) tieOf[node.connection.node] = node.interface + 1;
   exchange.largest(tieOf);
   rejectFolded(mesh, file, moves, tieOf, ties);
-  warnOfStrain(mesh, file, moves, tieOf, ties);
+  reportStrain(mesh, file, moves, tieOf, ties);
 }
 
 }  // namespace squeal::ties

@@ -11,9 +11,9 @@ namespace squeal::ties {
 /// uses the P of the original coupling: the P of the moved nodes would differ by about a hundredth
 /// of the move, and would move them along the surface repeatedly. Nodes within edges, faces and
 /// cells follow the corners of their cells unless they are on a surface that options name. Periodic
-/// images move with their primaries. Sets InterfaceReport::largestAdjustment. Throws Error for a
-/// tie that folds a cell, and warns of one that changes a distance of corners of a cell by more
-/// than a tenth.
+/// images move with their primaries. Sets InterfaceReport::largestAdjustment and
+/// InterfaceReport::strain. Throws Error for a tie that folds a cell, and warns of one that changes
+/// a distance of corners of a cell by more than a tenth.
 void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                      interfaces::Interfaces& ties);
 

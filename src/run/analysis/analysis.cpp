@@ -45,6 +45,9 @@ Analysis analyse(MPI_Comm comm, const Settings& settings,
                  const std::filesystem::path& checkpointFolder, int reportedModes) {
   const sweep::Sweep sweep = sweep::grid(settings.sweep);
   Model model = checkedModel(comm, settings, sweep);
+  std::optional<audit::Audit> audit;
+  if (settings.mesh && settings.mesh->audit)
+    audit = auditModel(model, settings.mesh->model, " (audit.md)");
   checkpoint::Checkpoint checkpoint =
       openCheckpoint(comm, checkpointFolder, model, settings.checkpoint);
   expectPoints(sweep.points().size());
@@ -66,6 +69,7 @@ Analysis analyse(MPI_Comm comm, const Settings& settings,
           .settings = settings,
           .sweep = sweep,
           .model = std::move(model),
+          .audit = std::move(audit),
           .steady = std::move(steady),
           .uniqueness = std::move(uniqueness),
           .flutter = std::move(flutter),

@@ -3,6 +3,7 @@
 /// The whole analysis, from the input to the motion after the onset of flutter. Reports take their
 /// results from here.
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "base/checkpoint/checkpoint.hpp"
@@ -21,9 +22,10 @@ struct Analysis {
   MPI_Comm comm = MPI_COMM_NULL;
   Settings settings;
   sweep::Sweep sweep;
-  Model model;                 ///< empty for matrices from files
-  SteadyStates steady;         ///< empty for matrices from files
-  UniquenessStudy uniqueness;  ///< of the steady states
+  Model model;                        ///< empty for matrices from files
+  std::optional<audit::Audit> audit;  ///< of the model; empty if it is not wanted
+  SteadyStates steady;                ///< empty for matrices from files
+  UniquenessStudy uniqueness;         ///< of the steady states
   Flutter flutter;
   checkpoint::Checkpoint checkpoint;
 

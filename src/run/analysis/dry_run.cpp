@@ -143,6 +143,8 @@ void dryRun(MPI_Comm comm, const Settings& settings) {
     printSweep(comm, sweep, true);
     const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
     printMemory(comm, settings, system.k0());
+    if (settings.mesh->audit)
+      printLine(comm, "\n" + audit::markdown(auditModel(model, settings.mesh->model, "")));
   }
   printLine(comm,
             "dry run: no fault found in options and files; nothing was solved or written, so "

@@ -9,6 +9,7 @@
 #include "model/elasticity/elasticity.hpp"
 #include "model/mesh/mesh.hpp"
 #include "run/analysis/model_settings.hpp"
+#include "run/audit/audit.hpp"
 
 namespace squeal::analysis {
 
@@ -29,5 +30,10 @@ struct Model {
 /// Collective. Reads the mesh, moves the nodes of ties that ask for it, and assembles the bodies
 /// and their contact. Throws Error as the stages document it, and if nothing slides or sticks.
 Model buildModel(MPI_Comm comm, const ModelSettings& settings);
+
+/// Collective. Audits a model of a mesh and prints a line with the number of findings. `place` says
+/// in the log where the findings are.
+audit::Audit auditModel(const Model& model, const ModelSettings& settings,
+                        const std::string& place);
 
 }  // namespace squeal::analysis

@@ -7,6 +7,7 @@
 #include "eigen/direct/nearest.hpp"
 #include "eigen/sweep/sweep.hpp"
 #include "regime/regime/checks.hpp"
+#include "run/audit/settings.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -70,6 +71,7 @@ MeshSettings meshSettings(const Settings& others) {
                           others.solver.sensitivity.wanted || others.matrixExport.wanted() ||
                           others.pencil.isModallyDamped();
   settings.released = isSeparate ? 0 : releasedOption.get();
+  settings.audit = audit::wanted();
   return settings;
 }
 

@@ -31,6 +31,7 @@ struct MeshSettings {
   terms::Settings terms;
   /// `-flutter_released`: most contact nodes by which active sets that share a basis differ.
   int released = 150;
+  bool audit = true;  ///< `-audit`: audit the model before the solution
 };
 
 /// Settings of an analysis.

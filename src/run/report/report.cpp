@@ -5,6 +5,7 @@
 
 #include "base/output/file.hpp"
 #include "base/session/stages.hpp"
+#include "run/audit/audit.hpp"
 #include "run/report/fields.hpp"
 #include "run/report/names.hpp"
 #include "run/report/recipe.hpp"
@@ -46,6 +47,8 @@ void writeInto(const analysis::Analysis& analysis, const Settings& settings,
   {
     Stage stage(analysis.comm, "report");
     writeTables(analysis, folder.staging());
+    if (analysis.audit)
+      writeText(analysis.comm, folder.staging() / "audit.md", audit::markdown(*analysis.audit));
     if (settings.fields) {
       writeHdf5(analysis, folder.staging());
       if (analysis.model.mesh) writeFields(analysis, settings, folder.staging());

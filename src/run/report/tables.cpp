@@ -16,6 +16,7 @@
 #include "run/analysis/contact_path.hpp"
 #include "run/report/branches.hpp"
 #include "run/report/names.hpp"
+#include "run/report/reactions.hpp"
 #include "run/report/regimes.hpp"
 #include "run/report/report.hpp"
 #include "run/report/sensitivities.hpp"
@@ -132,8 +133,10 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
   writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
   if (analysis.settings.solver.sensitivity.wanted)
     writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
-  if (analysis.model.mesh)
+  if (analysis.model.mesh) {
     writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
+    writeText(comm, folder / "reactions.csv", reactionTable(analysis));
+  }
   writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));
   if (std::any_of(analysis.flutter.segments.begin(), analysis.flutter.segments.end(),
                   [](const auto& segment) { return !segment.trackedLines.empty(); })) {

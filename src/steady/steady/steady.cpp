@@ -13,6 +13,7 @@
 #include "model/elasticity/elasticity.hpp"
 #include "model/mesh/mesh.hpp"
 #include "steady/steady/complementarity.hpp"
+#include "steady/steady/nodal_forces.hpp"
 #include "steady/steady/resultants.hpp"
 
 namespace squeal::steady {
@@ -59,29 +60,14 @@ const contact::Projection& Problem::stiffness() const {
   return stiffness_;
 }
 
-OwnedVec Problem::load(const sweep::Parameters& at) const {
-  OwnedVec b = elasticity::nodalVector(mesh_);
-  check(VecAXPBYPCZ(b, at.pressure, at.speed * at.speed - at.pressure, 0, bodies_.load,
-                    bodies_.centrifugal));
-  if (bodies_.constantLoad) check(VecAXPY(b, 1 - at.pressure, bodies_.constantLoad));
-  return b;
-}
+OwnedVec Problem::load(const sweep::Parameters& at) const { return loadAt(mesh_, bodies_, at); }
 
 OwnedVec Problem::springForces(double speed, Vec displacement) const {
-  OwnedVec r = elasticity::nodalVector(mesh_);
-  check(MatMult(bodies_.stiffness, displacement, r));
-  if (bodies_.rotationStiffness) {
-    const OwnedVec moving = elasticity::nodalVector(mesh_);
-    check(MatMult(bodies_.rotationStiffness, displacement, moving));
-    check(VecAXPY(r, speed * speed, moving));
-  }
-  return r;
+  return steady::springForces(mesh_, bodies_, speed, displacement);
 }
 
 OwnedVec Problem::forces(const sweep::Parameters& at, Vec displacement) const {
-  OwnedVec r = springForces(at.speed, displacement);
-  check(VecAXPY(r, -1, load(at)));
-  return r;
+  return supportForces(mesh_, bodies_, at, displacement);
 }
 
 std::vector<double> Problem::normalForces(Vec forces) const {

@@ -121,6 +121,13 @@ TEST(Couplings, SlantedSupportIsAnEquation) {
       "-constraint_r_clamped xz -constraint_r_frame f -frame_f_x 3,4,0 "
       "-frame_f_xy 0,1,0 -ground_tip_stiffness 1e8,1e8,1e8");
   expectEqual(byFrame, byEquations);
+  // The same support on the coupled nodes.
+  expectEqual(frequencies("-reference_r_position 0,0,0 -coupling_c_reference r "
+                          "-coupling_c_nodes clamped -constraint_r_clamped_rotation xyz "
+                          "-constraint_clamped_clamped xz -constraint_clamped_frame f "
+                          "-frame_f_x 3,4,0 -frame_f_xy 0,1,0 "
+                          "-ground_tip_stiffness 1e8,1e8,1e8"),
+              byEquations);
   // Coupled only along the slanted direction, and free along the plane: as with the same plane
   // held at the nodes themselves.
   const std::string grounded =

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Gauss elimination of equations between components of nodes. All ranks eliminate the equations of
+/// all ranks.
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "model/interfaces/nodes.hpp"
+
+namespace squeal::interfaces {
+
+/// Where an equation comes from: a support of a node that follows others, or an option.
+struct Source {
+  PetscInt node = -1;  // that the support holds, global
+  Point direction{};   // in which it holds the node
+  int component = 0, group = -1;
+  bool isTurned = false;              // the direction is not that of the component
+  int interface = -1, coupling = -1;  // which the node follows; −1: not this one
+  int option = -1;                    // index into Constraints::equations
+  double value = 0;                   // m, or rad
+  Point place{};
+  int terms = 0;
+};
+
+/// The state of a component in the equations, the same on all ranks.
+struct Component {
+  PetscInt row = -1;
+  bool inContact = false, held = false, isRotation = false;
+  double value = 0;
+};
+
+/// An equation Σ w u = value of components.
+struct Equation {
+  const Source* source;
+  std::map<PetscInt, double> weights;  // [row]
+  double value, scale;
+  std::map<int, double> origins = {};  // [index into Constraints::origins] its share in this sum
+};
+
+/// Returns the option of an equation as the head of a message.
+std::string headOf(const constraints::EquationSettings& equation);
+
+/// Equations solved for the pivots, which appear in no other equation.
+class Elimination {
+ public:
+  /// `arm`, m, is the length that makes rotations comparable to displacements.
+  Elimination(const Interfaces& all, const std::map<PetscInt, Component>& components, double arm)
+      : all_(all), components_(components), arm_(arm) {}
+  void add(Equation equation);
+  /// Returns the equation of each pivot, [pivot], with the weight 1 at the pivot.
+  const std::map<PetscInt, Equation>& solved() const { return solved_; }
+  /// Returns the equations that depend on the others, exactly or nearly.
+  const std::vector<const Source*>& idle() const { return idle_; }
+  /// Throws Error if a component depends on others and one belongs to a contact node, whose
+  /// unknowns are not Cartesian components.
+  void rejectContact() const;
+
+ private:
+  void insertKnown(Equation& equation) const;
+  PetscInt pivotOf(const Equation& equation) const;
+  void subtract(Equation& from, const Equation& what, PetscInt pivot) const;
+  /// Returns the magnitude of a weight, with rotations in units of 1/arm.
+  double size(PetscInt row, double weight) const {
+    return std::abs(weight) / (components_.at(row).isRotation ? arm_ : 1);
+  }
+  void setIdle(const Equation& equation);
+  std::string nameOf(const Source& source) const;
+  const Interfaces& all_;
+  const std::map<PetscInt, Component>& components_;
+  double arm_;
+  std::map<PetscInt, Equation> solved_;
+  std::map<PetscInt, std::set<PetscInt>> pivotsWith_;  // [other] pivots whose equations have it
+  std::vector<const Source*> idle_;
+};
+
+}  // namespace squeal::interfaces

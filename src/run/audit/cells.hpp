@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The quality of the cells.
+#include <vector>
+
+#include "run/audit/finding.hpp"
+#include "run/audit/subject.hpp"
+
+namespace squeal::audit {
+
+/// A cell and a measure of it.
+struct WorstCell {
+  double value = 0;
+  PetscInt tag = 0;     ///< of gmsh
+  int type = 0;         ///< of gmsh
+  mesh::Point place{};  ///< mean of its nodes, m
+};
+
+/// The quality of the cells of one body.
+struct CellQuality {
+  WorstCell jacobian;   ///< smallest ratio of det J to its largest value in the cell
+  WorstCell aspect;     ///< largest condition number ‖J‖ ‖J⁻¹‖/dimension; 1 for a cube
+  PetscInt folded = 0;  ///< cells with a ratio below `smallestRatio`
+  PetscInt elongated = 0;  ///< cells with a condition number above `largestAspect`
+};
+constexpr double smallestRatio = 0.1, largestAspect = 100;
+
+/// Collective. Returns the quality of the cells, [body].
+std::vector<CellQuality> cellQuality(const mesh::Mesh& mesh);
+
+/// Collective. Returns findings on distorted cells, and on linear cells of nearly incompressible
+/// bodies.
+Findings cellFindings(const Subject& model, const std::vector<CellQuality>& quality);
+
+}  // namespace squeal::audit

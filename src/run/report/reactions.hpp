@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The table of the forces and moments that hold and join the bodies.
+#include <string>
+
+#include "run/analysis/analysis.hpp"
+
+namespace squeal::report {
+
+/// Collective. Returns reactions.csv.
+std::string reactionTable(const analysis::Analysis& analysis);
+
+}  // namespace squeal::report

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Resultants of nodal forces.
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "model/mesh/mesh.hpp"
+#include "model/mesh/vector.hpp"
+
+namespace squeal::steady {
+
+using mesh::Point;
+
+/// A force and a moment about the origin of the global axes.
+struct Wrench {
+  Point force{};   ///< N
+  Point moment{};  ///< N·m; in the plane about z
+
+  void add(const Wrench& other, double factor = 1) {
+    force = mesh::plus(force, other.force, factor);
+    moment = mesh::plus(moment, other.moment, factor);
+  }
+  /// Adds a force that acts at a point.
+  void addForce(const Point& place, const Point& value, double factor = 1) {
+    force = mesh::plus(force, value, factor);
+    moment = mesh::plus(moment, mesh::cross(place, value), factor);
+  }
+  /// Adds a moment in the components of a reference node: in the plane that about z is the first.
+  void addMoment(const Point& value, int dimension, double factor = 1) {
+    moment = mesh::plus(moment, dimension == 3 ? value : Point{0, 0, value[0]}, factor);
+  }
+  /// Adds a force on the components of an owned node, which is a moment on the rotation of a
+  /// reference node.
+  void addNode(const mesh::Mesh& mesh, PetscInt node, const Point& value, double factor = 1) {
+    if (mesh.isRotation(mesh.firstNode + node))
+      addMoment(value, mesh.dimension, factor);
+    else
+      addForce(mesh.coordinates[node], value, factor);
+  }
+};
+
+/// Collective. Returns the resultant of the nodal forces on the nodes of this rank, N entries.
+Wrench ownWrench(const mesh::Mesh& mesh, Vec forces);
+
+/// Collective. Sums over all ranks.
+void reduce(MPI_Comm comm, const std::vector<Wrench*>& wrenches);
+
+/// Not collective. Returns the components of an owned node; zeros after the dimension.
+Point componentsAt(const mesh::Mesh& mesh, const double* values, PetscInt node);
+
+}  // namespace squeal::steady
