@@ -150,6 +150,13 @@ std::vector<mesh::GroupRequest> attachedGroups(const Settings& settings) {
   return requests;
 }
 
+void rejectIdleHydraulic(const RealOption& pressure) {
+  for (const auto& group : hydraulicOption.subjects())
+    if (!forceOption.given(group) && !momentOption.given(group) && !pressure.given(group))
+      throw Error("option " + dashed(hydraulicOption, group) + " needs " + dashed(pressure, group) +
+                  ", " + dashed(forceOption, group) + " or " + dashed(momentOption, group));
+}
+
 bool isHydraulic(const std::string& group) { return hydraulicOption.get(group); }
 
 std::string springFromName(const std::string& spring) { return dashed(springFromOption, spring); }

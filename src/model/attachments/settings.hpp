@@ -64,6 +64,9 @@ std::vector<mesh::GroupRequest> attachedGroups(const Settings& settings);
 
 /// Returns true if the loads of a group scale with the pressure of the sweep.
 bool isHydraulic(const std::string& group);
+/// Throws Error for -load_<group>_hydraulic without a load: a force, a moment, or a pressure in
+/// these options.
+void rejectIdleHydraulic(const RealOption& pressure);
 
 /// Return names of options with their dash, for messages.
 std::string springFromName(const std::string& spring);

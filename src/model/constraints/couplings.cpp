@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/concatenation.hpp"
@@ -74,6 +75,7 @@ class Couplings {
   void addRigid(int coupling);
   void addDistributed(int coupling);
   void addSections();
+  void rejectImages(const CouplingSettings& coupling) const;
   std::vector<CoupledNode> finish();
 
  private:
@@ -91,6 +93,24 @@ class Couplings {
   const Settings& settings_;
   std::map<PetscInt, CoupledNode> nodes_;  // [local node]
 };
+
+/// Collective. Throws Error if a node of a group has a periodic image: the two would move apart as
+/// the reference node turns.
+void Couplings::rejectImages(const CouplingSettings& coupling) const {
+  std::vector<PetscInt> own;
+  for (const auto& image : mesh_.images) own.push_back(image.primary);
+  const auto all = concatenated(mesh_.comm, own);
+  const std::set<PetscInt> primaries(all.begin(), all.end());
+  std::string failure;
+  for (const auto& group : coupling.groups)
+    for (const PetscInt node : mesh_.nodeGroups.at(group))
+      if (primaries.contains(mesh_.firstNode + node))
+        failure = head(coupling) + "the node at " + placeText(mesh_.coordinates[node]) +
+                  " of group '" + group +
+                  "' has a periodic image, which does not turn with a reference node; take such "
+                  "nodes out of the group";
+  failTogether(mesh_.comm, failure);
+}
 
 void Couplings::add(CoupledNode node, std::string& failure) {
   const auto [at, isNew] = nodes_.try_emplace(node.node, node);
@@ -274,6 +294,7 @@ std::vector<CoupledNode> coupledNodes(const mesh::Mesh& mesh, const Settings& se
     for (const auto& group : coupling.groups)
       if (mpi::sum(mesh.comm, PetscInt(mesh.nodeGroups.at(group).size())) == 0)
         throw Error(head(coupling) + "group '" + group + "' has no nodes");
+    couplings.rejectImages(coupling);
     if (coupling.kind == CouplingKind::rigid)
       couplings.addRigid(i);
     else

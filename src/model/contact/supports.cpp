@@ -164,6 +164,10 @@ void addEquations(const mesh::Mesh& mesh, const Contact& contact, const elastici
                   const RigidMotions& motions, GramMatrix& gram) {
   const auto keep = [&] {
     mpi::reduce<double>(mesh.comm, gram.row, MPI_SUM);
+    double largest = 0;  // an equation may have factors of any size
+    for (const double x : gram.row) largest = std::max(largest, std::abs(x));
+    if (largest > 0)
+      for (double& x : gram.row) x /= largest;
     if (mpi::rank(mesh.comm) > 0) std::ranges::fill(gram.row, 0.0);
     gram.keep();
   };

@@ -142,6 +142,7 @@ Settings Settings::given() {
   settings.convective = convectiveOption.get();
   for (const auto& surface : pressureOption.subjects())
     settings.pressure[surface] = pressureOption.get(surface);
+  attachments::rejectIdleHydraulic(pressureOption);
   for (const auto& [surface, pressure] : settings.pressure)
     if (!attachments::isHydraulic(surface)) settings.constantPressure.insert(surface);
   settings.motions = motionsGiven();
