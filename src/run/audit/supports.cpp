@@ -102,7 +102,7 @@ void countCouplings(const Subject& model, Counts& counts) {
   const auto& mesh = model.mesh;
   const auto& all = model.contact.interfaces;
   for (int i = 0; i < std::ssize(all.couplings); ++i) {
-    counts.begin(quoted("coupling", all.couplings[i].name));
+    counts.begin(all.couplings[i].label());
     for (const auto& coupled : all.coupled) {
       if (coupled.coupling != i) continue;
       counts.addNode(coupled.node);

@@ -198,6 +198,30 @@ TEST(UnmergedNodes, BodyThatIsCut) {
       "");
 }
 
+// The section of a bolt cuts its body as well, but the bolt joins the two sides.
+TEST(UnmergedNodes, SectionOfABolt) {
+  const std::string geometry = R"(
+Point(1) = {0, 0, 0}; Point(2) = {0.1, 0, 0}; Point(3) = {0.1, 0.1, 0}; Point(4) = {0, 0.1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Transfinite Curve{1:4} = 3;
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Transfinite Surface{1}; Recombine Surface{1};
+low[] = Extrude{0, 0, 0.1}{ Surface{1}; Layers{2}; Recombine; };
+high[] = Extrude{0, 0, 0.1}{ Surface{low[0]}; Layers{2}; Recombine; };
+Physical Surface("bottom") = {1};
+Physical Surface("section") = {low[0]};
+Physical Volume("bolt") = {low[1], high[1]};
+)";
+  const auto found = test::audited(
+      "-mesh_file " + test::writeFile("audit_bolt.geo", geometry) +
+      test::material("bolt", "2e11", "0.3", "7800") +
+      "-constraint_bottom_clamped xyz -bolt_b_section section -bolt_b_shortening 1e-5");
+  EXPECT_EQ(test::linesOf(found), "");
+  bool isListed = false;
+  for (const auto& part : found.parts)
+    for (const auto& support : part.supports) isListed = isListed || support.by == "bolt 'b'";
+  EXPECT_TRUE(isListed);
+}
+
 // Bodies that meet at an edge face each other nowhere.
 TEST(UnmergedNodes, BodiesThatMeetAtAnEdge) {
   test::BlockWriter writer;
