@@ -9,8 +9,8 @@ _squeal() {
       ;;
     -help)
       _squeal_words "general mesh frame matrices material elasticity reference ground spring
-        bushing mass coupling equation constraint load motion friction contact tie
-        steady modes flutter regime report"
+        bushing mass coupling equation bolt constraint load motion friction contact
+        tie steady modes flutter regime report"
       return
       ;;
     -checkpoint | -resume | -quiet | -dry_run | -elasticity_prestress | \

@@ -60,7 +60,7 @@ TEST(External, DampedChainAtItsCriticalFriction) {
       "-options_file options/external_chain.yaml -flutter_unstable_tolerance 0 -flutter_friction "
       "%.12g,%.12g",
       critical * (1 - 1e-6), critical * (1 + 1e-6));
-  const ProgramRun run = runProgram("external/chain", 2, change);
+  const ProgramRun run = runProgram("external/chain", 1, change);
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const auto summary = nlohmann::json::parse(contentOf(run.folder / "summary.json"));
   EXPECT_EQ(summary.at("frictions").at(0).at("unstable_modes").size(), 0U);

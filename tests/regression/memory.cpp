@@ -23,7 +23,7 @@ ProgramRun runLimited(const Limited& limited) {
   fs::permissions(shell, fs::perms::owner_all);
   return runAgain(name, limited.ranks,
                   "-options_file options/disc_brake.yaml -flutter_friction 0.4 -quiet", 100,
-                  shell.string());
+                  shell.string(), secondToEnd);
 }
 
 // Libraries take some 250 MB of addresses, the case more than 1 GB on one rank: in between the

@@ -46,7 +46,7 @@ TEST(Notes, OptionsThatNothingAsksFor) {
 // The case displaces the pad along y; without a hold along y its displacement is left out.
 TEST(Notes, DisplacementThatIsNotHeld) {
   const ProgramRun run = runProgram(
-      "notes/displacement", 2,
+      "notes/displacement", 1,
       commandLine(with(twoLayers,
                        {{"constraint_pad_top_clamped", "x"}, {"load_pad_top_pressure", "0.02"}})));
   ASSERT_EQ(run.exitCode, 0) << run.error;
@@ -77,7 +77,7 @@ TEST(Notes, NoEigenvalueIsNoStability) {
 // The plate is lifted: nothing touches the layer.
 TEST(Notes, OpenContactIsNoStableSliding) {
   const ProgramRun run =
-      runProgram("notes/open", 2,
+      runProgram("notes/open", 1,
                  commandLine(with(spoken, {{"contact_plate_obstacle_displacement", "0,0.01,0"}})));
   ASSERT_EQ(run.exitCode, 0) << run.error;
   EXPECT_TRUE(says(run, "no contact is closed, nothing slides")) << run.out;
@@ -87,7 +87,7 @@ TEST(Notes, OpenContactIsNoStableSliding) {
 // The default of 200 modes is more than a small mesh has.
 TEST(Notes, AllModesOfASmallMesh) {
   const ProgramRun run =
-      runProgram("notes/small", 2, commandLine(without(spoken, {"modes_count"})));
+      runProgram("notes/small", 1, commandLine(without(spoken, {"modes_count"})));
   ASSERT_EQ(run.exitCode, 0) << run.error;
   EXPECT_TRUE(says(run, "30 modes to ")) << run.out;
   EXPECT_TRUE(says(run, "All eigenvalues, of the full-order problem")) << run.out;

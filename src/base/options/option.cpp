@@ -36,9 +36,10 @@ std::optional<std::string> valueGiven(const std::string& name) {
 
 const std::vector<std::string>& stages() {
   static const std::vector<std::string> inOrder = {
-      "general",  "mesh",    "frame", "matrices", "material", "elasticity", "reference", "ground",
-      "spring",   "bushing", "mass",  "coupling", "equation", "constraint", "load",      "motion",
-      "friction", "contact", "tie",   "steady",   "modes",    "flutter",    "regime",    "report"};
+      "general",    "mesh",    "frame",   "matrices", "material", "elasticity", "reference",
+      "ground",     "spring",  "bushing", "mass",     "coupling", "equation",   "bolt",
+      "constraint", "load",    "motion",  "friction", "contact",  "tie",        "steady",
+      "modes",      "flutter", "regime",  "report"};
   return inOrder;
 }
 

@@ -205,6 +205,42 @@ PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term) {
   return nodes.empty() ? -1 : nodes[0];
 }
 
+void lockBolt(const mesh::Mesh& mesh, int section, double opening, Constraints& constraints) {
+  const auto& reference = mesh.references[mesh.sections[section].reference];
+  const PetscInt node = reference.displacement - mesh.firstNode;
+  if (node < 0 || node >= mesh.ownedNodes) return;
+  const PetscInt row = mesh.dimension * node;  // the first of its axes is the normal
+  constraints.held[row] = 1, constraints.heldBy[row] = -1;
+  constraints.locked[row] = opening;
+}
+
+namespace {
+
+/// Holds the reference nodes of bolts across the normal, and their rotations.
+void guideBolts(const mesh::Mesh& mesh, Constraints& constraints) {
+  for (const auto& section : mesh.sections) {
+    const auto& reference = mesh.references[section.reference];
+    const PetscInt node = reference.displacement - mesh.firstNode,
+                   rotation = reference.rotation - mesh.firstNode;
+    if (node < 0 || node >= mesh.ownedNodes) continue;
+    Matrix3 axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    axes[0] = section.normal;
+    if (mesh.dimension == 2) {
+      axes[1] = {-section.normal[1], section.normal[0], 0};
+    } else {
+      axes[1] = mesh::across(section.normal);
+      axes[2] = mesh::cross(axes[0], axes[1]);
+    }
+    constraints.axes[node] = axes;
+    for (int d = 0; d < mesh.dimension; ++d) {
+      constraints.held[mesh.dimension * node + d] = d > 0;
+      constraints.held[mesh.dimension * rotation + d] = 1;
+    }
+  }
+}
+
+}  // namespace
+
 Constraints constraintsOf(const mesh::Mesh& mesh, const Settings& settings) {
   Supports supports(mesh, settings);
   std::string failure;
@@ -213,6 +249,10 @@ Constraints constraintsOf(const mesh::Mesh& mesh, const Settings& settings) {
   failTogether(mesh.comm, failure);
   Constraints constraints = supports.finish();
   constraints.equations = settings.equations;
+  guideBolts(mesh, constraints);
+  for (std::size_t i = 0; i < settings.bolts.size(); ++i)
+    if (settings.bolts[i].shortening)
+      lockBolt(mesh, i, -*settings.bolts[i].shortening, constraints);
   constraints.anyTurned = mpi::any(mesh.comm, !constraints.axes.empty());
   if (mesh.dimension == 2)  // a reference node in the plane has one rotation
     for (const auto& reference : mesh.references)

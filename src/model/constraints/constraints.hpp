@@ -73,6 +73,9 @@ struct Constraints {
   /// on nodes that follow it
   std::vector<unsigned char> supported;
   std::vector<EquationSettings> equations;
+  /// Values of held components that no sweep scales, for their rows, owned node · dimension +
+  /// component: the lengths of bolts. Constraints::displacement is zero there.
+  std::map<PetscInt, double> locked;
 
   /// Returns the direction of a component of an owned node.
   Point direction(PetscInt node, int component) const;
@@ -83,6 +86,10 @@ struct Constraints {
 /// Not collective. Returns the local node of a term of an equation on the rank that owns it, −1 on
 /// the others.
 PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term);
+
+/// Not collective. Keeps the length of a bolt, [section of the mesh]: the displacement of its
+/// reference node along the normal, m.
+void lockBolt(const mesh::Mesh& mesh, int section, double opening, Constraints& constraints);
 
 /// Collective. Returns the supports. Throws Error for a component that is given twice or does not
 /// exist in the dimension, and for two groups that disagree. Warns of displacements of components

@@ -73,6 +73,7 @@ class Couplings {
   Couplings(const mesh::Mesh& mesh, const Settings& settings) : mesh_(mesh), settings_(settings) {}
   void addRigid(int coupling);
   void addDistributed(int coupling);
+  void addSections();
   std::vector<CoupledNode> finish();
 
  private:
@@ -93,12 +94,11 @@ class Couplings {
 
 void Couplings::add(CoupledNode node, std::string& failure) {
   const auto [at, isNew] = nodes_.try_emplace(node.node, node);
-  const auto& coupling = settings_.couplings[node.coupling];
-  const auto& other = settings_.couplings[at->second.coupling];
   if (isNew || at->second.coupling == node.coupling) return;
-  failure = head(coupling) + "the node at " + placeText(mesh_.coordinates[node.node]) +
-            " follows coupling '" + other.name +
-            "' already; a node can follow one coupling: take it out of one group, or couple the "
+  const auto labels = couplingLabels(settings_);
+  failure = labels[node.coupling] + ": the node at " + placeText(mesh_.coordinates[node.node]) +
+            " follows " + labels[at->second.coupling] +
+            " already; a node can follow one coupling: take it out of one group, or couple the "
             "reference nodes";
 }
 
@@ -237,6 +237,20 @@ void Couplings::addDistributed(int coupling) {
   failTogether(mesh_.comm, failure);
 }
 
+/// Adds the upper nodes of the sections of bolts, which follow the lower ones and the opening.
+void Couplings::addSections() {
+  std::string failure;
+  for (const auto& [node, lower, section, lowerPart] : mesh_.sectionPairs) {
+    const auto& reference = mesh_.references[mesh_.sections[section].reference];
+    CoupledNode found{.node = node, .coupling = int(std::ssize(settings_.couplings)) + section};
+    found.masters = {
+        {lower, identity(), lowerPart, mesh_.coordinates[node], false},
+        {reference.displacement, identity(), reference.part, reference.position, false}};
+    add(found, failure);
+  }
+  failTogether(mesh_.comm, failure);
+}
+
 std::vector<CoupledNode> Couplings::finish() {
   std::vector<CoupledNode> list;
   for (auto& [node, coupled] : nodes_) list.push_back(std::move(coupled));
@@ -244,6 +258,14 @@ std::vector<CoupledNode> Couplings::finish() {
 }
 
 }  // namespace
+
+std::vector<std::string> couplingLabels(const Settings& settings) {
+  std::vector<std::string> labels;
+  for (const auto& coupling : settings.couplings)
+    labels.push_back("coupling '" + coupling.name + "'");
+  for (const auto& bolt : settings.bolts) labels.push_back("bolt '" + bolt.name + "'");
+  return labels;
+}
 
 std::vector<CoupledNode> coupledNodes(const mesh::Mesh& mesh, const Settings& settings) {
   Couplings couplings(mesh, settings);
@@ -257,6 +279,7 @@ std::vector<CoupledNode> coupledNodes(const mesh::Mesh& mesh, const Settings& se
     else
       couplings.addDistributed(i);
   }
+  couplings.addSections();
   return couplings.finish();
 }
 

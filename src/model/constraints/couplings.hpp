@@ -29,7 +29,7 @@ struct CoupledMaster {
 /// columns of the blocks count, and the rotation of a reference node is its first component.
 struct CoupledNode {
   PetscInt node;                        ///< local node
-  int coupling;                         ///< index into Settings::couplings
+  int coupling;                         ///< index into Settings::couplings, then Settings::bolts
   bool distributed = false;             ///< it is the reference node of a distributed coupling
   Matrix3 own{};                        ///< [component][component of z]
   std::array<unsigned char, 3> free{};  ///< [component of z] 1 if it is an unknown
@@ -37,6 +37,9 @@ struct CoupledNode {
   int level = 1;
   std::vector<CoupledMaster> masters = {};
 };
+
+/// Returns "coupling 'name'" or "bolt 'name'" of each index CoupledNode::coupling.
+std::vector<std::string> couplingLabels(const Settings& settings);
 
 /// Collective. Returns the coupled nodes in the order of local nodes. A node of a rigid coupling
 /// follows its reference node, u = u_R + θ_R × (x − x_R), in the coupled components. The reference

@@ -60,6 +60,18 @@ const TextOption equationOption("equation", "equation_<name>", "",
                                 "0.1; a, b: groups of one node or reference nodes; x, y, z: "
                                 "displacement, m; rx, ry, rz: rotation of a reference node, rad");
 
+const TextOption sectionOption("bolt", "bolt_<name>_section", "",
+                               "surface group inside a body that cuts the shank of a bolt");
+const RealOption boltForceOption("bolt", "bolt_<name>_force", 0.0, "N", nonNegative,
+                                 "tension that a first step without pressure and friction gives "
+                                 "the bolt; its length is kept from then on");
+const RealOption shorteningOption("bolt", "bolt_<name>_shortening", 0.0, "m", anyReal,
+                                  "length by which the two sides of the section are drawn "
+                                  "together, instead of -bolt_<name>_force");
+const RealListOption boltAxisOption("bolt", "bolt_<name>_axis", "0,0,1", "", anyReal,
+                                    "direction of the bolt, for the sign of its normal; default: "
+                                    "the normal of a face of the section");
+
 std::string dashed(const Option& option, const std::string& name) {
   return "-" + option.fullName(name);
 }
@@ -269,6 +281,22 @@ std::vector<EquationSettings> equationsGiven(const Settings& settings) {
   return equations;
 }
 
+std::vector<BoltSettings> boltsGiven() {
+  requireOption({&boltForceOption, &shorteningOption, &boltAxisOption}, sectionOption);
+  std::vector<BoltSettings> bolts;
+  for (const auto& name : sectionOption.subjects()) {
+    if (boltForceOption.given(name) == shorteningOption.given(name))
+      throw Error("option " + dashed(sectionOption, name) + ": give either " +
+                  dashed(boltForceOption, name) + " or " + dashed(shorteningOption, name));
+    BoltSettings bolt{.name = name, .section = sectionOption.get(name)};
+    if (boltForceOption.given(name)) bolt.force = boltForceOption.get(name);
+    if (shorteningOption.given(name)) bolt.shortening = shorteningOption.get(name);
+    if (boltAxisOption.given(name)) bolt.axis = boltAxisOption.vector(name);
+    bolts.push_back(std::move(bolt));
+  }
+  return bolts;
+}
+
 }  // namespace
 
 Settings Settings::given() {
@@ -278,6 +306,7 @@ Settings Settings::given() {
   settings.clamps = clampsGiven(settings);
   settings.couplings = couplingsGiven(settings);
   settings.equations = equationsGiven(settings);
+  settings.bolts = boltsGiven();
   for (const auto& image : imageOption.subjects()) settings.imageOf[image] = imageOption.get(image);
   return settings;
 }
@@ -301,6 +330,16 @@ std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings) {
   for (const auto& [image, primary] : settings.imageOf)
     pairs.push_back({image, primary, dashed(imageOption, image) + " " + primary});
   return pairs;
+}
+
+std::vector<mesh::SectionRequest> boltSections(const Settings& settings) {
+  std::vector<mesh::SectionRequest> sections;
+  for (const auto& bolt : settings.bolts)
+    sections.push_back({bolt.name,
+                        {bolt.section, dashed(sectionOption, bolt.name) + " " + bolt.section},
+                        bolt.axis,
+                        dashed(boltAxisOption, bolt.name)});
+  return sections;
 }
 
 std::string clampedName(const std::string& group) { return dashed(clampedOption, group); }

@@ -3,6 +3,7 @@
 /// Settings of supports, reference nodes, couplings, equations and periodic images. Not collective:
 /// all ranks have the same options, and therefore the same results and Errors.
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,12 +53,22 @@ struct EquationSettings {
   double value = 0;
 };
 
+/// A bolt: a section of a body whose two sides are drawn together.
+struct BoltSettings {
+  std::string name;
+  std::string section;               ///< surface group inside a body
+  std::optional<double> force = {};  ///< tension of the first step, N; later its length is kept
+  std::optional<double> shortening = {};  ///< the length that is kept, m, in place of a force
+  std::optional<VectorValue> axis = {};   ///< of the bolt
+};
+
 struct Settings {
   std::map<std::string, frame::FrameSettings> frames;  ///< [name]
   std::vector<mesh::ReferenceRequest> references;      ///< sorted by name
   std::map<std::string, ClampSettings> clamps;         ///< [group]
   std::vector<CouplingSettings> couplings;             ///< sorted by name
   std::vector<EquationSettings> equations;             ///< sorted by name
+  std::vector<BoltSettings> bolts;                     ///< sorted by name
   std::map<std::string, std::string> imageOf;          ///< [group] the group whose image it is
 
   /// Reads the options. Throws Error for options that need others, for a reference node that
@@ -70,6 +81,8 @@ struct Settings {
 /// pairs of groups.
 std::vector<mesh::GroupRequest> constrainedGroups(const Settings& settings);
 std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings);
+/// Returns the sections of the bolts, for the mesh reader.
+std::vector<mesh::SectionRequest> boltSections(const Settings& settings);
 
 /// Return names of options with their dash, for messages.
 std::string clampedName(const std::string& group);

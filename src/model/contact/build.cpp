@@ -102,6 +102,16 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, interfac
   return contact;
 }
 
+void lockBolts(Contact& contact, const elasticity::Bodies& bodies,
+               const std::vector<double>& openings) {
+  const mesh::Mesh& mesh = *contact.mesh;
+  for (std::size_t i = 0; i < openings.size(); ++i)
+    constraints::lockBolt(mesh, i, openings[i], contact.interfaces.constraints);
+  contact.kinematics = kinematicsOf(mesh, contact.interfaces, contact.periodic);
+  contact.sliding =
+      slidingOf({mesh, bodies, contact.interfaces, contact.kinematics, contact.periodic});
+}
+
 void requireMotion(const Contact& contact) {
   std::vector<double> fastest(contact.interfaces.options.size(), 0.0);  // [interface]
   for (const auto& node : contact.interfaces.nodes)

@@ -17,6 +17,11 @@ namespace squeal::contact {
 Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, interfaces::Interfaces ties,
               const Settings& settings);
 
+/// Collective. Keeps the lengths of bolts from now on: `openings` of their sections along the
+/// normal, m, [section of the mesh].
+void lockBolts(Contact& contact, const elasticity::Bodies& bodies,
+               const std::vector<double>& openings);
+
 /// Collective. Throws Error if nothing moves along a sliding interface, at any friction: bodies at
 /// rest on each other need another role.
 void requireMotion(const Contact& contact);

@@ -64,13 +64,7 @@ Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int di
     return frame;
   }
   if (frame.tangents.empty()) {
-    // Start from any direction that is not along n.
-    std::size_t least = 0;
-    for (std::size_t d = 1; d < 3; ++d)
-      if (std::abs(node.normal[d]) < std::abs(node.normal[least])) least = d;
-    Point e{};
-    e[least] = 1;
-    frame.tangents.push_back(mesh::unit(cross(node.normal, e)));
+    frame.tangents.push_back(mesh::across(node.normal));
     frame.heldComponent.push_back(-1);
   }
   if (frame.tangents.size() == 1)
@@ -207,12 +201,14 @@ OwnedVec Factors::held() const {
   return vector;
 }
 
-/// Returns u_g = −A g0 of the gaps g0 without load, which the gap unknowns include.
+/// Returns u_g = A (d − g0) of the gaps g0 without load, which the gap unknowns include, and of the
+/// lengths d of bolts.
 OwnedVec gapOffset(const mesh::Mesh& mesh, const interfaces::Interfaces& all, Mat a) {
   const OwnedVec gaps = elasticity::nodalVector(mesh);
   {
     const WriteArray values(gaps);
     for (const auto& node : all.nodes) values[mesh.dimension * (node.node + 1) - 1] = -node.gap;
+    for (const auto& [row, value] : all.constraints.locked) values[row] = value;
   }
   OwnedVec offset = elasticity::nodalVector(mesh);
   check(MatMult(a, gaps, offset));

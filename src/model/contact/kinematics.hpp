@@ -15,7 +15,7 @@ using mesh::Point;
 struct Kinematics {
   OwnedMat matrix;     ///< A, N×N
   OwnedVec offset;     ///< u0, N entries, m: held displacements and displacements of obstacles
-  OwnedVec gapOffset;  ///< u_g, N entries, m: closes the gaps without load
+  OwnedVec gapOffset;  ///< u_g, N entries, m: closes the gaps without load, and shortens bolts
   /// [owned node · dimension + component of z] 1 if it is an unknown; all gaps count as unknowns
   std::vector<unsigned char> free;
 };

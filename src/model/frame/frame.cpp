@@ -23,16 +23,6 @@ Point unitOf(const VectorValue& direction, const std::string& option, int dimens
   return unit(given);
 }
 
-/// Returns a direction across a unit vector.
-Point across(const Point& e) {
-  std::size_t least = 0;
-  for (std::size_t d = 1; d < 3; ++d)
-    if (std::abs(e[d]) < std::abs(e[least])) least = d;
-  Point other{};
-  other[least] = 1;
-  return unit(cross(e, other));
-}
-
 }  // namespace
 
 Frame::Frame(const FrameSettings& settings, int dimension)
@@ -46,7 +36,7 @@ Frame::Frame(const FrameSettings& settings, int dimension)
     if (dimension == 2 && std::abs(first[2]) != 1)
       throw Error("option " + settings.firstOption +
                   ": in the plane the axis of a cylindrical frame must be along z");
-    axes_[2] = first, axes_[0] = across(first), axes_[1] = cross(first, axes_[0]);
+    axes_[2] = first, axes_[0] = mesh::across(first), axes_[1] = cross(first, axes_[0]);
     return;
   }
   const Point second = unitOf(settings.second, settings.secondOption, dimension),

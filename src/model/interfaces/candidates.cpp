@@ -134,11 +134,13 @@ Claims::Claims(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange)
       sliding_(tied_),
       other_(tied_) {}
 
-std::vector<unsigned char> Claims::against(Role role) const {
+std::vector<unsigned char> Claims::against(Role role, int interface, const Interfaces& all) const {
   std::vector<unsigned char> excluded(tied_.size(), 0);
   for (std::size_t i = 0; i < excluded.size(); ++i) {
     const bool isLast = role == Role::sticking || role == Role::frictionless;
-    excluded[i] = tied_[i] || (isLast && (sliding_[i] || other_[i]));
+    const bool isShared =
+        role == Role::sliding && sliding_[i] > 0 && all.slideTogether(interface, sliding_[i] - 1);
+    excluded[i] = tied_[i] || isShared || (isLast && (sliding_[i] || other_[i]));
   }
   return excluded;
 }
@@ -151,9 +153,12 @@ void Claims::add(const std::vector<PetscInt>& nodes, const std::vector<Interface
   for (PetscInt node : nodes) {
     const int before = claimed[node] - 1;
     if (role == Role::sliding && before >= 0)
-      failure = "interfaces '" + options[before].surfaces.name + "' and '" +
-                options[interface].surfaces.name + "' both contain the node at " +
-                text(mesh_.coordinates[node]) + " as sliding; a node has only one gap";
+      failure =
+          "interfaces '" + options[before].surfaces.name + "' and '" +
+          options[interface].surfaces.name + "' both contain the node at " +
+          text(mesh_.coordinates[node]) +
+          " as sliding; a node has only one gap: give both the same disc group, and -contact_" +
+          options[interface].surfaces.name + "_slave pad";
     claimed[node] = interface + 1;
   }
   failTogether(mesh_.comm, failure);

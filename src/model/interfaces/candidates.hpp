@@ -23,10 +23,10 @@ class Claims {
  public:
   /// Collective. The exchange is borrowed.
   Claims(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange);
-  /// Returns the nodes that an interface of this role must leave to other interfaces.
-  std::vector<unsigned char> against(Role role) const;
+  /// Returns the nodes that an interface, which has this role, must leave to other interfaces.
+  std::vector<unsigned char> against(Role role, int interface, const Interfaces& all) const;
   /// Collective. Claims these local nodes of an interface. Throws Error if a node slides on another
-  /// interface.
+  /// disc.
   void add(const std::vector<PetscInt>& nodes, const std::vector<InterfaceSettings>& options,
            int interface);
 

@@ -99,7 +99,7 @@ std::string interfacesAt(const mesh::Mesh& mesh, const Interfaces& all, int leve
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i]) labels.push_back(all.options[i].label());
   for (std::size_t i = 0; i < coupled.size(); ++i)
-    if (coupled[i]) labels.push_back("coupling '" + all.couplings[i] + "'");
+    if (coupled[i]) labels.push_back(all.couplings[i]);
   return joined(labels);
 }
 

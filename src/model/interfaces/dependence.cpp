@@ -113,8 +113,8 @@ void rejectTwoMasters(const mesh::Mesh& mesh, const Interfaces& all) {
   for (const auto& coupled : all.coupled)
     if (const std::string& other = masters[coupled.node]; !other.empty())
       failure = "over-constrained: the node at " + text(mesh.coordinates[coupled.node]) +
-                " follows coupling '" + all.couplings[coupled.coupling] + "' and " + other +
-                "; take it out of the group of the coupling, or exchange slave and master";
+                " follows " + all.couplings[coupled.coupling] + " and " + other +
+                "; take it out of the group, or exchange slave and master";
   failTogether(mesh.comm, failure);
 }
 

@@ -58,8 +58,8 @@ std::string Elimination::nameOf(const Source& source) const {
   const std::string follows = source.interface >= 0
                                   ? all_.options[source.interface].label() + " at " +
                                         text(source.place) + ", which follows the master; "
-                                  : "coupling '" + all_.couplings[source.coupling] + "' at " +
-                                        text(source.place) + ", which follows other nodes; ";
+                                  : all_.couplings[source.coupling] + " at " + text(source.place) +
+                                        ", which follows other nodes; ";
   const std::string what = source.isTurned ? "the direction " + text(source.direction)
                                            : std::string("component ") + "xyz"[source.component];
   return "option -constraint_" + group + "_clamped holds " + what + " of a node of " + follows;

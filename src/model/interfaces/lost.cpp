@@ -72,6 +72,9 @@ class Owners {
   }
   /// Returns true if the contact has the gap of the lost node nevertheless.
   bool isMet(const LostNode& lost) const {
+    const auto own = gaps_.find(mesh_.firstNode + lost.node);
+    if (own != gaps_.end() && all_.slideTogether(own->second, lost.interface))
+      return all_.options[own->second].friction == all_.options[lost.interface].friction;
     const auto tied = tied_.find(lost.node);
     if (tied == tied_.end() || all_.options[lost.interface].isTied()) return false;
     if (const auto other = parts_.find(lost.interface); other != parts_.end())

@@ -138,6 +138,22 @@ void countNodes(MPI_Comm comm, Interfaces& all) {
 
 }  // namespace
 
+bool Interfaces::slideTogether(int one, int other) const {
+  const InterfaceSettings &a = options[one], &b = options[other];
+  return a.role == Role::sliding && b.role == Role::sliding && !a.onObstacle() && !b.onObstacle() &&
+         a.surfaces.disc.name == b.surfaces.disc.name &&
+         a.surfaces.pad.name != b.surfaces.pad.name && slaves[one].sign == slaves[other].sign;
+}
+
+bool Interfaces::hasGapOn(const std::string& surface, PetscInt node) const {
+  const int own = interfaceOf[node];
+  if (own < 0) return false;
+  if (slaves[own].surface == surface) return true;
+  for (int i = 0; i < std::ssize(slaves); ++i)
+    if (slaves[i].surface == surface && slideTogether(own, i)) return true;
+  return false;
+}
+
 const SlaveSide* Interfaces::slaveOf(const std::string& surface) const {
   for (std::size_t i = 0; i < slaves.size(); ++i)
     if (!options[i].isTied() && slaves[i].surface == surface) return &slaves[i];
@@ -190,7 +206,7 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, M
     for (int i = 0; i < std::ssize(all.options); ++i) {
       const Role role = all.options[i].role;
       if (role == Role::tied || (role == Role::sliding) != sliding) continue;
-      auto found = candidatesOf(mesh, exchange, &bodies, i, claims.against(role), all);
+      auto found = candidatesOf(mesh, exchange, &bodies, i, claims.against(role, i, all), all);
       claims.add(nodesOf(found), all.options, i);
       std::move(found.begin(), found.end(), std::back_inserter(touching));
     }

@@ -108,7 +108,7 @@ struct Interfaces {
   std::vector<TiedNode> tied;              ///< owned by this rank, in the order of local nodes
   std::vector<LostNode> lost;              ///< owned by this rank
   constraints::Constraints constraints;
-  std::vector<std::string> couplings;             ///< names of the couplings
+  std::vector<std::string> couplings;             ///< labels of couplings and bolts
   std::vector<constraints::CoupledNode> coupled;  ///< owned by this rank, by local node
   PetscInt totalNodes = 0;                        ///< contact nodes of all ranks
   /// [local node] index into `options` of the contact with a gap at the node, −1 if there is none;
@@ -117,10 +117,11 @@ struct Interfaces {
   int levels = 1;     ///< largest level of a connection of all ranks
   GapBasis gapBasis;  ///< E
 
+  /// Returns true if a node that two interfaces share has the same gap on both: they slide on the
+  /// same surface of a disc.
+  bool slideTogether(int one, int other) const;
   /// Returns true if the local node has a gap on the slave surface of this name.
-  bool hasGapOn(const std::string& surface, PetscInt node) const {
-    return interfaceOf[node] >= 0 && slaves[interfaceOf[node]].surface == surface;
-  }
+  bool hasGapOn(const std::string& surface, PetscInt node) const;
   /// Returns the slave side of a contact interface with this surface, borrowed; null if there is
   /// none.
   const SlaveSide* slaveOf(const std::string& surface) const;
@@ -132,8 +133,8 @@ std::string describe(const Interfaces& all, int interface);
 /// Collective. Adds the nodes in contact to `ties`, the result of findTies(). A node belongs to one
 /// interface: ties precede sliding interfaces, and these precede sticking and frictionless ones.
 /// `periodic`, N×N, copies u of primaries to their images. Throws Error for surfaces that do not
-/// meet, for a node in two sliding interfaces, and for slaves that depend on each other in a
-/// circle.
+/// meet, for a node in two interfaces that slide on different discs, and for slaves that depend on
+/// each other in a circle.
 Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, Mat periodic,
                      Interfaces ties);
 

@@ -32,6 +32,7 @@ std::string text(Role role);
 struct Coefficient {
   double fixed = 0, swept = 0;
 
+  bool operator==(const Coefficient&) const = default;
   double at(double friction) const { return fixed + swept * friction; }
   /// Returns the factor of f^exponent: fixed for 0, swept for 1.
   double part(int exponent) const { return exponent == 0 ? fixed : swept; }

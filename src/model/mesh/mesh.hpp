@@ -66,6 +66,21 @@ struct ContactPair {
   Point offset;     ///< position of the master minus that of the node in the file, m
 };
 
+/// A section that cuts a body: its two sides move apart by the displacement of a reference node.
+struct Section {
+  std::string name;
+  Point normal;   ///< unit, from the lower side to the upper one
+  int reference;  ///< index into Mesh::references
+};
+
+/// Two nodes at one place on the sides of a section.
+struct SectionPair {
+  PetscInt node;   ///< local node of the upper side (owned)
+  PetscInt lower;  ///< global node of the lower side
+  int section;     ///< index into Mesh::sections
+  int lowerPart;   ///< connected part of the lower node
+};
+
 /// How the meshes of the two sides of an interface fit together.
 struct InterfaceMatch {
   std::string label;  ///< of the request, the key of the interface
@@ -121,6 +136,8 @@ struct Mesh {
   /// [group or reference node] owned local nodes, with images replaced by their primaries
   std::map<std::string, std::vector<PetscInt>> nodeGroups;
   std::vector<Reference> references;  ///< the same on all ranks, sorted by name
+  std::vector<Section> sections;      ///< the same on all ranks
+  std::vector<SectionPair> sectionPairs;
   std::vector<Image> images;
   std::vector<ContactPair> pairs;          ///< of the interfaces that match
   std::vector<InterfaceMatch> interfaces;  ///< in the order of the request
@@ -171,6 +188,15 @@ struct ReferenceRequest {
   std::string option;  ///< the option that asks for it, with its dash, for messages
 };
 
+/// A surface group inside a body that cuts it.
+struct SectionRequest {
+  std::string name;
+  GroupRequest surface;
+  std::optional<VectorValue> axis;  ///< points to the upper side; without it either side is the
+                                    ///< upper one
+  std::string axisOption;           ///< with its dash, for messages
+};
+
 /// The groups that the later stages need from the mesh.
 struct Request {
   std::vector<GroupRequest> bodies;  ///< volume groups with a material
@@ -179,6 +205,7 @@ struct Request {
   /// Groups of any dimension, or reference nodes, whose nodes are constrained or loaded.
   std::vector<GroupRequest> nodeGroups;
   std::vector<ReferenceRequest> references;  ///< sorted by name
+  std::vector<SectionRequest> sections;      ///< sorted by name
   /// Surface groups that are loaded. Those of both sides of interfaces are added.
   std::vector<GroupRequest> surfaces;
   std::vector<InterfaceRequest> interfaces;

@@ -58,7 +58,7 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
 /// made in one pass over the mesh.
 struct Shares {
   std::vector<std::vector<std::vector<PetscInt>>> cells, faces;  // [rank][block] -> element
-  std::vector<std::vector<PetscInt>> images, pairs;              // [rank] -> item
+  std::vector<std::vector<PetscInt>> images, pairs, sections;    // [rank] -> item
   std::vector<std::vector<std::vector<PetscInt>>> groups;        // [rank][group] -> whole node
 };
 
@@ -70,6 +70,7 @@ Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vecto
   shares.groups.assign(ranks, std::vector<std::vector<PetscInt>>(mesh.nodeGroups.size()));
   shares.images.resize(ranks);
   shares.pairs.resize(ranks);
+  shares.sections.resize(ranks);
   std::size_t cell = 0;
   for (std::size_t b = 0; b < mesh.cells.size(); ++b)
     for (std::size_t e = 0; e < mesh.cells[b].tag.size(); ++e, ++cell)
@@ -81,6 +82,8 @@ Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vecto
     shares.images[numbering.owner[mesh.images[i].node]].push_back(i);
   for (std::size_t i = 0; i < mesh.pairs.size(); ++i)
     shares.pairs[numbering.owner[mesh.pairs[i].node]].push_back(i);
+  for (std::size_t i = 0; i < mesh.sectionPairs.size(); ++i)
+    shares.sections[numbering.owner[mesh.sectionPairs[i].node]].push_back(i);
   std::size_t g = 0;
   for (const auto& [name, nodes] : mesh.nodeGroups) {
     for (PetscInt node : nodes) shares.groups[numbering.owner[node]][g].push_back(node);
@@ -201,6 +204,10 @@ Mesh partOf(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   std::size_t g = 0;
   for (const auto& [name, nodes] : mesh.nodeGroups)
     part.nodeGroups[name] = local.of(shares.groups[rank][g++]);
+  part.sections = mesh.sections;
+  part.sectionPairs = picked(mesh.sectionPairs, shares.sections[rank]);
+  for (auto& pair : part.sectionPairs)
+    pair.node = local.of(pair.node), pair.lower = numbering.global[pair.lower];
   part.references = mesh.references;
   for (auto& reference : part.references)
     for (PetscInt* node : {&reference.displacement, &reference.rotation})

@@ -25,13 +25,18 @@ void fields(Stream& stream, Reference& reference) {
   stream(name, position, displacement, rotation, part);
 }
 
+void fields(Stream& stream, Section& section) {
+  auto& [name, normal, reference] = section;
+  stream(name, normal, reference);
+}
+
 void fields(Stream& stream, Mesh& mesh) {
   auto& [comm, dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
          globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
-         faces, nodeGroups, references, images, pairs, interfaces] = mesh;
+         faces, nodeGroups, references, sections, sectionPairs, images, pairs, interfaces] = mesh;
   stream(dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
          globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
-         faces, nodeGroups, references, images, pairs, interfaces);
+         faces, nodeGroups, references, sections, sectionPairs, images, pairs, interfaces);
 }
 
 }  // namespace squeal::mesh

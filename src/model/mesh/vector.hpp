@@ -27,6 +27,16 @@ inline Point unit(const Point& a) { return scaled(a, 1 / length(a)); }
 /// Returns a − (a·n) n, the part of a along the plane whose unit normal is n.
 inline Point tangential(const Point& a, const Point& n) { return plus(a, n, -dot(a, n)); }
 
+/// Returns a unit vector across a unit vector.
+inline Point across(const Point& e) {
+  std::size_t least = 0;
+  for (std::size_t d = 1; d < 3; ++d)
+    if (std::abs(e[d]) < std::abs(e[least])) least = d;
+  Point other{};
+  other[least] = 1;
+  return unit(cross(e, other));
+}
+
 /// A matrix by its rows.
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 inline double determinant(const Matrix3& j) {

@@ -9,6 +9,8 @@
 #include "base/system/text.hpp"
 #include "model/element/shape.hpp"
 #include "model/mesh/bodies.hpp"
+#include "model/mesh/references.hpp"
+#include "model/mesh/sections.hpp"
 #include "model/mesh/twins.hpp"
 #include "model/mesh/vector.hpp"
 
@@ -93,6 +95,7 @@ NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Req
   for (const auto& surface : request.surfaces) add(surface, boundary);
   for (const auto& reference : request.references)
     if (!reference.position) add(reference.centreOf, -1);
+  for (const auto& section : request.sections) add(section.surface, boundary);
   for (const auto& group : request.nodeGroups)
     if (std::ranges::find(request.references, group.name, &ReferenceRequest::name) ==
         request.references.end())
@@ -310,27 +313,6 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
   }
 }
 
-/// Adds the nodes of the reference nodes. Throws Error for a name that a group of the mesh has, and
-/// for a position outside the plane of a plane mesh.
-void addReferences(WholeMesh& mesh, const GmshModel& model, const Request& request) {
-  for (const auto& wanted : request.references) {
-    const std::string head = "option " + wanted.option + ": ";
-    if (model.groups().contains(wanted.name))
-      throw Error(head + "a group of the mesh has the name '" + wanted.name +
-                  "' already; give the reference node another name");
-    const Point position = wanted.position
-                               ? wanted.position->in(mesh.dimension)
-                               : centroid(mesh, mesh.nodeGroups.at(wanted.centreOf.name));
-    const PetscInt first = mesh.nodeCount();
-    for (int node : {0, 1}) {
-      mesh.points.push_back(position);
-      mesh.tags.push_back(-node);  // no tag of gmsh
-    }
-    mesh.references.push_back({wanted.name, position, first, first + 1, -1});
-    mesh.nodeGroups[wanted.name] = {first};
-  }
-}
-
 /// Finds the connected parts of the mesh by union-find over the nodes of each cell.
 void findParts(WholeMesh& mesh) {
   std::vector<PetscInt> parent(mesh.points.size());
@@ -360,6 +342,7 @@ void findParts(WholeMesh& mesh) {
     reference.part = mesh.part[reference.displacement];
     names[reference.part] = {"reference node " + reference.name};
   }
+  for (auto& pair : mesh.sectionPairs) pair.lowerPart = mesh.part[pair.lower];
   for (const auto& set : names) mesh.partName.push_back(joined({set.begin(), set.end()}, "+"));
 }
 
@@ -377,7 +360,8 @@ WholeMesh load(const meshfile::Settings& file, const Request& request, meshfile:
   NodeIndex index(mesh, model);
   readBodies(mesh, model, request, index);
   mesh.unusedNodes = index.countUnused();
-  const NamedElements named = readNamed(mesh, model, request, index);
+  NamedElements named = readNamed(mesh, model, request, index);
+  cutSections(mesh, named.groups, request);
   Splitter splitter(mesh, request, named);
   splitter.split(named);
   readFaces(mesh, request, named, splitter);

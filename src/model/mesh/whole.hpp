@@ -34,6 +34,8 @@ struct WholeMesh {
       discFaces;          ///< [surface of a disc] nodes of each face, for each cell it bounds
   std::vector<int> part;  ///< [node] connected part
   std::vector<std::string> partName;
+  std::vector<Section> sections;           ///< see Mesh
+  std::vector<SectionPair> sectionPairs;   ///< in numbers of the whole mesh
   std::vector<Reference> references;       ///< see Mesh, in numbers of the whole mesh
   std::vector<PetscInt> primary;           ///< [node] the node that it repeats, itself if none
   std::vector<Image> images;               ///< in numbers of the whole mesh

@@ -28,7 +28,8 @@ void coupleTies(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, 
   Claims claims(mesh, exchange);
   for (int i = 0; i < std::ssize(all.options); ++i) {
     if (!all.options[i].isTied() || mesh.interfaces[i].matching) continue;
-    const auto found = candidatesOf(mesh, exchange, nullptr, i, claims.against(Role::tied), all);
+    const auto found =
+        candidatesOf(mesh, exchange, nullptr, i, claims.against(Role::tied, i, all), all);
     claims.add(nodesOf(found), all.options, i);
     for (const auto& [interface, discBody, partner, slave] : found)
       all.tied.push_back({i, connectionOf(slave), slave.masterParts, slave.offset, {}});
@@ -97,7 +98,7 @@ Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings,
     moveOntoMasters(mesh, exchange, all);
   all.constraints = constraints::constraintsOf(mesh, supports);
   all.coupled = constraints::coupledNodes(mesh, supports);
-  for (const auto& coupling : supports.couplings) all.couplings.push_back(coupling.name);
+  all.couplings = constraints::couplingLabels(supports);
   report(mesh, exchange, all);
   warnOfLost(mesh, exchange, all, Role::tied);
   warnOfLittleCover(mesh, all);

@@ -22,6 +22,7 @@ mesh::Request meshRequest(const ModelSettings& settings) {
     request.nodeGroups.push_back(group);
   for (const auto& group : attachments::attachedGroups(settings.elasticity.attachments))
     request.nodeGroups.push_back(group);
+  request.sections = constraints::boltSections(settings.constraints);
   request.references = settings.constraints.references;
   request.surfaces = elasticity::loadedSurfaces(settings.elasticity);
   request.interfaces = interfaces::interfaceRequests(settings.interfaces);

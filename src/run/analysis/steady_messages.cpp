@@ -5,6 +5,7 @@
 #include "base/session/stages.hpp"
 #include "base/system/text.hpp"
 #include "model/interfaces/algebra.hpp"
+#include "run/analysis/tightening.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -47,6 +48,10 @@ void reportState(const steady::Solution& solution, const Model& model) {
   if (solution.converged) {
     requireFinite(solution.displacement, "steady sliding at " + at);
     reportSticking(solution, model.mesh->comm);
+    const auto bolts = boltForces(model, solution);
+    for (std::size_t i = 0; i < bolts.size(); ++i)
+      printLine(model.mesh->comm, at + formatted(": bolt '%s': tension %.6g N",
+                                                 model.mesh->sections[i].name.c_str(), bolts[i]));
   } else {
     printWarning(model.mesh->comm,
                  "no steady sliding solution found at " + at + ": " + solution.reason);

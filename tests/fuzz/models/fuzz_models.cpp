@@ -218,7 +218,7 @@ class Driver {
     arguments.push_back(nullptr);
     const pid_t child = fork();
     if (child != 0) return child;
-    setpgid(0, 0);
+    setsid();
     const int file = open(printed.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_APPEND, 0600);
     if (file < 0 || dup2(file, 1) < 0 || dup2(file, 2) < 0) _exit(126);
     execv(arguments[0], arguments.data());

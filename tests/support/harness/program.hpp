@@ -64,22 +64,27 @@ struct ProgramRun {
   fs::path folder;         ///< -report_dir
 };
 
+/// For mpiexec, after the number of ranks: the second between the end of a rank that fails and that
+/// of the others, which users have and the script of the tests saves.
+inline const std::string secondToEnd = " --mca odls_base_sigkill_timeout 1";
+
 /// A place to write for one test.
 inline fs::path placeFor(const std::string& name) { return fs::path(SQUEAL_OUTPUT_DIR) / name; }
 
 /// Runs the program in the repository's folder with the results in `name`/results, where what lies
-/// there stays.
+/// there stays. `launch` holds words for mpiexec.
 inline ProgramRun runAgain(const std::string& name, int ranks, const std::string& options,
-                           int seconds = 120, const std::string& program = SQUEAL_EXECUTABLE) {
+                           int seconds = 120, const std::string& program = SQUEAL_EXECUTABLE,
+                           const std::string& launch = "") {
   ProgramRun run;
   run.folder = placeFor(name) / "results";
   fs::create_directories(placeFor(name));
   const fs::path out = placeFor(name) / "stdout.txt", error = placeFor(name) / "stderr.txt";
-  const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " +
-                              std::to_string(seconds) + " '" SQUEAL_MPIEXEC "' " +
-                              (ranks == 1 ? "serial" : std::to_string(ranks)) + " '" + program +
-                              "' " + options + " -report_dir '" + run.folder.string() + "' >'" +
-                              out.string() + "' 2>'" + error.string() + "'";
+  const std::string command =
+      "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " + std::to_string(seconds) +
+      " '" SQUEAL_MPIEXEC "' " + (ranks == 1 ? "serial" : std::to_string(ranks)) +
+      (ranks == 1 ? "" : launch) + " '" + program + "' " + options + " -report_dir '" +
+      run.folder.string() + "' >'" + out.string() + "' 2>'" + error.string() + "'";
   const int status = std::system(command.c_str());
   run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   run.out = contentOf(out);

@@ -32,12 +32,12 @@ class Started {
     fs::create_directories(place_);
     for (const auto& file : {out(), error()}) writeText(file, "");
     const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec '" SQUEAL_MPIEXEC "' " +
-                                std::to_string(ranks) + " '" SQUEAL_EXECUTABLE "' " + options +
-                                " -report_dir '" + folder().string() + "' >'" + out().string() +
-                                "' 2>'" + error().string() + "'";
+                                std::to_string(ranks) + secondToEnd + " '" SQUEAL_EXECUTABLE "' " +
+                                options + " -report_dir '" + folder().string() + "' >'" +
+                                out().string() + "' 2>'" + error().string() + "'";
     process_ = fork();
     if (process_ == 0) {
-      setpgid(0, 0);  // as a shell does: a signal for the test is none for the run
+      setsid();  // a signal for the test is none for the run; see tests/CMakeLists.txt
       execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       _exit(127);
     }

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Sections that cut a body in two, for the pretension of bolts. Not collective: for rank 0 only.
+#include <map>
+#include <string>
+
+#include "model/mesh/whole.hpp"
+
+namespace squeal::mesh {
+
+/// Doubles the nodes of each section; the cells on its upper side, to which its normal points, take
+/// the new nodes, and so do elements of other groups there. Fills WholeMesh::sections and
+/// WholeMesh::sectionPairs. Throws Error, naming option and place, for a section that is not flat,
+/// that does not cut through its body, or whose nodes belong to another body or section.
+void cutSections(WholeMesh& mesh, std::map<std::string, meshfile::GroupElements>& groups,
+                 const Request& request);
+
+}  // namespace squeal::mesh

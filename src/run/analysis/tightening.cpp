@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "run/analysis/tightening.hpp"
+
+#include <algorithm>
+
+#include "base/petsc/arrays.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
+#include "base/system/text.hpp"
+#include "model/contact/build.hpp"
+#include "model/contact/coupled.hpp"
+#include "model/mesh/vector.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+/// Returns the forces of the bolts on the openings of their sections.
+OwnedVec tensions(const mesh::Mesh& mesh, const std::vector<constraints::BoltSettings>& bolts) {
+  OwnedVec load = elasticity::nodalVector(mesh);
+  const WriteArray values(load);
+  for (std::size_t i = 0; i < bolts.size(); ++i) {
+    const auto& section = mesh.sections[i];
+    const PetscInt node = mesh.references[section.reference].displacement - mesh.firstNode;
+    if (!bolts[i].force || node < 0 || node >= mesh.ownedNodes) continue;
+    for (int d = 0; d < mesh.dimension; ++d)
+      values[mesh.dimension * node + d] = -*bolts[i].force * section.normal[d];
+  }
+  return load;
+}
+
+/// Collective. Returns the opening of each section, m.
+std::vector<double> openingsOf(const mesh::Mesh& mesh, Vec displacement) {
+  std::vector<double> openings(mesh.sections.size(), 0.0);
+  const ReadArray u(displacement);
+  for (std::size_t i = 0; i < openings.size(); ++i) {
+    const auto& section = mesh.sections[i];
+    const PetscInt node = mesh.references[section.reference].displacement - mesh.firstNode;
+    if (node < 0 || node >= mesh.ownedNodes) continue;
+    for (int d = 0; d < mesh.dimension; ++d)
+      openings[i] += section.normal[d] * u[mesh.dimension * node + d];
+  }
+  mpi::reduce<double>(mesh.comm, openings, MPI_SUM);
+  return openings;
+}
+
+}  // namespace
+
+void tightenBolts(Model& model, const std::vector<constraints::BoltSettings>& bolts) {
+  if (std::ranges::none_of(bolts, [](const auto& bolt) { return bolt.force.has_value(); })) return;
+  const mesh::Mesh& mesh = *model.mesh;
+  Stage stage(mesh.comm, "bolts");
+  const OwnedVec load = tensions(mesh, bolts);
+  OwnedVec constant = std::move(model.bodies.constantLoad);
+  model.bodies.constantLoad = elasticity::nodalVector(mesh);
+  if (constant) check(VecCopy(constant, model.bodies.constantLoad));
+  check(VecAXPY(model.bodies.constantLoad, 1, load));
+  check(VecAXPY(model.bodies.load, 1, load));
+  std::vector<double> openings;
+  {
+    const steady::Problem problem(mesh, model.bodies, model.contact);
+    const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
+    // A small speed gives interfaces with their own coefficient of friction a direction to slide.
+    const steady::Solution solution =
+        problem.solve({.friction = 0, .speed = 1e-6, .pressure = 0}, system);
+    if (!solution.converged)
+      throw Error("the step that tightens the bolts has no solution: " + solution.reason);
+    openings = openingsOf(mesh, solution.displacement);
+  }
+  check(VecAXPY(model.bodies.load, -1, load));
+  model.bodies.constantLoad = std::move(constant);
+  contact::lockBolts(model.contact, model.bodies, openings);
+  std::string text;
+  for (std::size_t i = 0; i < bolts.size(); ++i)
+    text += formatted("%s'%s' is %.6g m shorter", i == 0 ? "" : ", ", bolts[i].name.c_str(),
+                      -openings[i]);
+  stage.finish(text);
+}
+
+std::vector<double> boltForces(const Model& model, const steady::Solution& solution) {
+  const mesh::Mesh& mesh = *model.mesh;
+  std::vector<double> forces(mesh.sections.size(), 0.0);
+  if (forces.empty()) return forces;
+  const steady::Problem problem(mesh, model.bodies, model.contact);
+  const OwnedVec nodal = problem.forces(solution.at, solution.displacement);
+  {
+    const ReadArray values(nodal);
+    for (const auto& [node, lower, section, part] : mesh.sectionPairs)
+      for (int d = 0; d < mesh.dimension; ++d)
+        forces[section] -= mesh.sections[section].normal[d] * values[mesh.dimension * node + d];
+  }
+  mpi::reduce<double>(mesh.comm, forces, MPI_SUM);
+  return forces;
+}
+
+}  // namespace squeal::analysis

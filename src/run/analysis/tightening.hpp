@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Tightening of bolts before the sweep.
+#include <vector>
+
+#include "model/constraints/settings.hpp"
+#include "run/analysis/model.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::analysis {
+
+/// Collective. Solves a first step with the forces of the bolts and the loads that no sweep scales,
+/// without pressure and swept friction, and keeps the lengths that it gives. Does nothing without
+/// forces of bolts. Throws Error if there is no solution.
+void tightenBolts(Model& model, const std::vector<constraints::BoltSettings>& bolts);
+
+/// Collective. Returns the tension of each bolt in a steady state, N, [section of the mesh].
+std::vector<double> boltForces(const Model& model, const steady::Solution& solution);
+
+}  // namespace squeal::analysis

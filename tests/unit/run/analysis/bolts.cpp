@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Pretension: a bolt and a sleeve between two rigid plates, against the closed form of two springs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/system/text.hpp"
+#include "eigen/modes/modes.hpp"
+#include "model/contact/coupled.hpp"
+#include "run/analysis/tightening.hpp"
+#include "support/harness/messages.hpp"
+#include "support/harness/scratch_folder.hpp"
+#include "support/model/model.hpp"
+
+namespace squeal {
+namespace {
+
+/// Bars of length 1 along z with Poisson's ratio 0, so that they are springs: the bolt with the
+/// area 1, cut by `section` at its middle, and the sleeve with the area 2, of two halves that touch
+/// there.
+const char* const geometry = R"(
+Geometry.AutoCoherence = 0;  // the halves of the sleeve touch, they are not joined
+Macro Column  // x0, w, z0, h -> s (bottom), top, volume
+  p = newp;
+  Point(p) = {x0, 0, z0}; Point(p+1) = {x0+w, 0, z0};
+  Point(p+2) = {x0+w, 1, z0}; Point(p+3) = {x0, 1, z0};
+  l = newl;
+  Line(l) = {p, p+1}; Line(l+1) = {p+1, p+2}; Line(l+2) = {p+2, p+3}; Line(l+3) = {p+3, p};
+  Transfinite Curve{l:l+3} = 3;
+  k = newll; Curve Loop(k) = {l:l+3};
+  s = news; Plane Surface(s) = {k}; Transfinite Surface{s}; Recombine Surface{s};
+  e[] = Extrude{0, 0, h}{ Surface{s}; Layers{2}; Recombine; };
+  top = e[0]; volume = e[1];
+Return
+x0 = 0; w = 1; z0 = 0; h = 0.5; Call Column;
+bottom = s; middle = top; lower = volume;
+e[] = Extrude{0, 0, 0.5}{ Surface{middle}; Layers{2}; Recombine; };
+Physical Surface("bolt_low") = {bottom};
+Physical Surface("bolt_high") = {e[0]};
+Physical Surface("section") = {middle};
+Physical Volume("bolt") = {lower, e[1]};
+x0 = 3; w = 2; z0 = 0; h = 0.5; Call Column;
+Physical Surface("sleeve_low") = {s};
+Physical Surface("joint_low") = {top};
+Physical Volume("sleeve_a") = {volume};
+z0 = 0.5; Call Column;
+Physical Surface("joint_high") = {s};
+Physical Surface("sleeve_high") = {top};
+Physical Volume("sleeve_b") = {volume};
+)";
+
+constexpr double boltStiffness = 2e9, sleeveStiffness = 4e9, force = 3e4;
+
+/// Collective. Returns the options of the assembly. The plates are reference nodes: `low` is held,
+/// `high` moves along z.
+std::string assembly() {
+  std::string options = "-mesh_file " + test::writeFile("bolt.geo", geometry);
+  for (const std::string body : {"bolt", "sleeve_a", "sleeve_b"})
+    options += test::material(body, "2e9", "0", "1000");
+  return options +
+         "-reference_low_position 1,0.5,0 -coupling_low_reference low "
+         "-coupling_low_nodes bolt_low,sleeve_low -constraint_low_clamped xyz "
+         "-constraint_low_clamped_rotation xyz "
+         "-reference_high_position 1,0.5,1 -coupling_high_reference high "
+         "-coupling_high_nodes bolt_high,sleeve_high -constraint_high_clamped xy "
+         "-constraint_high_clamped_rotation xyz "
+         "-contact_joint_pad joint_high -contact_joint_disc joint_low "
+         "-contact_joint_role frictionless -bolt_b_section section ";
+}
+
+/// The state of the assembly under an external force that draws the plates apart.
+struct State {
+  double bolt = 0;   ///< tension, N
+  double joint = 0;  ///< normal force of the joint, N
+  PetscInt open = 0;
+};
+
+/// Collective. Returns the state with these options.
+State stateWith(const std::string& options) {
+  test::setOptions(assembly() + options);
+  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const steady::Problem problem(*model.mesh, model.bodies, model.contact);
+  const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
+  const auto solution = problem.solve({.friction = 0}, system);
+  EXPECT_TRUE(solution.converged) << solution.reason;
+  EXPECT_LT(solution.imbalance, 1e-10);
+  return {analysis::boltForces(model, solution).at(0),
+          mesh::length(solution.resultants.at(0).normalForce), solution.openNodes};
+}
+
+std::string pulled(double load) { return formatted("-load_high_force 0,0,%.17g ", load); }
+
+// Springs in parallel and a locked length are linear problems: their round-off is that of the
+// factorisation.
+constexpr double exact = 1e-9;
+
+TEST(Bolts, ForceAndThenSeparation) {
+  const std::string tightened = formatted("-bolt_b_force %.17g ", force);
+  const auto atRest = stateWith(tightened);
+  EXPECT_NEAR(atRest.bolt / force, 1, exact);
+  EXPECT_NEAR(atRest.joint / force, 1, exact);
+  // The bolt takes its share of the external force until the joint opens; then it takes all.
+  const double share = boltStiffness / (boltStiffness + sleeveStiffness),
+               opening = force * (1 + boltStiffness / sleeveStiffness);
+  const auto loaded = stateWith(tightened + pulled(0.9 * opening));
+  EXPECT_NEAR(loaded.bolt / (force + 0.9 * opening * share), 1, exact);
+  EXPECT_NEAR(loaded.joint / (0.1 * force), 1, 10 * exact);
+  EXPECT_EQ(loaded.open, 0);
+  const auto apart = stateWith(tightened + pulled(1.1 * opening));
+  EXPECT_NEAR(apart.bolt / (1.1 * opening), 1, exact);
+  EXPECT_LT(apart.joint, exact * force);
+  EXPECT_GT(apart.open, 0);
+}
+
+TEST(Bolts, ShorteningIsTheOtherWayToSayIt) {
+  // In series: the force shortens both springs.
+  const double shortening = force * (1 / boltStiffness + 1 / sleeveStiffness);
+  const std::string given = formatted("-bolt_b_shortening %.17g ", shortening);
+  EXPECT_NEAR(stateWith(given).bolt / force, 1, exact);
+  EXPECT_NEAR(stateWith(given + pulled(1000)).bolt / (force + 1000.0 / 3), 1, exact);
+  // The axis only says which side is the upper one.
+  EXPECT_NEAR(stateWith(given + "-bolt_b_axis 0,0,-1").bolt / force, 1, exact);
+  EXPECT_NEAR(stateWith(given + "-bolt_b_axis 0.1,0,1").bolt / force, 1, exact);
+}
+
+TEST(Bolts, PressureOfTheSweepDoesNotScaleThem) {
+  test::setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(3000));
+  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const steady::Problem problem(*model.mesh, model.bodies, model.contact);
+  const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
+  for (const double pressure : {0.0, 2.0}) {
+    const auto solution = problem.solve({.friction = 0, .pressure = pressure}, system);
+    EXPECT_NEAR(analysis::boltForces(model, solution).at(0) / (force + pressure * 1000), 1, exact);
+  }
+}
+
+TEST(Bolts, FrequenciesAreThoseOfTheUncutBody) {
+  const auto lambda = [](const std::string& options) {
+    test::setOptions(options + "-modes_count 4");
+    const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+    const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
+    return modes::compute(system, modes::Settings::given()).lambda;
+  };
+  const auto cut = lambda(assembly() + formatted("-bolt_b_force %.17g ", force));
+  std::string whole = assembly();
+  whole.resize(whole.find("-bolt_b_section"));
+  const auto uncut = lambda(whole);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(cut[i] / uncut[i], 1, 1e-9) << i;
+}
+
+TEST(Bolts, SectionMustCutThroughItsBody) {
+  // A bar of 2 × 1 cells in two layers, with a section below one of the two cells above it.
+  const std::string file = test::writeFile("notch.geo", R"(
+Point(1) = {0, 0, 0}; Point(2) = {0, 1, 0}; Line(1) = {1, 2}; Transfinite Curve{1} = 2;
+a[] = Extrude{1, 0, 0}{ Line{1}; Layers{1}; Recombine; };
+b[] = Extrude{1, 0, 0}{ Line{a[0]}; Layers{1}; Recombine; };
+c[] = Extrude{0, 0, 1}{ Surface{a[1]}; Layers{1}; Recombine; };
+d[] = Extrude{0, 0, 1}{ Surface{b[1]}; Layers{1}; Recombine; };
+e[] = Extrude{0, 0, 1}{ Surface{c[0]}; Layers{1}; Recombine; };
+f[] = Extrude{0, 0, 1}{ Surface{d[0]}; Layers{1}; Recombine; };
+Physical Volume("bolt") = {c[1], d[1], e[1], f[1]};
+Physical Surface("low") = {a[1], b[1]};
+Physical Surface("notch") = {c[0]};
+Physical Surface("section") = {c[0], d[0]};
+)");
+  const auto message = [&](const std::string& section) {
+    test::setOptions("-mesh_file " + file + test::material("bolt", "1e9", "0.3", "1000") +
+                     "-constraint_low_clamped xyz -bolt_b_force 1 -bolt_b_section " + section);
+    return test::errorOf(
+        [] { analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given()); });
+  };
+  EXPECT_NE(message("notch").find("option -bolt_b_section notch: the section does not cut through "
+                                  "its body: cells on both sides of it share the node at"),
+            std::string::npos)
+      << message("notch");
+  // Cut through, the upper half is loose: nothing holds the bolt against its force.
+  EXPECT_NE(message("section").find("can move rigidly"), std::string::npos) << message("section");
+}
+
+TEST(Bolts, FaultsAreNamed) {
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {"", "option -bolt_b_section: give either -bolt_b_force or -bolt_b_shortening"},
+      {"-bolt_b_force 1 -bolt_b_shortening 1",
+       "option -bolt_b_section: give either -bolt_b_force or -bolt_b_shortening"},
+      {"-bolt_b_force 1 -bolt_c_force 1", "option -bolt_c_force needs -bolt_c_section"},
+      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section nothing",
+       "option -bolt_c_section nothing names group 'nothing', which is not in the mesh"},
+      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section bolt_low",
+       "option -bolt_c_section bolt_low: a face of the section has 0 cells of a body below and 1 "
+       "above"},
+      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section bolt",
+       "group 'bolt' has dimension 3; a boundary of dimension 2 is wanted"},
+      {"-bolt_b_force 1 -bolt_b_axis 0,0,0", "option -bolt_b_axis: must not be zero"},
+  };
+  for (const auto& [options, message] : faults) {
+    const std::string found = test::errorOf([&, &text = options] {
+      test::setOptions(assembly() + text);
+      analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+    });
+    EXPECT_NE(found.find(message), std::string::npos) << options << "\n  " << found;
+  }
+}
+
+}  // namespace
+}  // namespace squeal
