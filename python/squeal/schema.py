@@ -19,6 +19,7 @@ REACTIONS = (
     "equation",
     "reference",
     "coupling",
+    "bolt",
     "tie",
     "interface",
     "offset",

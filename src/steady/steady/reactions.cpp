@@ -160,19 +160,30 @@ void Reactions::addLinks(const Solution& solution, List& list) const {
   }
 }
 
-/// Adds the rows of equations, reference nodes and couplings.
+/// Returns the name in a label such as "coupling 'c'".
+static std::string nameIn(const std::string& label) {
+  const auto first = label.find('\'') + 1;
+  return label.substr(first, label.rfind('\'') - first);
+}
+
+/// Adds the rows of equations, reference nodes, couplings and bolts.
 void Reactions::addConditions(const ConditionForces& forces, List& list) const {
   const auto& all = contact_.interfaces;
   for (std::size_t i = 0; i < forces.equations.size(); ++i)
     list.add("equation", all.constraints.equations[i].name, forces.equations[i],
              List::Source::outside);
   for (std::size_t i = 0; i < forces.references.size(); ++i) {
+    if (std::ranges::any_of(mesh_.sections,
+                            [&](const auto& section) { return section.reference == int(i); }))
+      continue;          // the opening of a bolt
     Wrench fromOutside;  // the couplings balance it
     fromOutside.add(forces.references[i], -1);
     list.add("reference", mesh_.references[i].name, fromOutside, List::Source::inside);
   }
   for (std::size_t i = 0; i < forces.couplings.size(); ++i)
-    list.add("coupling", all.couplings[i], forces.couplings[i], List::Source::inside);
+    list.add("coupling", nameIn(all.couplings[i]), forces.couplings[i], List::Source::inside);
+  for (std::size_t i = 0; i < forces.bolts.size(); ++i)
+    list.add("bolt", mesh_.sections[i].name, forces.bolts[i], List::Source::inside);
 }
 
 /// Collective. Adds the rows of ties and interfaces, and the moments of internal forces that act at
