@@ -343,6 +343,11 @@ TEST(Reactions, OfSupportsThatOthersImply) {
                      frame);
     const Balance found;
     EXPECT_NEAR(found.row("support", "pad_low").force[2], frame.empty() ? 3000 : 0, 1e-6);
+    // The tie carries the components that it keeps.
+    const Point tied = found.row("tie", "t").force;
+    EXPECT_NEAR(tied[0], -100, 1e-6);
+    EXPECT_NEAR(tied[1], frame.empty() ? 0 : -200, 1e-6);
+    EXPECT_NEAR(tied[2], frame.empty() ? 0 : 3000, 1e-6);
   }
 }
 
