@@ -212,7 +212,8 @@ void Reactions::addInterfaces(const Solution& solution, const std::vector<Wrench
   }
   for (std::size_t i = 0; i < all.names.size(); ++i)
     if (!all.options[i].onObstacle())
-      list.add("offset", all.names[i], ofBoth[i], List::Source::outside);
+      list.add(all.options[i].isTied() ? "tie_offset" : "interface_offset", all.names[i], ofBoth[i],
+               List::Source::outside);
   if (mpi::any(mesh_.comm, !mesh_.images.empty()))
     list.add("periodic", "images", conditions.periodicity, List::Source::outside);
 }
