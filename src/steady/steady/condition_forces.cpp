@@ -91,6 +91,10 @@ void Conditions::addCouplings(int level, const double* forces, ConditionForces& 
   for (const auto& coupled : all_.coupled) {
     if (coupled.level != level) continue;
     const Point whole = componentsAt(mesh_, forces, coupled.node);
+    if (const int bolt = coupled.coupling - std::ssize(found.couplings); bolt >= 0) {
+      found.bolts[bolt].addNode(mesh_, coupled.node, whole);
+      continue;
+    }
     // The coupling exerts no force along the components that stay free.
     Point force = whole;
     for (std::size_t k = 0; k < n; ++k) {
@@ -105,8 +109,7 @@ void Conditions::addCouplings(int level, const double* forces, ConditionForces& 
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) onMaster[j] -= master.block[i][j] * whole[i];
       addOnReference(master.node, onMaster, found);
-      // That of a bolt is only the tension on the reference node, not that on the other side.
-      if (coupled.distributed || !mesh_.referenceWith(master.node)) continue;
+      if (coupled.distributed) continue;
       if (master.isRotation)
         sum.addMoment(onMaster, mesh_.dimension);
       else
@@ -240,7 +243,8 @@ ConditionForces Conditions::of(Vec forces) const {
   found.supports.resize(all_.constraints.groups.size());
   found.equations.resize(all_.constraints.equations.size());
   found.references.resize(mesh_.references.size());
-  found.couplings.resize(all_.couplings.size());
+  found.couplings.resize(all_.couplings.size() - mesh_.sections.size());
+  found.bolts.resize(mesh_.sections.size());
   found.slaves.resize(all_.names.size());
   found.masters.resize(all_.names.size());
   const OwnedVec left = elasticity::nodalVector(mesh_);

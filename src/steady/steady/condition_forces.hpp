@@ -15,8 +15,9 @@ struct ConditionForces {
   std::vector<Wrench> supports;    ///< [Constraints::groups]
   std::vector<Wrench> equations;   ///< [Constraints::equations]
   std::vector<Wrench> references;  ///< [Mesh::references] of all couplings on the reference node
-  std::vector<Wrench> couplings;  ///< [Interfaces::couplings] of the coupled nodes on the reference
-                                  ///< node
+  /// [Interfaces::couplings, without bolts] of the coupled nodes on the reference node
+  std::vector<Wrench> couplings;
+  std::vector<Wrench> bolts;            ///< [Mesh::sections] on the upper side of the section
   std::vector<Wrench> slaves, masters;  ///< [interface] of ties on both sides
   Wrench periodicity;                   ///< on images and primaries
 };

@@ -160,7 +160,7 @@ void Reactions::addLinks(const Solution& solution, List& list) const {
   }
 }
 
-/// Adds the rows of equations, reference nodes and couplings.
+/// Adds the rows of equations, reference nodes, couplings and bolts.
 void Reactions::addConditions(const ConditionForces& forces, List& list) const {
   const auto& all = contact_.interfaces;
   for (std::size_t i = 0; i < forces.equations.size(); ++i)
@@ -175,8 +175,9 @@ void Reactions::addConditions(const ConditionForces& forces, List& list) const {
     list.add("reference", mesh_.references[i].name, fromOutside, List::Source::inside);
   }
   for (std::size_t i = 0; i < forces.couplings.size(); ++i)
-    list.add(all.couplings[i].kind.c_str(), all.couplings[i].name, forces.couplings[i],
-             List::Source::inside);
+    list.add("coupling", all.couplings[i].name, forces.couplings[i], List::Source::inside);
+  for (std::size_t i = 0; i < forces.bolts.size(); ++i)
+    list.add("bolt", mesh_.sections[i].name, forces.bolts[i], List::Source::inside);
 }
 
 /// Collective. Adds the rows of ties and interfaces, and the moments of internal forces that act at
@@ -205,7 +206,8 @@ void Reactions::addInterfaces(const Solution& solution, const std::vector<Wrench
   }
   for (std::size_t i = 0; i < all.names.size(); ++i)
     if (!all.options[i].onObstacle())
-      list.add("offset", all.names[i], ofBoth[i], List::Source::outside);
+      list.add(all.options[i].isTied() ? "tie_offset" : "interface_offset", all.names[i], ofBoth[i],
+               List::Source::outside);
   if (mpi::any(mesh_.comm, !mesh_.images.empty()))
     list.add("periodic", "images", conditions.periodicity, List::Source::outside);
 }

@@ -8,6 +8,7 @@
 #include "eigen/modes/modes.hpp"
 #include "model/contact/coupled.hpp"
 #include "run/analysis/tightening.hpp"
+#include "steady/steady/reactions.hpp"
 #include "support/harness/messages.hpp"
 #include "support/harness/scratch_folder.hpp"
 #include "support/model/model.hpp"
@@ -110,6 +111,39 @@ TEST(Bolts, ForceAndThenSeparation) {
   EXPECT_NEAR(apart.bolt / (1.1 * opening), 1, exact);
   EXPECT_LT(apart.joint, exact * force);
   EXPECT_GT(apart.open, 0);
+}
+
+// The row of the bolt is its tension, and the section adds nothing to the sum of all forces.
+TEST(Bolts, ForcesBalance) {
+  test::setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(1e4));
+  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const steady::Problem problem(*model.mesh, model.bodies, model.contact);
+  const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
+  const auto solution = problem.solve({.friction = 0}, system);
+  const double tension = analysis::boltForces(model, solution).at(0);
+  EXPECT_GT(tension, force);
+  int found = 0;
+  for (const auto& [kind, name, wrench] :
+       steady::Reactions(*model.mesh, model.bodies, model.contact).of(solution)) {
+    const auto expect = [&, row = kind + " " + name, all = wrench](const mesh::Point& at,
+                                                                   const mesh::Point& value) {
+      ++found;
+      const auto moment = mesh::cross(at, value);
+      for (std::size_t d = 0; d < 3; ++d) {
+        EXPECT_NEAR(all.force[d], value[d], 1e-10 * force) << row << " " << d;
+        EXPECT_NEAR(all.moment[d], moment[d], 1e-10 * force) << row << " " << d;
+      }
+    };
+    // The axis of the bolt is at (0.5, 0.5).
+    const double pull = -mesh::dot(wrench.force, model.mesh->sections[0].normal);
+    if (kind == "bolt") {
+      EXPECT_NEAR(pull / tension, 1, 1e-10);
+      expect({0.5, 0.5, 0}, {0, 0, wrench.force[2]});
+    }
+    if (kind == "sum") expect({}, {});
+    EXPECT_FALSE(kind == "reference" && name != "high" && name != "low") << name;
+  }
+  EXPECT_EQ(found, 2);
 }
 
 TEST(Bolts, ShorteningIsTheOtherWayToSayIt) {

@@ -315,10 +315,10 @@ TEST(Reactions, OfTies) {
     const Balance found;
     const Wrench onPad = found.row("load", "force");
     found.expect("tie", "t", opposite(onPad));
-    const Wrench offset = found.row("offset", "t");
+    const Wrench offset = found.row("tie_offset", "t");
     //   gap × (force along the surface)
     if (distance == "0")
-      found.expect("offset", "t", {});
+      found.expect("tie_offset", "t", {});
     else
       EXPECT_NEAR(offset.moment[1], -1e-3 * 100, 1e-4);
     // Supports of tied nodes act on the master.
@@ -343,6 +343,11 @@ TEST(Reactions, OfSupportsThatOthersImply) {
                      frame);
     const Balance found;
     EXPECT_NEAR(found.row("support", "pad_low").force[2], frame.empty() ? 3000 : 0, 1e-6);
+    // The tie carries the components that it keeps.
+    const Point tied = found.row("tie", "t").force;
+    EXPECT_NEAR(tied[0], -100, 1e-6);
+    EXPECT_NEAR(tied[1], frame.empty() ? 0 : -200, 1e-6);
+    EXPECT_NEAR(tied[2], frame.empty() ? 0 : 3000, 1e-6);
   }
 }
 
@@ -370,6 +375,9 @@ TEST(Reactions, OfContactBetweenBodies) {
   for (const std::string distance : {"0", "1e-3"}) {
     test::setOptions(blocks(distance) + slide + "-ground_pad_low_stiffness 1e9,1e9,1e4 ");
     const Balance found(sweep::Parameters{0.3});
+    const Wrench offset = found.row("interface_offset", "c");
+    // Friction acts at a distance if the surfaces lie apart.
+    EXPECT_NEAR(offset.moment[1], std::stod(distance) * found.row("interface", "c").force[0], 1e-6);
     EXPECT_NEAR(found.row("interface", "c").force[2], 1e5 * 0.8 * 0.8, 10);
     EXPECT_NEAR(found.row("interface", "c").force[0], 0.3 * found.row("interface", "c").force[2],
                 1e-6);
