@@ -14,7 +14,15 @@ TABLES = ("eigenvalues", "stability_map", "branches", "critical", "friction_work
 NEEDED = ("eigenvalues", "stability_map")
 # Options that change no number, and beginnings of their names. They include those that the program
 # ignores when it resumes a run (src/base/checkpoint).
-INDIFFERENT = ("resume", "checkpoint", "checkpoint_interval", "quiet", "progress", "options_file")
+INDIFFERENT = (
+    "audit",
+    "resume",
+    "checkpoint",
+    "checkpoint_interval",
+    "quiet",
+    "progress",
+    "options_file",
+)
 INDIFFERENT_BEGINNINGS = ("report_", "log_")
 SWEPT = tuple(f"flutter_{name}" for name in PARAMETERS)
 SAME_NUMBER = 1e-9  # relative; of eigenvalues without an estimate of their error

@@ -29,7 +29,7 @@ TEST(BadSliding, FrictionLaw) {
        {"-friction_table_factor", "-friction_law table", "'constant'"}},
       {"law_decay_zero",
        with(exponential, {{"friction_decay_speed", "0"}}),
-       {"-friction_decay_speed 0", "a number > 0"}},
+       {"-friction_decay_speed 0", "numbers > 0"}},
       {"law_lengths",
        with(table, {{"friction_table_speed", "0,1,2"}}),
        {"-friction_table_speed", "-friction_table_factor", "the same length"}},
@@ -41,10 +41,10 @@ TEST(BadSliding, FrictionLaw) {
 
 TEST(BadSliding, Speed) {
   expectRefused({
-      {"speed_zero", with(layer, {{"flutter_speed", "0"}}), {"-flutter_speed 0", "a number > 0"}},
+      {"speed_zero", with(layer, {{"flutter_speed", "0"}}), {"-flutter_speed 0", "numbers > 0"}},
       {"speed_negative",
        with(layer, {{"flutter_speed", "1,-2"}}),
-       {"-flutter_speed", "-2", "a number > 0"}},
+       {"-flutter_speed", "-2", "numbers > 0"}},
       {"speed_twice", with(layer, {{"flutter_speed", "2,1,2"}}), {"-flutter_speed", "given twice"}},
       {"speed_empty", with(layer, {{"flutter_speed", ""}}), {"-flutter_speed", "empty"}},
   });
@@ -77,7 +77,7 @@ TEST(BadSliding, FactorOfNothing) {
        {"-flutter_pressure", "there are none", "-load_<group>"}},
       {"pressure_zero",
        with(layer, {{"flutter_pressure", "0,1"}}),
-       {"-flutter_pressure", "0", "a number > 0"}},
+       {"-flutter_pressure", "0", "numbers > 0"}},
       {"pressure_twice",
        with(layer, {{"flutter_pressure", "1,1"}}),
        {"-flutter_pressure", "given twice"}},
