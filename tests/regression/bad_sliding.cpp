@@ -29,7 +29,7 @@ TEST(BadSliding, FrictionLaw) {
        {"-friction_table_factor", "-friction_law table", "'constant'"}},
       {"law_decay_zero",
        with(exponential, {{"friction_decay_speed", "0"}}),
-       {"-friction_decay_speed 0", "numbers > 0"}},
+       {"-friction_decay_speed 0", "a number > 0"}},
       {"law_lengths",
        with(table, {{"friction_table_speed", "0,1,2"}}),
        {"-friction_table_speed", "-friction_table_factor", "the same length"}},
