@@ -244,6 +244,7 @@ TEST(Attachments, FaultsAreNamed) {
       {"-load_tip_force 1,0,0 -load_tip_frame f -frame_f_axis 1,0,0 -frame_f_origin 0,0.05,0.05",
        "option -load_tip_force: frame 'f': the point"},
       {"-load_tip_acceleration 1,0,0", "option -load_tip_acceleration: 'tip' is not a body"},
+      {"-load_tip_hydraulic off", "option -load_tip_hydraulic needs -load_tip_pressure"},
       {"-load_beam_spin_axis 1,0,0", "option -load_beam_spin_axis needs -load_beam_spin"},
   };
   for (const auto& [options, message] : faults) {

@@ -101,7 +101,7 @@ TEST(Couplings, HeldReferenceNodeIsAClamp) {
                   "-coupling_c_nodes clamped -reference_r_position 3,2,1 -coupling_d_reference r "
                   "-coupling_d_nodes q -constraint_r_clamped_rotation xyz "
                   "-equation_a 'r:x + 2*r:y = 0' -equation_b 'r:x - r:y = 0' "
-                  "-equation_z 'r:z + 1e-3*r:rx = 0'"),
+                  "-equation_z '1e6*r:z - 3*r:rx = 0'"),
       clamped);
   expectEqual(frequencies("-constraint_clamped_clamped xyz -constraint_clamped_frame f "
                           "-frame_f_axis 1,0.2,0.1 -frame_f_origin 0,0.7,0.1"),
@@ -216,6 +216,13 @@ TEST(Couplings, FaultsAreNamed) {
   for (const auto& [options, message] : faults)
     EXPECT_NE(messageOf(options).find(message), std::string::npos)
         << options << "\n  " << messageOf(options);
+}
+
+TEST(Couplings, NodesWithPeriodicImagesAreRefused) {
+  test::setCase("layer",
+                "-reference_r_position 0,0,0 -coupling_c_reference r -coupling_c_nodes right");
+  const std::string message = test::errorOf([] { test::buildModel(); });
+  EXPECT_NE(message.find("of group 'right' has a periodic image"), std::string::npos) << message;
 }
 
 }  // namespace
