@@ -26,6 +26,8 @@ class Option {
 
   /// Returns the full name, without dash, with `subject` in place of the placeholder.
   std::string fullName(const std::string& subject = {}) const;
+  /// Returns fullName() with a dash, for messages.
+  std::string dashed(const std::string& subject = {}) const { return "-" + fullName(subject); }
   /// Returns true if the option is given for this subject.
   bool given(const std::string& subject = {}) const;
   /// Returns the names given in place of the placeholder, sorted: the <group> of each
@@ -65,6 +67,9 @@ class Option {
 inline constexpr double smallestMagnitude = 1e-50, largestMagnitude = 1e50;
 /// The largest number of values in one list.
 inline constexpr int longestList = 100'000;
+
+/// Throws Error for an option of this list that is given for a subject without the `needed` one.
+void requireOption(const std::vector<const Option*>& options, const Option& needed);
 
 /// Returns name and value of every declared option that has been read so far, defaults included.
 const std::map<std::string, std::string>& resolvedOptions();

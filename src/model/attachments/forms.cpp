@@ -66,8 +66,8 @@ Form springOf(const mesh::Mesh& mesh, const SpringSettings& spring) {
   const Point line = minus(to.position, from.position);
   if (!(mesh::length(line) > 0))
     throw Error("option " + springToName(spring.name) + ": both ends lie at " +
-                formatted("(%g, %g, %g)", to.position[0], to.position[1], to.position[2]) +
-                ", so the spring has no direction; use -bushing_" + spring.name + "_stiffness");
+                mesh::text(to.position) + ", so the spring has no direction; use -bushing_" +
+                spring.name + "_stiffness");
   const Point n = mesh::unit(line);
   return {.kind = "spring",
           .name = spring.name,
@@ -141,17 +141,6 @@ void addBushing(const mesh::Mesh& mesh, const BushingSettings& bushing, const Se
   }
 }
 
-/// Returns the symmetric matrix of Jxx, Jyy, Jzz, Jxy, Jxz, Jyz in global axes, by rows.
-linalg::DenseMatrix inertiaTensor(const std::vector<double>& j, const Matrix3& axes) {
-  const double local[3][3] = {{j[0], j[3], j[4]}, {j[3], j[1], j[5]}, {j[4], j[5], j[2]}};
-  linalg::DenseMatrix tensor(3, 3);
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b)
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) tensor(a, b) += axes[k][a] * local[k][l] * axes[l][b];
-  return tensor;
-}
-
 /// Throws Error unless the moments of inertia are those of a mass: each is at most the sum of the
 /// other two.
 void requireInertia(const std::vector<double>& moments, const std::string& group) {
@@ -181,7 +170,10 @@ void addInertia(const mesh::Mesh& mesh, const MassSettings& mass, const PointNod
   if (mass.inertia.size() != 6)
     throw Error(formatted("option %s: %zu numbers; must be six, Jxx,Jyy,Jzz,Jxy,Jxz,Jyz",
                           inertiaName(mass.group).c_str(), mass.inertia.size()));
-  linalg::DenseMatrix tensor = inertiaTensor(mass.inertia, axes);
+  const Matrix3 global = inertiaTensor(mass.inertia, axes);
+  linalg::DenseMatrix tensor(3, 3);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) tensor(a, b) = global[a][b];
   const auto moments = linalg::symmetricEigen(tensor);
   requireInertia(moments, mass.group);
   for (int k = 0; k < 3; ++k)
@@ -197,8 +189,7 @@ void addInertia(const mesh::Mesh& mesh, const MassSettings& mass, const PointNod
 void addMass(const PointNode& node, double mass, const Point& arm, const std::string& group,
              int dimension, std::vector<Form>& forms) {
   for (int d = 0; d < dimension; ++d) {
-    Point e{};
-    e[d] = 1;
+    const Point e = mesh::axis(d);
     Form form{.kind = "mass", .name = group, .mass = mass, .accelerated = e};
     addTranslation(form, node, e, arm, 1, dimension);
     forms.push_back(std::move(form));
@@ -213,8 +204,7 @@ void addMasses(const mesh::Mesh& mesh, const MassSettings& mass, const Settings&
         frame::named(settings.frames, mass.frame, massFrameName(mass.group), mesh.dimension)
             .axesAt(node.position);
     const Point local = mass.offset.in(mesh.dimension);
-    Point arm{};
-    for (std::size_t k = 0; k < 3; ++k) arm = mesh::plus(arm, axes[k], local[k]);
+    const Point arm = mesh::along(axes, local);
     addMass(node, mass.total, arm, mass.group, mesh.dimension, forms);
     if (mass.hasInertia) addInertia(mesh, mass, node, axes, forms);
     return;
@@ -244,15 +234,23 @@ void addMoment(const mesh::Mesh& mesh, const ForceSettings& given, const frame::
   const Point local = given.moment.in(3);
   if (mesh.dimension == 2 && (local[0] != 0 || local[1] != 0))
     throw Error("option " + momentName(given.group) + ": in the plane must be 0,0,Mz");
-  const PetscInt node = reference->rotation - mesh.firstNode;
-  if (node < 0 || node >= mesh.ownedNodes) return;
+  if (mesh.ownedNode(reference->rotation) < 0) return;
   const Matrix3 axes = frame.axesAt(reference->position);
-  Point moment{};
-  for (std::size_t k = 0; k < 3; ++k) moment = mesh::plus(moment, axes[k], local[k]);
+  const Point moment = mesh::along(axes, local);
   forces.push_back({reference->rotation, onRotation(moment, mesh.dimension), given.hydraulic});
 }
 
 }  // namespace
+
+Matrix3 inertiaTensor(const std::vector<double>& j, const Matrix3& axes) {
+  const Matrix3 local{{{j[0], j[3], j[4]}, {j[3], j[1], j[5]}, {j[4], j[5], j[2]}}};
+  Matrix3 tensor{};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b)
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t l = 0; l < 3; ++l) tensor[a][b] += axes[k][a] * local[k][l] * axes[l][b];
+  return tensor;
+}
 
 std::vector<Form> linksOf(const mesh::Mesh& mesh, const Settings& settings) {
   std::vector<Form> forms;
@@ -279,8 +277,7 @@ std::vector<NodalForce> forcesOf(const mesh::Mesh& mesh, const Settings& setting
     const PetscInt count = mpi::sum(mesh.comm, PetscInt(nodes.size()));
     for (const PetscInt node : nodes) try {
         const Matrix3 axes = frame.axesAt(mesh.coordinates[node]);
-        Point force{};
-        for (std::size_t k = 0; k < 3; ++k) force = mesh::plus(force, axes[k], local[k] / count);
+        const Point force = mesh::along(axes, mesh::scaled(local, 1.0 / count));
         forces.push_back({mesh.firstNode + node, force, given.hydraulic});
       } catch (const Error& error) {
         failure = "option " + forceName(given.group) + ": " + error.what();

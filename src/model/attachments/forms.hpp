@@ -6,6 +6,7 @@
 
 #include "model/attachments/settings.hpp"
 #include "model/mesh/mesh.hpp"
+#include "model/mesh/vector.hpp"
 
 namespace squeal::attachments {
 
@@ -36,6 +37,10 @@ struct Form {
 /// for a bushing whose ends lie apart and have no rotation, for a stiffness about an axis of a node
 /// without rotation, and for a wrong number of components.
 std::vector<Form> linksOf(const mesh::Mesh& mesh, const Settings& settings);
+
+/// Not collective. Returns the symmetric matrix of Jxx, Jyy, Jzz, Jxy, Jxz, Jyz in global axes;
+/// `axes` are those of the six numbers, by rows.
+mesh::Matrix3 inertiaTensor(const std::vector<double>& j, const mesh::Matrix3& axes);
 
 /// Collective. Returns the point masses, the same on all ranks. Throws Error for an inertia or an
 /// offset at a group of nodes, and for an inertia that no mass has.

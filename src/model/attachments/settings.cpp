@@ -57,25 +57,14 @@ const FlagOption hydraulicOption("load", "load_<group>_hydraulic", true,
                                  "on: -flutter_pressure scales pressure, force and moment of this "
                                  "group; off: they keep their values");
 
-std::string dashed(const Option& option, const std::string& name) {
-  return "-" + option.fullName(name);
-}
-
-void requireOption(const std::vector<const Option*>& options, const Option& needed) {
-  for (const Option* option : options)
-    for (const auto& name : option->subjects())
-      if (!needed.given(name))
-        throw Error("option " + dashed(*option, name) + " needs " + dashed(needed, name));
-}
-
 std::vector<SpringSettings> springsGiven() {
   requireOption({&springToOption, &springStiffnessOption, &springDampingOption}, springFromOption);
   requireOption({&springFromOption}, springToOption);
   std::vector<SpringSettings> springs;
   for (const auto& name : springFromOption.subjects()) {
     if (!springStiffnessOption.given(name) && !springDampingOption.given(name))
-      throw Error("option " + dashed(springFromOption, name) + " needs " +
-                  dashed(springStiffnessOption, name) + " or " + dashed(springDampingOption, name));
+      throw Error("option " + springFromOption.dashed(name) + " needs " +
+                  springStiffnessOption.dashed(name) + " or " + springDampingOption.dashed(name));
     springs.push_back({name, springFromOption.get(name), springToOption.get(name),
                        springStiffnessOption.get(name), springDampingOption.get(name)});
   }
@@ -89,9 +78,8 @@ std::vector<BushingSettings> bushingsGiven() {
   std::vector<BushingSettings> bushings;
   for (const auto& name : bushingFromOption.subjects()) {
     if (!bushingStiffnessOption.given(name) && !bushingDampingOption.given(name))
-      throw Error("option " + dashed(bushingFromOption, name) + " needs " +
-                  dashed(bushingStiffnessOption, name) + " or " +
-                  dashed(bushingDampingOption, name));
+      throw Error("option " + bushingFromOption.dashed(name) + " needs " +
+                  bushingStiffnessOption.dashed(name) + " or " + bushingDampingOption.dashed(name));
     bushings.push_back({name, bushingFromOption.get(name), bushingToOption.get(name),
                         bushingStiffnessOption.get(name), bushingDampingOption.get(name),
                         bushingFrameOption.get(name)});
@@ -153,28 +141,28 @@ std::vector<mesh::GroupRequest> attachedGroups(const Settings& settings) {
 void rejectIdleHydraulic(const RealOption& pressure) {
   for (const auto& group : hydraulicOption.subjects())
     if (!forceOption.given(group) && !momentOption.given(group) && !pressure.given(group))
-      throw Error("option " + dashed(hydraulicOption, group) + " needs " + dashed(pressure, group) +
-                  ", " + dashed(forceOption, group) + " or " + dashed(momentOption, group));
+      throw Error("option " + hydraulicOption.dashed(group) + " needs " + pressure.dashed(group) +
+                  ", " + forceOption.dashed(group) + " or " + momentOption.dashed(group));
 }
 
 bool isHydraulic(const std::string& group) { return hydraulicOption.get(group); }
 
-std::string springFromName(const std::string& spring) { return dashed(springFromOption, spring); }
-std::string springToName(const std::string& spring) { return dashed(springToOption, spring); }
-std::string bushingFromName(const std::string& name) { return dashed(bushingFromOption, name); }
-std::string bushingToName(const std::string& name) { return dashed(bushingToOption, name); }
+std::string springFromName(const std::string& spring) { return springFromOption.dashed(spring); }
+std::string springToName(const std::string& spring) { return springToOption.dashed(spring); }
+std::string bushingFromName(const std::string& name) { return bushingFromOption.dashed(name); }
+std::string bushingToName(const std::string& name) { return bushingToOption.dashed(name); }
 std::string bushingStiffnessName(const std::string& name) {
-  return dashed(bushingStiffnessOption, name);
+  return bushingStiffnessOption.dashed(name);
 }
 std::string bushingDampingName(const std::string& name) {
-  return dashed(bushingDampingOption, name);
+  return bushingDampingOption.dashed(name);
 }
-std::string bushingFrameName(const std::string& name) { return dashed(bushingFrameOption, name); }
-std::string massName(const std::string& group) { return dashed(massOption, group); }
-std::string inertiaName(const std::string& group) { return dashed(inertiaOption, group); }
-std::string massFrameName(const std::string& group) { return dashed(massFrameOption, group); }
-std::string forceName(const std::string& group) { return dashed(forceOption, group); }
-std::string momentName(const std::string& group) { return dashed(momentOption, group); }
-std::string forceFrameName(const std::string& group) { return dashed(forceFrameOption, group); }
+std::string bushingFrameName(const std::string& name) { return bushingFrameOption.dashed(name); }
+std::string massName(const std::string& group) { return massOption.dashed(group); }
+std::string inertiaName(const std::string& group) { return inertiaOption.dashed(group); }
+std::string massFrameName(const std::string& group) { return massFrameOption.dashed(group); }
+std::string forceName(const std::string& group) { return forceOption.dashed(group); }
+std::string momentName(const std::string& group) { return momentOption.dashed(group); }
+std::string forceFrameName(const std::string& group) { return forceFrameOption.dashed(group); }
 
 }  // namespace squeal::attachments

@@ -91,8 +91,8 @@ void Supports::addRotations(const std::string& group, const ClampSettings& clamp
   if (dimension_ == 2 && clamp.rotations != "z")
     throw Error("option " + clampedRotationName(group) + " " + clamp.rotations +
                 ": in the plane must be z");
-  const PetscInt node = reference.rotation - mesh_.firstNode;
-  if (node < 0 || node >= mesh_.ownedNodes) return;
+  const PetscInt node = mesh_.ownedNode(reference.rotation);
+  if (node < 0) return;
   for (const char letter : clamp.rotations) {
     const int component = letter - 'x';
     if (dimension_ == 2)
@@ -150,13 +150,12 @@ void Supports::turnNode(PetscInt node, const std::vector<Held>& list, std::strin
   }
   const std::size_t count = axes.size();
   for (int d = 0; d < dimension_ && std::ssize(axes) < dimension_; ++d) {
-    Point e{};
-    e[d] = 1;
+    Point e = mesh::axis(d);
     for (const Held& axis : axes) e = mesh::plus(e, axis.direction, -dot(e, axis.direction));
     if (mesh::length(e) > 0.5) axes.push_back({mesh::unit(e), 0, -1});
   }
   ensure(std::ssize(axes) == dimension_, "supports of a node have orthonormal axes");
-  Matrix3 matrix{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Matrix3 matrix = mesh::identity3;
   for (int k = 0; k < dimension_; ++k) {
     const PetscInt at = dimension_ * node + k;
     matrix[k] = axes[k].direction;
@@ -171,59 +170,21 @@ void Supports::turn(std::string& failure) {
     std::vector<Held> all;
     for (int d = 0; d < dimension_; ++d)
       if (const PetscInt at = dimension_ * node + d; found_.held[at]) {
-        Point e{};
-        e[d] = 1;
-        all.push_back({e, found_.displacement[at], found_.heldBy[at]});
+        all.push_back({mesh::axis(d), found_.displacement[at], found_.heldBy[at]});
       }
     all.insert(all.end(), list.begin(), list.end());
     turnNode(node, all, failure);
   }
 }
 
-}  // namespace
-
-Point Constraints::direction(PetscInt node, int component) const {
-  if (const auto found = axes.find(node); found != axes.end()) return found->second[component];
-  Point e{};
-  e[component] = 1;
-  return e;
-}
-
-bool Constraints::holds(PetscInt node, const Point& direction, int dimension) const {
-  double rest = dot(direction, direction);
-  for (int k = 0; k < dimension; ++k)
-    if (held[dimension * node + k]) rest -= std::pow(dot(direction, this->direction(node, k)), 2);
-  return rest < 1e-12 * dot(direction, direction);
-}
-
-PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term) {
-  if (term.rotation) {
-    const PetscInt node = mesh.reference(term.group)->rotation - mesh.firstNode;
-    return node >= 0 && node < mesh.ownedNodes ? node : -1;
-  }
-  const auto& nodes = mesh.nodeGroups.at(term.group);
-  return nodes.empty() ? -1 : nodes[0];
-}
-
-void lockBolt(const mesh::Mesh& mesh, int section, double opening, Constraints& constraints) {
-  const auto& reference = mesh.references[mesh.sections[section].reference];
-  const PetscInt node = reference.displacement - mesh.firstNode;
-  if (node < 0 || node >= mesh.ownedNodes) return;
-  const PetscInt row = mesh.dimension * node;  // the first of its axes is the normal
-  constraints.held[row] = 1, constraints.heldBy[row] = -1;
-  constraints.locked[row] = opening;
-}
-
-namespace {
-
 /// Holds the reference nodes of bolts across the normal, and their rotations.
 void guideBolts(const mesh::Mesh& mesh, Constraints& constraints) {
   for (const auto& section : mesh.sections) {
     const auto& reference = mesh.references[section.reference];
-    const PetscInt node = reference.displacement - mesh.firstNode,
-                   rotation = reference.rotation - mesh.firstNode;
-    if (node < 0 || node >= mesh.ownedNodes) continue;
-    Matrix3 axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const PetscInt node = mesh.ownedNode(reference.displacement),
+                   rotation = mesh.ownedNode(reference.rotation);
+    if (node < 0) continue;
+    Matrix3 axes = mesh::identity3;
     axes[0] = section.normal;
     if (mesh.dimension == 2) {
       axes[1] = {-section.normal[1], section.normal[0], 0};
@@ -241,6 +202,33 @@ void guideBolts(const mesh::Mesh& mesh, Constraints& constraints) {
 
 }  // namespace
 
+Point Constraints::direction(PetscInt node, int component) const {
+  if (const auto found = axes.find(node); found != axes.end()) return found->second[component];
+  return mesh::axis(component);
+}
+
+bool Constraints::holds(PetscInt node, const Point& direction, int dimension) const {
+  double rest = dot(direction, direction);
+  for (int k = 0; k < dimension; ++k)
+    if (held[dimension * node + k]) rest -= std::pow(dot(direction, this->direction(node, k)), 2);
+  return rest < 1e-12 * dot(direction, direction);
+}
+
+PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term) {
+  if (term.rotation) return mesh.ownedNode(mesh.reference(term.group)->rotation);
+  const auto& nodes = mesh.nodeGroups.at(term.group);
+  return nodes.empty() ? -1 : nodes[0];
+}
+
+void lockBolt(const mesh::Mesh& mesh, int section, double opening, Constraints& constraints) {
+  const auto& reference = mesh.references[mesh.sections[section].reference];
+  const PetscInt node = mesh.ownedNode(reference.displacement);
+  if (node < 0) return;
+  const PetscInt row = mesh.dimension * node;  // the first of its axes is the normal
+  constraints.held[row] = 1, constraints.heldBy[row] = -1;
+  constraints.locked[row] = opening;
+}
+
 Constraints constraintsOf(const mesh::Mesh& mesh, const Settings& settings) {
   Supports supports(mesh, settings);
   std::string failure;
@@ -256,8 +244,7 @@ Constraints constraintsOf(const mesh::Mesh& mesh, const Settings& settings) {
   constraints.anyTurned = mpi::any(mesh.comm, !constraints.axes.empty());
   if (mesh.dimension == 2)  // a reference node in the plane has one rotation
     for (const auto& reference : mesh.references)
-      if (const PetscInt node = reference.rotation - mesh.firstNode;
-          node >= 0 && node < mesh.ownedNodes)
+      if (const PetscInt node = mesh.ownedNode(reference.rotation); node >= 0)
         constraints.held[2 * node + 1] = 1;
   constraints.supported = constraints.held;
   for (const auto& [node, axes] : constraints.axes)

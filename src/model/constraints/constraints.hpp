@@ -52,8 +52,8 @@ struct EquationPivot {
 };
 
 /// The components that are held at the nodes owned by this rank. They refer to the axes of the
-/// node: x, y, z or, where a support is in other directions, turned axes. The second list of each
-/// node with turned axes has the held components first.
+/// node: x, y, z or, where a support is in other directions, turned axes. Turned axes have
+/// the held components first.
 struct Constraints {
   std::vector<unsigned char> held;  ///< [owned node · dimension + component] 1 if held
   std::vector<int> heldBy;  ///< [owned node · dimension + component] index into groups, or −1

@@ -18,8 +18,6 @@ namespace {
 
 using mesh::minus;
 
-Matrix3 identity() { return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
-
 Matrix3 product(const Matrix3& a, const Matrix3& b) {
   Matrix3 c{};
   for (std::size_t i = 0; i < 3; ++i)
@@ -66,8 +64,6 @@ std::string head(const CouplingSettings& coupling) {
   return "option " + couplingNodesName(coupling.name) + ": ";
 }
 
-std::string placeText(const Point& x) { return formatted("(%.6g, %.6g, %.6g)", x[0], x[1], x[2]); }
-
 /// Collects the coupled nodes.
 class Couplings {
  public:
@@ -105,7 +101,7 @@ void Couplings::rejectImages(const CouplingSettings& coupling) const {
   for (const auto& group : coupling.groups)
     for (const PetscInt node : mesh_.nodeGroups.at(group))
       if (primaries.contains(mesh_.firstNode + node))
-        failure = head(coupling) + "the node at " + placeText(mesh_.coordinates[node]) +
+        failure = head(coupling) + "the node at " + mesh::text(mesh_.coordinates[node]) +
                   " of group '" + group +
                   "' has a periodic image, which does not turn with a reference node; take such "
                   "nodes out of the group";
@@ -117,7 +113,7 @@ void Couplings::add(CoupledNode node, std::string& failure) {
   if (isNew || at->second.coupling == node.coupling) return;
   const auto names = couplingNames(settings_);
   failure = names[node.coupling].label() + ": the node at " +
-            placeText(mesh_.coordinates[node.node]) + " follows " +
+            mesh::text(mesh_.coordinates[node.node]) + " follows " +
             names[at->second.coupling].label() +
             " already; a node can follow one coupling: take it out of one group, or couple the "
             "reference nodes";
@@ -148,10 +144,10 @@ void Couplings::addFollowingRotation(const std::string& group, int coupling,
                                      const mesh::Reference& reference, std::string& failure) {
   const mesh::Reference* slave = mesh_.reference(group);
   if (!slave || settings_.couplings[coupling].pinned) return;
-  const PetscInt node = slave->rotation - mesh_.firstNode;
-  if (node < 0 || node >= mesh_.ownedNodes) return;
+  const PetscInt node = mesh_.ownedNode(slave->rotation);
+  if (node < 0) return;
   CoupledNode found{.node = node, .coupling = coupling};
-  found.masters = {rotationOf(reference, ofRotation(identity(), mesh_.dimension))};
+  found.masters = {rotationOf(reference, ofRotation(mesh::identity3, mesh_.dimension))};
   if (mesh_.dimension == 2) found.masters[0].block = {{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
   add(found, failure);
 }
@@ -242,14 +238,13 @@ void Couplings::addDistributed(int coupling) {
   const Matrix3 inverse = inverseInertia(nodes, centre, mesh_.dimension, given),
                 arm = crossMatrix(minus(reference.position, centre));
   CoupledNode displacement{
-      .node = reference.displacement - mesh_.firstNode, .coupling = coupling, .distributed = true},
+      .node = mesh_.ownedNode(reference.displacement), .coupling = coupling, .distributed = true},
       rotation{
-          .node = reference.rotation - mesh_.firstNode, .coupling = coupling, .distributed = true};
-  if (rotation.node < 0 || rotation.node >= mesh_.ownedNodes) displacement.node = -1;
+          .node = mesh_.ownedNode(reference.rotation), .coupling = coupling, .distributed = true};
   for (const auto& [node, part, position, weight] : nodes) {
     const Matrix3 turns = scaled(product(inverse, crossMatrix(minus(position, centre))), weight);
     //   θ × s = −s × θ
-    const Matrix3 moves = sum(scaled(identity(), weight), scaled(product(arm, turns), -1));
+    const Matrix3 moves = sum(scaled(mesh::identity3, weight), scaled(product(arm, turns), -1));
     displacement.masters.push_back({node, moves, part, position, false});
     rotation.masters.push_back({node, ofRotation(turns, mesh_.dimension), part, position, false});
   }
@@ -265,8 +260,8 @@ void Couplings::addSections() {
     const auto& reference = mesh_.references[mesh_.sections[section].reference];
     CoupledNode found{.node = node, .coupling = int(std::ssize(settings_.couplings)) + section};
     found.masters = {
-        {lower, identity(), lowerPart, mesh_.coordinates[node], false},
-        {reference.displacement, identity(), reference.part, reference.position, false}};
+        {lower, mesh::identity3, lowerPart, mesh_.coordinates[node], false},
+        {reference.displacement, mesh::identity3, reference.part, reference.position, false}};
     add(found, failure);
   }
   failTogether(mesh_.comm, failure);

@@ -72,17 +72,6 @@ const RealListOption boltAxisOption("bolt", "bolt_<name>_axis", "0,0,1", "", any
                                     "direction of the bolt, for the sign of its normal; default: "
                                     "the normal of a face of the section");
 
-std::string dashed(const Option& option, const std::string& name) {
-  return "-" + option.fullName(name);
-}
-
-void requireOption(const std::vector<const Option*>& options, const Option& needed) {
-  for (const Option* option : options)
-    for (const auto& name : option->subjects())
-      if (!needed.given(name))
-        throw Error("option " + dashed(*option, name) + " needs " + dashed(needed, name));
-}
-
 std::vector<mesh::ReferenceRequest> referencesGiven() {
   std::set<std::string> names;
   for (const Option* option : std::vector<const Option*>{&positionOption, &centreOption})
@@ -91,12 +80,12 @@ std::vector<mesh::ReferenceRequest> referencesGiven() {
   for (const auto& name : names) {
     const bool isCentre = centreOption.given(name);
     if (isCentre && positionOption.given(name))
-      throw Error("options " + dashed(positionOption, name) + " and " + dashed(centreOption, name) +
+      throw Error("options " + positionOption.dashed(name) + " and " + centreOption.dashed(name) +
                   ": give the position once");
-    mesh::ReferenceRequest request{name, {}, {}, dashed(positionOption, name)};
+    mesh::ReferenceRequest request{name, {}, {}, positionOption.dashed(name)};
     if (isCentre) {
       const std::string group = centreOption.get(name);
-      request.option = dashed(centreOption, name) + " " + group;
+      request.option = centreOption.dashed(name) + " " + group;
       request.centreOf = {group, request.option};
     } else {
       request.position = positionOption.vector(name);
@@ -131,11 +120,11 @@ std::map<std::string, ClampSettings> clampsGiven(const Settings& settings) {
   for (const auto& group : frameOption.subjects())
     if (!clamps.contains(group)) requireOption({&frameOption}, clampedOption);
   for (const auto& [group, clamp] : clamps) {
-    requireLetters(clamp.rotations, dashed(rotationOption, group));
+    requireLetters(clamp.rotations, rotationOption.dashed(group));
     if (!clamp.rotations.empty() && !isReference(settings, group))
-      throw Error("option " + dashed(rotationOption, group) + ": '" + group +
+      throw Error("option " + rotationOption.dashed(group) + ": '" + group +
                   "' is not a reference node; only these have a rotation. Make one with " +
-                  dashed(positionOption, group));
+                  positionOption.dashed(group));
   }
   return clamps;
 }
@@ -145,24 +134,24 @@ CouplingSettings couplingGiven(const std::string& name, const Settings& settings
   coupling.name = name;
   coupling.reference = referenceOption.get(name);
   if (!isReference(settings, coupling.reference))
-    throw Error("option " + dashed(referenceOption, name) + " " + coupling.reference +
-                ": there is no such reference node; make it with " +
-                dashed(positionOption, coupling.reference) + " or " +
-                dashed(centreOption, coupling.reference));
+    throw Error("option " + referenceOption.dashed(name) + " " + coupling.reference +
+                ": no reference node has this name; make it with " +
+                positionOption.dashed(coupling.reference) + " or " +
+                centreOption.dashed(coupling.reference));
   const bool rigid = kindOption.get(name) == "rigid";
   coupling.kind = rigid ? CouplingKind::rigid : CouplingKind::distributed;
   for (const Option* option :
        std::vector<const Option*>{&componentsOption, &couplingFrameOption, &pinnedOption})
     if (!rigid && option->given(name))
-      throw Error("option " + dashed(*option, name) + " needs " + dashed(kindOption, name) +
+      throw Error("option " + option->dashed(name) + " needs " + kindOption.dashed(name) +
                   " rigid");
   if (rigid && weightsOption.given(name))
-    throw Error("option " + dashed(weightsOption, name) + " needs " + dashed(kindOption, name) +
+    throw Error("option " + weightsOption.dashed(name) + " needs " + kindOption.dashed(name) +
                 " distributed");
   coupling.groups = nodesOption.list(name);
   for (const auto& group : coupling.groups)
     if (group == coupling.reference || std::ranges::count(coupling.groups, group) > 1)
-      throw Error("option " + dashed(nodesOption, name) + ": '" + group + "' " +
+      throw Error("option " + nodesOption.dashed(name) + ": '" + group + "' " +
                   (group == coupling.reference ? "is the reference node of this coupling"
                                                : "is there twice"));
   if (!rigid) {
@@ -170,11 +159,11 @@ CouplingSettings couplingGiven(const std::string& name, const Settings& settings
     if (!weightsOption.given(name)) coupling.weights.assign(coupling.groups.size(), 1);
     if (coupling.weights.size() != coupling.groups.size())
       throw Error(formatted("option %s: %zu weights for the %zu groups of %s; give one per group",
-                            dashed(weightsOption, name).c_str(), coupling.weights.size(),
-                            coupling.groups.size(), dashed(nodesOption, name).c_str()));
+                            weightsOption.dashed(name).c_str(), coupling.weights.size(),
+                            coupling.groups.size(), nodesOption.dashed(name).c_str()));
   }
   coupling.components = componentsOption.get(name);
-  requireLetters(coupling.components, dashed(componentsOption, name));
+  requireLetters(coupling.components, componentsOption.dashed(name));
   coupling.frame = couplingFrameOption.get(name);
   coupling.pinned = pinnedOption.get(name);
   return coupling;
@@ -195,7 +184,7 @@ std::vector<CouplingSettings> couplingsGiven(const Settings& settings) {
 class EquationReader {
  public:
   EquationReader(const std::string& name, const std::string& text, const Settings& settings)
-      : option_(dashed(equationOption, name)), text_(text), settings_(settings) {
+      : option_(equationOption.dashed(name)), text_(text), settings_(settings) {
     equation_.name = name, equation_.text = text;
   }
   EquationSettings read();
@@ -286,8 +275,8 @@ std::vector<BoltSettings> boltsGiven() {
   std::vector<BoltSettings> bolts;
   for (const auto& name : sectionOption.subjects()) {
     if (boltForceOption.given(name) == shorteningOption.given(name))
-      throw Error("option " + dashed(sectionOption, name) + ": give either " +
-                  dashed(boltForceOption, name) + " or " + dashed(shorteningOption, name));
+      throw Error("option " + sectionOption.dashed(name) + ": give either " +
+                  boltForceOption.dashed(name) + " or " + shorteningOption.dashed(name));
     BoltSettings bolt{.name = name, .section = sectionOption.get(name)};
     if (boltForceOption.given(name)) bolt.force = boltForceOption.get(name);
     if (shorteningOption.given(name)) bolt.shortening = shorteningOption.get(name);
@@ -328,7 +317,7 @@ std::vector<mesh::GroupRequest> constrainedGroups(const Settings& settings) {
 std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings) {
   std::vector<mesh::PeriodicRequest> pairs;
   for (const auto& [image, primary] : settings.imageOf)
-    pairs.push_back({image, primary, dashed(imageOption, image) + " " + primary});
+    pairs.push_back({image, primary, imageOption.dashed(image) + " " + primary});
   return pairs;
 }
 
@@ -336,20 +325,20 @@ std::vector<mesh::SectionRequest> boltSections(const Settings& settings) {
   std::vector<mesh::SectionRequest> sections;
   for (const auto& bolt : settings.bolts)
     sections.push_back({bolt.name,
-                        {bolt.section, dashed(sectionOption, bolt.name) + " " + bolt.section},
+                        {bolt.section, sectionOption.dashed(bolt.name) + " " + bolt.section},
                         bolt.axis,
-                        dashed(boltAxisOption, bolt.name)});
+                        boltAxisOption.dashed(bolt.name)});
   return sections;
 }
 
-std::string clampedName(const std::string& group) { return dashed(clampedOption, group); }
-std::string displacementName(const std::string& group) { return dashed(displacementOption, group); }
-std::string clampedRotationName(const std::string& group) { return dashed(rotationOption, group); }
-std::string clampFrameName(const std::string& group) { return dashed(frameOption, group); }
-std::string couplingNodesName(const std::string& coupling) { return dashed(nodesOption, coupling); }
+std::string clampedName(const std::string& group) { return clampedOption.dashed(group); }
+std::string displacementName(const std::string& group) { return displacementOption.dashed(group); }
+std::string clampedRotationName(const std::string& group) { return rotationOption.dashed(group); }
+std::string clampFrameName(const std::string& group) { return frameOption.dashed(group); }
+std::string couplingNodesName(const std::string& coupling) { return nodesOption.dashed(coupling); }
 std::string couplingFrameName(const std::string& coupling) {
-  return dashed(couplingFrameOption, coupling);
+  return couplingFrameOption.dashed(coupling);
 }
-std::string equationName(const std::string& equation) { return dashed(equationOption, equation); }
+std::string equationName(const std::string& equation) { return equationOption.dashed(equation); }
 
 }  // namespace squeal::constraints

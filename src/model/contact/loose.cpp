@@ -23,10 +23,7 @@ linalg::DenseMatrix gramOf(const mesh::Mesh& mesh, const Contact& contact,
                            const SupportingContact& holding) {
   GramMatrix gram(motions.size());
   forEachSupport(mesh, contact, bodies.springs, holding, [&](const Support& support) {
-    if (mesh.isRotation(mesh.globalNode[support.node]))
-      motions.addRotation(gram.row, mesh.nodePart[support.node], support.direction, 1);
-    else
-      motions.add(gram.row, mesh.nodePart[support.node], support.position, support.direction, 1);
+    motions.addNode(mesh, support.node, support.direction, 1, gram.row);
     for (const auto& [part, share] : support.masterParts)
       motions.add(gram.row, part, support.masterPosition, support.direction, -share);
     for (const auto& master : support.coupled)

@@ -12,15 +12,9 @@
 namespace squeal::contact {
 namespace {
 
-Point unit(int d) {
-  Point e{};
-  e[d] = 1;
-  return e;
-}
-
 /// Returns the direction of component d of a coupled node across the components that stay free.
 Point coupledDirection(const constraints::CoupledNode& coupled, int d) {
-  Point direction = unit(d);
+  Point direction = mesh::axis(d);
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t e = 0; e < 3; ++e) direction[e] -= coupled.own[d][k] * coupled.own[e][k];
   return direction;
@@ -43,7 +37,7 @@ void visitContact(const mesh::Mesh& mesh, const Contact& contact, const Supporti
                     .masters = contact.interfaces.connections[i].masters};
     const int sticking = sticks ? mesh.dimension : 0;
     for (int d = 0; d < sticking; ++d) {
-      support.direction = unit(d);
+      support.direction = mesh::axis(d);
       visit(support);
     }
     support.direction = node.normal;
@@ -62,7 +56,7 @@ void forEachSupport(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
     for (int d = 0; d < mesh.dimension; ++d) {
       const PetscInt i = mesh.dimension * node + d;
       const bool turned = constraints.axes.contains(node);
-      Support support{.node = node, .position = mesh.coordinates[node], .direction = unit(d)};
+      Support support{.node = node, .position = mesh.coordinates[node], .direction = mesh::axis(d)};
       if ((constraints.held[i] && !turned) || (spring && (*spring)[i] > 0)) visit(support);
       if (!constraints.held[i] || !turned) continue;
       support.direction = constraints.direction(node, d);
@@ -75,7 +69,7 @@ void forEachSupport(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
     for (int d = 0; d < mesh.dimension; ++d)
       visit({.node = image.node,
              .position = x,
-             .direction = unit(d),
+             .direction = mesh::axis(d),
              .masterPosition = mesh::minus(x, image.shift),
              .masterParts = {&part, 1},
              .masters = {&primary, 1}});
@@ -93,7 +87,7 @@ void forEachSupport(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
     for (int d = 0; d < mesh.dimension; ++d)
       visit({.node = node,
              .position = mesh.coordinates[node],
-             .direction = unit(d),
+             .direction = mesh::axis(d),
              .masterPosition = mesh.coordinates[node],
              .masterParts = tied.masterParts,
              .masters = tied.connection.masters});
@@ -174,7 +168,7 @@ void addEquations(const mesh::Mesh& mesh, const Contact& contact, const elastici
   for (const auto& equation : contact.interfaces.constraints.equations) {
     for (const auto& term : equation.terms) {
       const Point direction = mesh::scaled(
-          unit(mesh.dimension == 2 && term.rotation ? 0 : term.component), term.factor);
+          mesh::axis(mesh.dimension == 2 && term.rotation ? 0 : term.component), term.factor);
       if (const PetscInt node = constraints::nodeOf(mesh, term); node >= 0)
         motions.addNode(mesh, node, direction, 1, gram.row);
     }
@@ -183,7 +177,7 @@ void addEquations(const mesh::Mesh& mesh, const Contact& contact, const elastici
   for (const auto& deformation : bodies.links) {
     if (deformation.stiffness == 0) continue;
     for (const auto& term : deformation.terms)
-      if (const PetscInt node = term.node - mesh.firstNode; node >= 0 && node < mesh.ownedNodes)
+      if (const PetscInt node = mesh.ownedNode(term.node); node >= 0)
         motions.addNode(mesh, node, term.direction, 1, gram.row);
     keep();
   }

@@ -70,7 +70,7 @@ Frame named(const std::map<std::string, FrameSettings>& frames, const std::strin
     return Frame(found->second, dimension);
   std::vector<std::string> names;
   for (const auto& [known, settings] : frames) names.push_back(known);
-  throw Error("option " + option + " " + name + ": there is no frame of this name; " +
+  throw Error("option " + option + " " + name + ": no frame has this name; " +
               (names.empty() ? "-frame_" + name + "_x or -frame_" + name + "_axis makes one"
                              : "the frames are: " + joined(names)));
 }

@@ -31,7 +31,7 @@ class Frame {
   std::string name_;
   bool cylindrical_ = false;
   Point origin_{};
-  Matrix3 axes_{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Matrix3 axes_ = mesh::identity3;
 };
 
 /// Returns the frame that an option names, the global one for an empty name. Throws Error, naming

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/petsc/check.hpp"
-#include "base/system/text.hpp"
 
 namespace squeal::interfaces {
 
@@ -61,8 +60,6 @@ std::vector<double> identity(int dimension, double factor) {
   for (int d = 0; d < dimension; ++d) block[d * dimension + d] = factor;
   return block;
 }
-
-std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
 OwnedMat product(Mat a, Mat b) {
   OwnedMat result;

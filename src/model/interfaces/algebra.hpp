@@ -30,8 +30,7 @@ std::vector<double> outer(const Point& a, const Point& b, int dimension, double 
 /// Returns factor times the unit matrix, dimension × dimension.
 std::vector<double> identity(int dimension, double factor);
 
-/// Formats the coordinates of a point for a message.
-std::string text(const Point& p);
+using mesh::text;
 
 /// Collective. Returns the product of two matrices.
 OwnedMat product(Mat a, Mat b);

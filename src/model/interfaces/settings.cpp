@@ -64,17 +64,10 @@ const RealOption toleranceOption("tie", "tie_<name>_tolerance", 0.0, "m", nonNeg
 const FlagOption adjustOption("tie", "tie_<name>_adjust", true,
                               "strain-free initial shift of tied nodes onto the master, so that "
                               "the two rotate together without strain; off: no shift");
+
 mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
   const std::string group = option.get(name);
   return {group, "-" + option.fullName(name) + " " + group};
-}
-
-/// Throws Error for options of this list whose subject lacks the `needed` option.
-void requireOption(const std::vector<const Option*>& options, const Option& needed) {
-  for (const Option* option : options)
-    for (const auto& name : option->subjects())
-      if (!needed.given(name))
-        throw Error("option -" + option->fullName(name) + " needs -" + needed.fullName(name));
 }
 
 /// Returns the value of an enumeration that an option gives by its name.

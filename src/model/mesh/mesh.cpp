@@ -3,18 +3,20 @@
 
 #include <algorithm>
 
+#include "base/system/text.hpp"
+
 namespace squeal::mesh {
 
 const Reference* Mesh::referenceWith(PetscInt global) const {
-  const auto found = std::ranges::find_if(references, [&](const Reference& reference) {
-    return reference.displacement == global || reference.rotation == global;
-  });
-  return found == references.end() ? nullptr : &*found;
+  const auto found = std::ranges::lower_bound(references, global, {}, &Reference::rotation);
+  return found == references.end() || found->displacement > global ? nullptr : &*found;
 }
 
 const Reference* Mesh::reference(const std::string& name) const {
   const auto found = std::ranges::find(references, name, &Reference::name);
   return found == references.end() ? nullptr : &*found;
 }
+
+std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
 }  // namespace squeal::mesh

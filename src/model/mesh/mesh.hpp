@@ -135,14 +135,21 @@ struct Mesh {
   std::vector<FaceBlock> faces;
   /// [group or reference node] owned local nodes, with images replaced by their primaries
   std::map<std::string, std::vector<PetscInt>> nodeGroups;
-  std::vector<Reference> references;  ///< the same on all ranks, sorted by name
-  std::vector<Section> sections;      ///< the same on all ranks
+  /// The same on all ranks. Their global nodes ascend, and the rotation of each follows its
+  /// displacement.
+  std::vector<Reference> references;
+  std::vector<Section> sections;  ///< the same on all ranks
   std::vector<SectionPair> sectionPairs;
   std::vector<Image> images;
   std::vector<ContactPair> pairs;          ///< of the interfaces that match
   std::vector<InterfaceMatch> interfaces;  ///< in the order of the request
 
   PetscInt localNodes() const { return globalNode.size(); }
+  /// Returns the local number of a global node that this rank owns; −1 for other nodes.
+  PetscInt ownedNode(PetscInt global) const {
+    const PetscInt local = global - firstNode;
+    return local >= 0 && local < ownedNodes ? local : -1;
+  }
   /// Returns the number of the nodes of all ranks that are in cells.
   PetscInt cellNodes() const { return totalNodes - 2 * std::ssize(references); }
   /// Returns the reference node that has this global node; null if there is none. Borrowed.
@@ -155,6 +162,9 @@ struct Mesh {
     return found && found->rotation == global;
   }
 };
+
+/// Formats the coordinates of a point for a message.
+std::string text(const Point& p);
 
 /// Collective. Returns a text with the checksum of nodes and cells as they are distributed. A
 /// geometry may include other files, and gmsh may mesh it otherwise than before.

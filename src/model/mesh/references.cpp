@@ -2,16 +2,9 @@
 #include "model/mesh/references.hpp"
 
 #include "base/system/error.hpp"
-#include "model/mesh/vector.hpp"
 
 namespace squeal::mesh {
 namespace {
-
-Point centroid(const WholeMesh& mesh, const std::vector<PetscInt>& nodes) {
-  Point centre{};
-  for (const PetscInt node : nodes) centre = plus(centre, mesh.points[node], 1.0 / nodes.size());
-  return centre;
-}
 
 void addReference(WholeMesh& mesh, const std::string& name, const Point& position) {
   const PetscInt first = mesh.nodeCount();

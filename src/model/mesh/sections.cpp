@@ -13,14 +13,6 @@
 namespace squeal::mesh {
 namespace {
 
-Point centreOf(const WholeMesh& mesh, std::span<const PetscInt> nodes) {
-  Point centre{};
-  for (const PetscInt node : nodes) centre = plus(centre, mesh.points[node], 1.0 / nodes.size());
-  return centre;
-}
-
-std::string placeText(const Point& x) { return formatted("(%.6g, %.6g, %.6g)", x[0], x[1], x[2]); }
-
 /// Returns the normal of a face, or of a line in the plane, with the length of its area.
 Point areaVector(const WholeMesh& mesh, std::span<const PetscInt> corners) {
   const Point a = mesh.points[corners[0]], ab = minus(mesh.points[corners[1]], a);
@@ -89,7 +81,7 @@ void Cut::setNormal() {
 double Cut::height(std::span<const PetscInt> corners) const {
   for (const PetscInt node : corners)
     if (nodes_.contains(node))
-      return dot(minus(centreOf(mesh_, corners), mesh_.points[node]), normal_);
+      return dot(minus(centroid(mesh_, corners), mesh_.points[node]), normal_);
   return 0;
 }
 
@@ -100,7 +92,7 @@ void Cut::requireFullCut(const std::vector<std::set<PetscInt>>& others) const {
       throw Error(head_ +
                   "the section does not cut through its body: cells on both sides of it "
                   "share the node at " +
-                  placeText(mesh_.points[node]) + "; extend it to the surface of the body");
+                  text(mesh_.points[node]) + "; extend it to the surface of the body");
 }
 
 void Cut::doubleNodes() {
@@ -179,7 +171,7 @@ void cutSections(WholeMesh& mesh, std::map<std::string, meshfile::GroupElements>
     for (const auto& [lower, upper] : section.upper()) {
       if (!cut.insert(lower).second || !cut.insert(upper).second)
         throw Error("option " + wanted.surface.option + ": the node at " +
-                    placeText(mesh.points[lower]) + " belongs to another section");
+                    text(mesh.points[lower]) + " belongs to another section");
       mesh.sectionPairs.push_back({upper, lower, int(std::ssize(mesh.sections)), -1});
     }
     mesh.sections.push_back({wanted.name, section.normal(), -1});

@@ -37,8 +37,22 @@ inline Point across(const Point& e) {
   return unit(cross(e, other));
 }
 
+/// Returns the unit vector along x, y or z.
+inline Point axis(int component) {
+  Point e{};
+  e[component] = 1;
+  return e;
+}
+
 /// A matrix by its rows.
 using Matrix3 = std::array<std::array<double, 3>, 3>;
+inline constexpr Matrix3 identity3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+/// Returns the vector with these components along axes, given by rows.
+inline Point along(const Matrix3& axes, const Point& components) {
+  Point sum{};
+  for (std::size_t k = 0; k < 3; ++k) sum = plus(sum, axes[k], components[k]);
+  return sum;
+}
 inline double determinant(const Matrix3& j) {
   return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
          j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +

@@ -205,13 +205,6 @@ void readDiscFaces(WholeMesh& mesh, const Request& request, const NamedElements&
   }
 }
 
-Point centroid(const WholeMesh& mesh, std::span<const PetscInt> nodes) {
-  Point centre{};
-  for (PetscInt node : nodes)
-    for (std::size_t d = 0; d < 3; ++d) centre[d] += mesh.points[node][d] / nodes.size();
-  return centre;
-}
-
 /// Returns +1 if the normal of the face by the order of its corners points away from `inside`,
 /// otherwise −1.
 int outwardSign(const WholeMesh& mesh, std::span<const PetscInt> corners, const Point& inside) {
@@ -347,6 +340,13 @@ void findParts(WholeMesh& mesh) {
 }
 
 }  // namespace
+
+Point centroid(const WholeMesh& mesh, std::span<const PetscInt> nodes) {
+  Point centre{};
+  for (PetscInt node : nodes)
+    for (std::size_t d = 0; d < 3; ++d) centre[d] += mesh.points[node][d] / nodes.size();
+  return centre;
+}
 
 PetscInt WholeMesh::cellCount() const {
   PetscInt count = 0;

@@ -46,6 +46,9 @@ struct WholeMesh {
   PetscInt cellCount() const;
 };
 
+/// Returns the mean position of nodes.
+Point centroid(const WholeMesh& mesh, std::span<const PetscInt> nodes);
+
 /// Reads or meshes a file with gmsh, splits nodes shared across contact interfaces, and finds parts
 /// and faces.
 WholeMesh load(const meshfile::Settings& file, const Request& request, meshfile::Reader reader);

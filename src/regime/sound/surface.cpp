@@ -78,11 +78,9 @@ std::vector<double> heldComponents(const mesh::Mesh& mesh, const contact::Contac
   const OwnedVec held = elasticity::nodalVector(mesh);
   {
     const WriteArray values(held);
-    for (PetscInt i = 0; i < values.size(); ++i) {
-      Point e{};
-      e[i % mesh.dimension] = 1;
-      values[i] = contact.interfaces.constraints.holds(i / mesh.dimension, e, mesh.dimension);
-    }
+    for (PetscInt i = 0; i < values.size(); ++i)
+      values[i] = contact.interfaces.constraints.holds(
+          i / mesh.dimension, mesh::axis(i % mesh.dimension), mesh.dimension);
   }
   return withImages(contact, held);
 }

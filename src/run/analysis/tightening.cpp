@@ -9,7 +9,7 @@
 #include "base/system/text.hpp"
 #include "model/contact/build.hpp"
 #include "model/contact/coupled.hpp"
-#include "model/mesh/vector.hpp"
+#include "steady/steady/nodal_forces.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -20,8 +20,8 @@ OwnedVec tensions(const mesh::Mesh& mesh, const std::vector<constraints::BoltSet
   const WriteArray values(load);
   for (std::size_t i = 0; i < bolts.size(); ++i) {
     const auto& section = mesh.sections[i];
-    const PetscInt node = mesh.references[section.reference].displacement - mesh.firstNode;
-    if (!bolts[i].force || node < 0 || node >= mesh.ownedNodes) continue;
+    const PetscInt node = mesh.ownedNode(mesh.references[section.reference].displacement);
+    if (!bolts[i].force || node < 0) continue;
     for (int d = 0; d < mesh.dimension; ++d)
       values[mesh.dimension * node + d] = -*bolts[i].force * section.normal[d];
   }
@@ -34,8 +34,8 @@ std::vector<double> openingsOf(const mesh::Mesh& mesh, Vec displacement) {
   const ReadArray u(displacement);
   for (std::size_t i = 0; i < openings.size(); ++i) {
     const auto& section = mesh.sections[i];
-    const PetscInt node = mesh.references[section.reference].displacement - mesh.firstNode;
-    if (node < 0 || node >= mesh.ownedNodes) continue;
+    const PetscInt node = mesh.ownedNode(mesh.references[section.reference].displacement);
+    if (node < 0) continue;
     for (int d = 0; d < mesh.dimension; ++d)
       openings[i] += section.normal[d] * u[mesh.dimension * node + d];
   }
@@ -80,8 +80,8 @@ std::vector<double> boltForces(const Model& model, const steady::Solution& solut
   const mesh::Mesh& mesh = *model.mesh;
   std::vector<double> forces(mesh.sections.size(), 0.0);
   if (forces.empty()) return forces;
-  const steady::Problem problem(mesh, model.bodies, model.contact);
-  const OwnedVec nodal = problem.forces(solution.at, solution.displacement);
+  const OwnedVec nodal =
+      steady::supportForces(mesh, model.bodies, solution.at, solution.displacement);
   {
     const ReadArray values(nodal);
     for (const auto& [node, lower, section, part] : mesh.sectionPairs)

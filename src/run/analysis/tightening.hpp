@@ -11,7 +11,7 @@ namespace squeal::analysis {
 
 /// Collective. Solves a first step with the forces of the bolts and the loads that no sweep scales,
 /// without pressure and swept friction, and keeps the lengths that it gives. Does nothing without
-/// forces of bolts. Throws Error if there is no solution.
+/// forces of bolts. Throws Error if the step has no solution.
 void tightenBolts(Model& model, const std::vector<constraints::BoltSettings>& bolts);
 
 /// Collective. Returns the tension of each bolt in a steady state, N, [section of the mesh].

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/system/mpi.hpp"
+#include "model/attachments/forms.hpp"
 #include "model/frame/frame.hpp"
 #include "run/audit/masses.hpp"
 
@@ -18,17 +19,12 @@ BodyMass massAt(const mesh::Mesh& mesh, const mesh::Reference& reference, const 
                 const frame::Frame& frame) {
   const Matrix3 axes = frame.axesAt(reference.position);
   const Point offset = given.offset.in(mesh.dimension);
-  BodyMass mass{.body = nameOf(given), .mass = given.total, .centre = reference.position};
-  for (std::size_t k = 0; k < 3; ++k) mass.centre = mesh::plus(mass.centre, axes[k], offset[k]);
+  const Point centre = mesh::plus(reference.position, mesh::along(axes, offset));
+  BodyMass mass{.body = nameOf(given), .mass = given.total, .centre = centre};
   mass.low = mass.high = mass.centre;
   const auto& j = given.inertia;
   if (given.hasInertia && j.size() == 6) {
-    const Matrix3 local{{{j[0], j[3], j[4]}, {j[3], j[1], j[5]}, {j[4], j[5], j[2]}}};
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b)
-        for (std::size_t k = 0; k < 3; ++k)
-          for (std::size_t l = 0; l < 3; ++l)
-            mass.inertia[a][b] += axes[k][a] * local[k][l] * axes[l][b];
+    mass.inertia = attachments::inertiaTensor(j, axes);
   } else if (given.hasInertia) {
     mass.inertia[2][2] = j[0];
   }

@@ -79,8 +79,7 @@ void countLinks(const Subject& model, Counts& counts) {
   for (const auto& [name, ends] : nodes) {
     counts.begin(name);
     for (const PetscInt node : ends)
-      if (node >= mesh.firstNode && node < mesh.firstNode + mesh.ownedNodes)
-        counts.addNode(node - mesh.firstNode);
+      if (const PetscInt own = mesh.ownedNode(node); own >= 0) counts.addNode(own);
   }
 }
 

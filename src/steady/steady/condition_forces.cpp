@@ -170,7 +170,7 @@ void Conditions::addSupport(PetscInt node, const Point& force, ConditionForces& 
   }
   //   Σ_j (d_i·d_j) λ_j = d_i·force
   const auto& directions = given->second;
-  mesh::Matrix3 gram{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  mesh::Matrix3 gram = mesh::identity3;
   for (std::size_t i = 0; i < directions.size(); ++i)
     for (std::size_t j = 0; j < directions.size(); ++j)
       gram[i][j] = mesh::dot(directions[i].direction, directions[j].direction);
@@ -195,8 +195,8 @@ void Conditions::takeEquations(const std::vector<double>& multipliers, Vec force
   for (std::size_t i = 0; i < multipliers.size(); ++i) {
     const auto& origin = constraints.origins[i];
     if (origin.group >= 0) {
-      const PetscInt node = origin.node - mesh_.firstNode;
-      if (node < 0 || node >= mesh_.ownedNodes) continue;
+      const PetscInt node = mesh_.ownedNode(origin.node);
+      if (node < 0) continue;
       Point& sum = onFollowers[node];
       sum = mesh::plus(sum, origin.direction, multipliers[i]);
       continue;

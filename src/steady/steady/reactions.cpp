@@ -131,17 +131,13 @@ void Reactions::addGround(const Solution& solution, List& list) const {
 /// Collective. Adds the forces of springs and bushings, −k δ on the components of δ: on the end
 /// `to` or, if that is the ground, on the other one.
 void Reactions::addLinks(const Solution& solution, List& list) const {
-  const auto own = [&](const attachments::FormTerm& term) {
-    const PetscInt node = term.node - mesh_.firstNode;
-    return node >= 0 && node < mesh_.ownedNodes ? node : -1;
-  };
   const auto& links = bodies_.links;
   std::vector<double> lengthening(links.size(), 0.0);
   {
     const ReadArray u(solution.displacement);
     for (std::size_t i = 0; i < links.size(); ++i)
       for (const auto& term : links[i].terms)
-        if (const PetscInt node = own(term); node >= 0)
+        if (const PetscInt node = mesh_.ownedNode(term.node); node >= 0)
           lengthening[i] += mesh::dot(term.direction, componentsAt(mesh_, u.data(), node));
   }
   mpi::reduce<double>(mesh_.comm, lengthening, MPI_SUM);
@@ -153,7 +149,8 @@ void Reactions::addLinks(const Solution& solution, List& list) const {
            links[last].name == links[first].name;
          ++last)
       for (const auto& term : links[last].terms)
-        if (const PetscInt node = own(term); node >= 0 && (term.isTo || isGrounded))
+        if (const PetscInt node = mesh_.ownedNode(term.node);
+            node >= 0 && (term.isTo || isGrounded))
           sum.addNode(mesh_, node, term.direction, -links[last].stiffness * lengthening[last]);
     list.add(links[first].kind.c_str(), links[first].name, sum,
              isGrounded ? List::Source::outside : List::Source::inside);

@@ -53,8 +53,8 @@ struct Resultant {
 struct Solution {
   sweep::Parameters at;
   bool converged = false;
-  std::string reason;  ///< why SNES, PETSc's nonlinear solver, stopped, or why there is no solution
-  /// Set if there is no solution here, and a path of solutions from another point of the sweep ends
+  std::string reason;  ///< why SNES, PETSc's nonlinear solver, stopped, or why no solution exists
+  /// Set if no solution exists here, and a path of solutions from another point of the sweep ends
   /// on the way: the parameters at its end.
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES

@@ -9,6 +9,7 @@
 
 #include "algebra/linalg/dense.hpp"
 #include "base/options/settings.hpp"
+#include "base/petsc/arrays.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/owned.hpp"
 #include "model/contact/build.hpp"
@@ -103,6 +104,19 @@ OwnedVec nodalField(const mesh::Mesh& mesh, const Field& field) {
     for (int d = 0; d < mesh.dimension; ++d) values[mesh.dimension * node + d] = value[d];
   }
   check(VecRestoreArray(u, &values));
+  return u;
+}
+
+/// Collective. The rigid motion shift + turn × x of the mesh and of its reference nodes, which have
+/// the rotation `turn`. In space.
+inline OwnedVec rigidMotion(const mesh::Mesh& mesh, const mesh::Point& shift,
+                            const mesh::Point& turn) {
+  OwnedVec u = nodalField(
+      mesh, [&](const mesh::Point& x) { return mesh::plus(shift, mesh::cross(turn, x)); });
+  const WriteArray values(u);
+  for (const auto& reference : mesh.references)
+    if (const PetscInt node = mesh.ownedNode(reference.rotation); node >= 0)
+      for (int d = 0; d < 3; ++d) values[3 * node + d] = turn[d];
   return u;
 }
 

@@ -146,15 +146,7 @@ double forceOfRigidMotion(const std::string& options) {
   test::setOptions(box + options);
   const auto model = test::buildModel();
   const auto& mesh = *model.mesh;
-  const Point shift{0.3, -0.2, 0.5}, turn{0.7, 0.4, -0.9};
-  const OwnedVec u = test::nodalField(
-      mesh, [&](const Point& x) { return mesh::plus(shift, mesh::cross(turn, x)); });
-  {
-    const WriteArray values(u);
-    for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-      if (mesh.isRotation(mesh.firstNode + node))
-        for (int d = 0; d < 3; ++d) values[3 * node + d] = turn[d];
-  }
+  const OwnedVec u = test::rigidMotion(mesh, {0.3, -0.2, 0.5}, {0.7, 0.4, -0.9});
   const OwnedVec force = elasticity::nodalVector(mesh);
   check(MatMult(model.bodies.linkStiffness, u, force));
   PetscReal largest = 0, entry = 0;
@@ -231,7 +223,7 @@ TEST(Attachments, FaultsAreNamed) {
       {r + "-bushing_a_from r -bushing_a_stiffness 1,2",
        "option -bushing_a_stiffness: 2 components; must have 3 or 6"},
       {r + "-bushing_a_from r -bushing_a_stiffness 1,2,3 -bushing_a_frame f",
-       "option -bushing_a_frame f: there is no frame of this name"},
+       "option -bushing_a_frame f: no frame has this name"},
       {r + "-bushing_a_from r -bushing_a_stiffness 1,2,-3", "option -bushing_a_stiffness"},
       {"-mass_tip_total -1", "option -mass_tip_total -1"},
       {"-mass_tip_total 1 -mass_tip_offset 1,0,0",

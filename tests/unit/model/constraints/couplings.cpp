@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/petsc/arrays.hpp"
 #include "eigen/modes/modes.hpp"
 #include "model/contact/coupled.hpp"
 #include "support/harness/messages.hpp"
@@ -14,8 +13,6 @@
 
 namespace squeal {
 namespace {
-
-using mesh::Point;
 
 /// A box of 4 × 2 × 2 cells, 1 × 0.4 × 0.3 m. It is meshed with groups clamped and tip at the ends
 /// of the length, and right, left, bottom and top on its sides.
@@ -43,15 +40,7 @@ double changeOfRigidMotion(const std::string& options) {
   test::setOptions(box + "-constraint_clamped_clamped xyz " + options);
   const auto model = test::buildModel();
   const auto& mesh = *model.mesh;
-  const Point shift{0.3, -0.2, 0.5}, turn{0.7, 0.4, -0.9};
-  const OwnedVec u = test::nodalField(
-      mesh, [&](const Point& x) { return mesh::plus(shift, mesh::cross(turn, x)); });
-  {
-    const WriteArray values(u);
-    for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-      if (mesh.isRotation(mesh.firstNode + node))
-        for (int d = 0; d < 3; ++d) values[3 * node + d] = turn[d];
-  }
+  const OwnedVec u = test::rigidMotion(mesh, {0.3, -0.2, 0.5}, {0.7, 0.4, -0.9});
   const OwnedVec followed = elasticity::nodalVector(mesh);
   check(MatMult(model.contact.kinematics.matrix, u, followed));
   check(VecAXPY(followed, -1, u));
@@ -164,7 +153,7 @@ std::string messageOf(const std::string& options) {
 TEST(Couplings, FaultsAreNamed) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"-coupling_c_reference r -coupling_c_nodes tip",
-       "option -coupling_c_reference r: there is no such reference node; make it with "
+       "option -coupling_c_reference r: no reference node has this name; make it with "
        "-reference_r_position or -reference_r_centre_of"},
       {"-coupling_c_nodes tip", "option -coupling_c_nodes needs -coupling_c_reference"},
       {"-coupling_c_reference r -reference_r_position 1,0,0",
@@ -183,7 +172,7 @@ TEST(Couplings, FaultsAreNamed) {
       {eccentric + "-coupling_c_nodes tip -coupling_c_components xw",
        "option -coupling_c_components xw: must be some of the letters xyz"},
       {eccentric + "-coupling_c_nodes tip -coupling_c_frame f",
-       "option -coupling_c_frame f: there is no frame of this name; -frame_f_x or -frame_f_axis "
+       "option -coupling_c_frame f: no frame has this name; -frame_f_x or -frame_f_axis "
        "makes one"},
       {eccentric + "-coupling_c_nodes tip -reference_r_centre_of tip",
        "options -reference_r_position and -reference_r_centre_of: give the position once"},
