@@ -7,6 +7,7 @@
 #include "model/contact/hourglass.hpp"
 #include "model/contact/loose.hpp"
 #include "model/interfaces/algebra.hpp"
+#include "model/interfaces/layers.hpp"
 #include "model/mesh/vector.hpp"
 
 namespace squeal::contact {
@@ -83,10 +84,11 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
 
 }  // namespace
 
-Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, interfaces::Interfaces ties,
+Contact build(const mesh::Mesh& mesh, elasticity::Bodies& bodies, interfaces::Interfaces ties,
               const Settings& settings) {
   OwnedMat periodic = periodicity(mesh);
   auto all = interfaces::findNodes(mesh, bodies, periodic, std::move(ties));
+  elasticity::addLayers(interfaces::layerStiffness(mesh, all, periodic), bodies);
   requireRestingPads(mesh, bodies, all);
   requireFlatObstacles(mesh, all);
   auto kinematics = kinematicsOf(mesh, all, periodic);

@@ -10,11 +10,12 @@
 namespace squeal::contact {
 
 /// Collective. Builds normals, slip directions, constraints and all matrices. `ties` is the result
-/// of ties::findTies(). The result borrows `mesh`. Throws Error for surfaces that do not meet, a
+/// of ties::findTies(). Adds the stiffness of compliant layers to `bodies`. The result borrows
+/// `mesh`. Throws Error for surfaces that do not meet, a
 /// wrong constraint, a moving pad, a held component that is not tangential at a contact node, and
 /// an obstacle face that is not flat. Also throws Error for a rigid-body mode with closed contact;
 /// the message names body and motion.
-Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, interfaces::Interfaces ties,
+Contact build(const mesh::Mesh& mesh, elasticity::Bodies& bodies, interfaces::Interfaces ties,
               const Settings& settings);
 
 /// Collective. Keeps the lengths of bolts from now on: `openings` of their sections along the

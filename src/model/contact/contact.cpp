@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "base/petsc/arrays.hpp"
 #include "model/interfaces/algebra.hpp"
@@ -102,6 +103,15 @@ std::vector<double> Contact::gapForce(const std::vector<double>& nodal) const {
 
 std::vector<double> Contact::nodalGap(const std::vector<double>& gap) const {
   return interfaces.gapBasis ? applied(*this, MatMult, interfaces.gapBasis.matrix, gap) : gap;
+}
+
+void Contact::moveFromLayers(Vec forces) const {
+  const WriteArray values(forces);
+  const PetscInt dimension = mesh->dimension;
+  for (const auto& node : interfaces.nodes)
+    for (PetscInt d = 0; d < dimension && node.hasLayer(); ++d)
+      values[dimension * node.surfaceNode + d] +=
+          std::exchange(values[dimension * node.node + d], 0.0);
 }
 
 std::vector<int> Contact::frictionExponents() const {

@@ -61,7 +61,8 @@ Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
   if (prestress) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stressed.out()));
     check(MatAXPY(stressed, 1, prestress,
-                  bodies.linkStiffness ? SUBSET_NONZERO_PATTERN : SAME_NONZERO_PATTERN));
+                  bodies.linkStiffness || bodies.layerStiffness ? SUBSET_NONZERO_PATTERN
+                                                                : SAME_NONZERO_PATTERN));
     check(MatSetOption(stressed, MAT_SYMMETRIC, PETSC_TRUE));
   }
   const auto projected = [&](Mat x) { return project(contact, result.transformation, x); };

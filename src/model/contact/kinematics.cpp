@@ -108,6 +108,10 @@ Factors::Factors(const mesh::Mesh& mesh, const interfaces::Interfaces& all)
       values_(all.constraints.held.size(), 0.0) {
   const auto hold = [&](PetscInt i) { free_[i] = 0, values_[i] = all.constraints.displacement[i]; };
   for (const auto& connection : all.connections) levels_[connection.node] = connection.level;
+  for (const auto& [node, layer] : mesh.layers)  // layer nodes without a gap are not used
+    for (int d = 0; d < dimension_; ++d) free_[row(layer, d)] = 0;
+  for (const auto& node : all.nodes)
+    if (node.hasLayer()) free_[row(node.node, dimension_ - 1)] = 1;
   for (PetscInt i = 0; i < dimension_ * mesh.ownedNodes; ++i)
     if (levels_[i / dimension_] == 0 && all.constraints.held[i]) hold(i);
   for (const auto& tied : all.tied)
@@ -127,12 +131,19 @@ void Factors::setContactRow(std::size_t k, Mat a) {
   const auto& node = all_.nodes[k];
   const bool sticks = node.role == Role::sticking;
   const Frame frame = frameOf(node, all_, dimension_);
+  const bool follows = node.hasLayer() && !sticks;  // its node on the face, along the face
   std::vector<double> block(dimension_ * dimension_);
   for (int i = 0; i < dimension_; ++i) {
-    for (int t = 0; t < dimension_ - 1; ++t) block[i * dimension_ + t] = frame.tangents[t][i];
+    for (int t = 0; t < dimension_ - 1 && !follows; ++t)
+      block[i * dimension_ + t] = frame.tangents[t][i];
     block[i * dimension_ + dimension_ - 1] = node.side * node.normal[i];
   }
   setBlock(a, dimension_, node.globalNode, node.globalNode, block);
+  if (follows) {
+    block = outer(node.normal, node.normal, dimension_, -1);
+    for (int i = 0; i < dimension_; ++i) block[i * dimension_ + i] += 1;
+    setBlock(a, dimension_, node.globalNode, mesh_.firstNode + node.surfaceNode, block);
+  }
   for (const auto& [master, weight] : all_.connections[k].masters)
     setBlock(a, dimension_, node.globalNode, master,
              sticks ? identity(dimension_, weight)
@@ -224,9 +235,9 @@ PetscInt gapRow(const mesh::Mesh& mesh, const ContactNode& node) {
 std::vector<PetscInt> blocksOfRows(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
                                    int level) {
   std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
-  for (const auto& connection : all.connections)
-    if (level == 0 || connection.level == level)
-      blocks[connection.node] += connection.masters.size();
+  for (std::size_t k = 0; k < all.connections.size(); ++k)
+    if (const auto& connection = all.connections[k]; level == 0 || connection.level == level)
+      blocks[connection.node] += connection.masters.size() + all.nodes[k].hasLayer();
   if (level > 0) interfaces::countBlocks(all, level, blocks);
   return blocks;
 }

@@ -55,6 +55,10 @@ std::vector<double> spread(const Contact& contact, Mat basis, const Value& value
     check(MatMult(basis, field, moved));
     std::swap(field, moved);
   }
+  if (contact.interfaces.layerExchange) {  // to the nodes on the faces
+    check(MatMult(contact.interfaces.layerExchange, field, moved));
+    std::swap(field, moved);
+  }
   check(MatMult(contact.periodic, field, moved));
   return elasticity::localValues(mesh, moved);
 }
@@ -161,7 +165,11 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
   const OwnedMat unfolded = toMatrix(mesh, triples, elasticity::SymmetryClass::symmetric);
   OwnedMat response;
   check(MatPtAP(unfolded, contact.periodic, MAT_INITIAL_MATRIX, PETSC_DEFAULT, response.out()));
-  return response;
+  if (!contact.interfaces.layerExchange) return response;
+  OwnedMat exchanged;
+  check(MatPtAP(response, contact.interfaces.layerExchange, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                exchanged.out()));
+  return exchanged;
 }
 
 }  // namespace squeal::contact

@@ -49,14 +49,16 @@ OwnedMat jumpRows(const SlidingInput& input) {
   return jump;
 }
 
-/// Returns the matrix that gives u_D at the position of each slave node, in its rows, if the meshes
-/// match or the slave is the disc. Images are treated like their primaries.
+/// Returns the matrix that gives u_D at the position of each slave node, in the rows of its node on
+/// the face, if the meshes match or the slave is the disc. Images are treated like their primaries.
 OwnedMat masterRows(const SlidingInput& input) {
   const auto& mesh = input.mesh;
   OwnedMat primaries = nodalMatrix(mesh, 1), result;
-  for (const auto& node : input.interfaces.nodes)
-    if (const PetscInt disc = node.side < 0 ? node.globalNode : node.master; disc >= 0)
-      setBlock(primaries, mesh.dimension, node.globalNode, disc, identity(mesh.dimension, 1));
+  for (const auto& node : input.interfaces.nodes) {
+    const PetscInt own = mesh.firstNode + node.surfaceNode,
+                   disc = node.side < 0 ? own : node.master;
+    if (disc >= 0) setBlock(primaries, mesh.dimension, own, disc, identity(mesh.dimension, 1));
+  }
   assembled(primaries);
   check(MatMatMult(input.periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
@@ -128,6 +130,8 @@ OwnedMat convectedByFaces(const SlidingInput& input) {
   check(MatTransposeMatMult(input.periodic, atFaces, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                             result.out()));
   check(MatDiagonalScale(result, folded, nullptr));
+  if (input.interfaces.layerExchange)
+    result = interfaces::product(input.interfaces.layerExchange, result);
   return result;
 }
 

@@ -29,7 +29,7 @@ void visitContact(const mesh::Mesh& mesh, const Contact& contact, const Supporti
     if (!holding.closed.empty() && !holding.closed[i]) continue;
     const bool sticks =
         node.role == Role::sticking && (holding.released.empty() || !holding.released[i]);
-    Support support{.node = node.node,
+    Support support{.node = node.surfaceNode,
                     .position = node.position,
                     .direction = {},
                     .masterPosition = node.position,

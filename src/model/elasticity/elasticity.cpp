@@ -174,6 +174,11 @@ void assembleLoads(const mesh::Mesh& mesh, const std::vector<attachments::Form>&
 
 }  // namespace
 
+void addLayers(OwnedMat stiffness, Bodies& bodies) {
+  addMatrix(bodies.stiffness, stiffness);
+  bodies.layerStiffness = std::move(stiffness);
+}
+
 bool locks(double poisson) { return poisson > leastLocking; }
 
 std::vector<PetscInt> linearCells(const mesh::Mesh& mesh, const Settings& settings) {

@@ -27,8 +27,9 @@ struct Bodies {
                                ///< symmetric, N/m; null if G is
   OwnedVec load;         ///< b, N entries, N: all loads, and centrifugal forces of the base motions
   OwnedVec centrifugal;  ///< the centrifugal part of b, N entries, N
-  OwnedVec constantLoad;   ///< the part of b that no sweep scales, N entries, N; null if none
-  OwnedMat linkStiffness;  ///< the part of K of springs and bushings, N×N, N/m; null if none
+  OwnedVec constantLoad;    ///< the part of b that no sweep scales, N entries, N; null if none
+  OwnedMat linkStiffness;   ///< the part of K of springs and bushings, N×N, N/m; null if none
+  OwnedMat layerStiffness;  ///< the part of K of compliant contact layers, N×N, N/m; null if none
   std::vector<attachments::Form> links;  ///< springs and bushings, the same on all ranks
   OwnedVec springs;             ///< stiffness of grounded springs, N entries, N/m; null if none
   std::vector<Motion> motions;  ///< [body], base motions
@@ -43,6 +44,9 @@ struct Bodies {
 /// integration of other cells than hex20.
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
                 const Settings& settings);
+
+/// Collective. Adds the stiffness of compliant contact layers, N×N, N/m, which may be null.
+void addLayers(OwnedMat stiffness, Bodies& bodies);
 
 /// Returns true if a material of this Poisson's ratio is so nearly incompressible that linear cells
 /// without incompatible modes lock: such a cell cannot deform at constant volume at each point of

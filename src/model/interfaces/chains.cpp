@@ -59,14 +59,18 @@ class MasterLevels {
 };
 
 /// Returns all nodes that depend on others.
-std::vector<Follower> followersOf(Interfaces& all) {
+std::vector<Follower> followersOf(const mesh::Mesh& mesh, Interfaces& all) {
   std::vector<Follower> followers;
   const auto add = [&](PetscInt node, const auto& masters, int& level) {
     followers.push_back({node, {}, &level});
     for (const auto& master : masters) followers.back().masters.push_back(master.node);
   };
-  for (auto& connection : all.connections)
+  for (std::size_t k = 0; k < all.connections.size(); ++k) {
+    auto& connection = all.connections[k];
     add(connection.node, connection.masters, connection.level);
+    if (all.nodes[k].hasLayer())
+      followers.back().masters.push_back(mesh.firstNode + all.nodes[k].surfaceNode);
+  }
   for (auto& node : all.tied)
     add(node.connection.node, node.connection.masters, node.connection.level);
   for (auto& node : all.coupled) add(node.node, node.masters, node.level);
@@ -106,7 +110,7 @@ std::string interfacesAt(const mesh::Mesh& mesh, const Interfaces& all, int leve
 }  // namespace
 
 void setLevels(const mesh::Mesh& mesh, Interfaces& all) {
-  const std::vector<Follower> followers = followersOf(all);
+  const std::vector<Follower> followers = followersOf(mesh, all);
   MasterLevels masters(mesh, mastersOf(followers));
   // An acyclic chain passes each coupling at most once and each interface once or, with tied pairs
   // of nodes, twice.

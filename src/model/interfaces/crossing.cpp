@@ -37,7 +37,7 @@ NodalIntegrals integrals(const mesh::Mesh& mesh, const coupling::NodeExchange& e
   const std::vector<double> zeros(mesh.localNodes(), 0.0);
   NodalIntegrals around{zeros, zeros, zeros, zeros};
   for (const auto& node : all.nodes)
-    if (node.interface == interface) around.body[node.node] = node.discBody + 1;
+    if (node.interface == interface) around.body[node.surfaceNode] = node.discBody + 1;
   exchange.largest(around.body);
   const std::string& surface = all.slaves[interface].surface;
   for (const auto& block : mesh.faces) {

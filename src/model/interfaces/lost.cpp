@@ -44,7 +44,8 @@ class Owners {
   /// Collective.
   Owners(const mesh::Mesh& mesh, const Interfaces& all) : mesh_(mesh), all_(all) {
     std::vector<Gap> gaps;
-    for (const auto& node : all.nodes) gaps.push_back({node.globalNode, node.interface});
+    for (const auto& node : all.nodes)
+      gaps.push_back({mesh.firstNode + node.surfaceNode, node.interface});
     for (const auto& gap : concatenated(mesh.comm, gaps)) gaps_[gap.node] = gap.interface;
     for (const auto& tied : all.tied) tied_[tied.connection.node] = &tied;
     std::vector<Link> links;

@@ -18,11 +18,30 @@
 #include "model/interfaces/crossing.hpp"
 #include "model/interfaces/dependence.hpp"
 #include "model/interfaces/equations.hpp"
+#include "model/interfaces/layers.hpp"
 #include "model/interfaces/lost.hpp"
 #include "model/mesh/vector.hpp"
 
 namespace squeal::interfaces {
 namespace {
+
+/// The nodes with the gaps: on interfaces with a compliant layer the layer nodes.
+class GapBearers {
+ public:
+  explicit GapBearers(const mesh::Mesh& mesh) : layer_(mesh.ownedNodes, -1) {
+    for (const auto& [node, layer] : mesh.layers) layer_[node] = layer;
+  }
+  /// Returns the local node.
+  PetscInt of(const Candidate& candidate, const Interfaces& all) const {
+    const PetscInt node = candidate.slave.node;
+    if (all.options[candidate.interface].layerStiffness == 0) return node;
+    ensure(layer_[node] >= 0, "the nodes of compliant contact have layer nodes");
+    return layer_[node];
+  }
+
+ private:
+  std::vector<PetscInt> layer_;  // [owned node] its layer node, −1 without one
+};
 
 /// Sums over the slave faces at each node: area-weighted normals (from disc to pad) and ∫ φ̃ dA.
 /// Sums of images are added to those of their primaries.
@@ -80,7 +99,8 @@ void setSlip(const Point& velocity, double fastest, ContactNode& node) {
 }
 
 void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-               const std::vector<Candidate>& candidates, Mat periodic, Interfaces& all) {
+               const std::vector<Candidate>& candidates, const GapBearers& layers, Mat periodic,
+               Interfaces& all) {
   const FaceSums sums = sumFaces(mesh, all, periodic);
   const auto velocityOf = [&](const Candidate& node) {
     return node.discBody >= 0
@@ -94,10 +114,12 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   for (const auto& candidate : candidates) {
     const auto& slave = candidate.slave;
     const auto& options = all.options[candidate.interface];
+    const PetscInt own = layers.of(candidate, all);
     const bool paired = all.reports[candidate.interface].matching;
     ContactNode node{};
     node.position = mesh.coordinates[slave.node];
-    node.node = slave.node, node.globalNode = mesh.firstNode + slave.node;
+    node.node = own, node.globalNode = mesh.firstNode + own;
+    node.surfaceNode = slave.node;
     node.master = candidate.partner, node.interface = candidate.interface;
     node.role = options.role;
     node.side = all.slaves[candidate.interface].sign;
@@ -112,6 +134,7 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
     setSlip(velocityOf(candidate), fastest, node);
     all.nodes.push_back(std::move(node));
     all.connections.push_back(connectionOf(slave));
+    all.connections.back().node = own;
   }
 }
 
@@ -123,6 +146,14 @@ std::vector<int> interfacesOf(const mesh::Mesh& mesh, const coupling::NodeExchan
   std::vector<int> found;
   for (double number : numbers) found.push_back(std::lround(number) - 1);
   return found;
+}
+
+/// Collective. Moves the gap basis to the layer nodes.
+void moveToLayers(const mesh::Mesh& mesh, Mat periodic, Interfaces& all) {
+  all.layerExchange = layerExchange(mesh, all, periodic);
+  if (!all.layerExchange || !all.gapBasis) return;
+  for (OwnedMat* basis : {&all.gapBasis.matrix, &all.gapBasis.inverse})
+    *basis = product(product(all.layerExchange, *basis), all.layerExchange);
 }
 
 /// Collective. Counts the nodes of each interface in contact.
@@ -210,7 +241,10 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, M
       claims.add(nodesOf(found), all.options, i);
       std::move(found.begin(), found.end(), std::back_inserter(touching));
     }
-  const auto before = [](const auto& a, const auto& b) { return a.slave.node < b.slave.node; };
+  const GapBearers layers(mesh);
+  const auto before = [&](const Candidate& a, const Candidate& b) {
+    return layers.of(a, all) < layers.of(b, all);
+  };
   std::stable_sort(touching.begin(), touching.end(), before);
   std::vector<CombinedGap> given;
   std::vector<std::string> paired;
@@ -222,7 +256,8 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, M
       paired.push_back(all.slaves[i].surface);
   all.interfaceOf = interfacesOf(mesh, exchange, touching);
   all.gapBasis = gapBasis(mesh, paired, all.interfaceOf, given, periodic);
-  fillNodes(mesh, bodies, touching, periodic, all);
+  fillNodes(mesh, bodies, touching, layers, periodic, all);
+  moveToLayers(mesh, periodic, all);
   countNodes(mesh.comm, all);
   checkCrossing(mesh, exchange, bodies, all);
   rejectTwoMasters(mesh, all);

@@ -16,8 +16,9 @@
 
 namespace squeal::interfaces {
 
-/// A node in contact, owned by this rank, on the slave side (the pad if the meshes match). Contact
-/// nodes are in the order of local nodes.
+/// A node in contact, owned by this rank, on the slave side (the pad if the meshes match). On an
+/// interface with a compliant layer it is a layer node. Contact nodes are in the order of local
+/// nodes.
 struct ContactNode {
   Point position;    ///< m
   Point normal;      ///< n, unit, from disc to pad
@@ -25,17 +26,20 @@ struct ContactNode {
   double slipSpeed;  ///< |w| at the base motions, m/s
   double area;  ///< ∫ ψ dA over the part of the faces in contact, positive, m² (m in the plane);
                 ///< ∫ φ̃ dA if the meshes match
-  double wholeArea;     ///< ∫ φ̃ dA over the faces of the slave, m² (m)
-  double gap;           ///< gap without load, m
-  int interface;        ///< index into Interfaces::options
-  Role role;            ///< never tied
-  int side;             ///< +1 if the slave is the pad, −1 if it is the disc
-  PetscInt node;        ///< local node
-  PetscInt globalNode;  ///< global node
-  PetscInt master;      ///< global node of the disc if the meshes match; otherwise −1
-  int discBody;         ///< index into Mesh::bodies; −1 on a rigid obstacle
+  double wholeArea;      ///< ∫ φ̃ dA over the faces of the slave, m² (m)
+  double gap;            ///< gap without load, m
+  int interface;         ///< index into Interfaces::options
+  Role role;             ///< never tied
+  int side;              ///< +1 if the slave is the pad, −1 if it is the disc
+  PetscInt node;         ///< local node with the gap
+  PetscInt globalNode;   ///< global node with the gap
+  PetscInt surfaceNode;  ///< local node on the face; another one than `node` below a layer
+  PetscInt master;       ///< global node of the disc if the meshes match; otherwise −1
+  int discBody;          ///< index into Mesh::bodies; −1 on a rigid obstacle
   /// parts of the master; none on a rigid obstacle
   std::vector<coupling::PartShare> masterParts;
+
+  bool hasLayer() const { return surfaceNode != node; }
 };
 
 /// The coupling of a node i of the slave side with nodes l of the master side:
@@ -132,6 +136,8 @@ struct Interfaces {
   std::vector<int> interfaceOf;
   int levels = 1;     ///< largest level of a connection of all ranks
   GapBasis gapBasis;  ///< E
+  /// N×N, exchanges each node below a compliant layer with its layer node; null without layers
+  OwnedMat layerExchange;
 
   /// Returns true if a node that two interfaces share has the same gap on both: they slide on the
   /// same surface of a disc.

@@ -53,6 +53,13 @@ const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveName
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance between two faces that the program pairs if the "
                               "two meshes do not match; 0 = automatic (half the size of a face)");
+const RealOption stiffnessOption(
+    "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
+    "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
+const RealOption tangentialStiffnessOption(
+    "contact", "contact_<interface>_stiffness_tangential", 0.0, "N/m3", nonNegative,
+    "sticking interface with a contact stiffness: shear stress per tangential displacement of the "
+    "layer");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
     "slave surface group of a tie, preferably the one with the finer mesh");
@@ -100,15 +107,24 @@ void rejectIdleOptions(const InterfaceSettings& interface) {
   if (frictionOption.given(name))
     reject(factorOption, "is a factor on -flutter_friction, which -" +
                              frictionOption.fullName(name) + " replaces; give one of them");
+  if (interface.isTied())
+    reject(stiffnessOption, "has no effect on a tied interface; model the layer as a body");
+  if (interface.role != Role::sticking || interface.layerStiffness == 0)
+    reject(tangentialStiffnessOption, role + " sticking and -" + stiffnessOption.fullName(name));
+  if (interface.role == Role::sticking && interface.layerStiffness > 0 &&
+      interface.layerTangentialStiffness == 0)
+    throw Error("option -" + stiffnessOption.fullName(name) +
+                ": a sticking interface with a soft layer also needs -" +
+                tangentialStiffnessOption.fullName(name));
   if (interface.isTied()) reject(gapOption, "has no effect on a tied interface, which has no gap");
 }
 
 /// Throws Error for options of an interface or a tie that lacks a surface.
 void requireSurfaces() {
-  requireOption(
-      {&discOption, &obstacleVelocityOption, &obstacleDisplacementOption, &roleOption,
-       &factorOption, &frictionOption, &releaseOption, &gapOption, &slaveOption, &searchOption},
-      padOption);
+  requireOption({&discOption, &obstacleVelocityOption, &obstacleDisplacementOption, &roleOption,
+                 &factorOption, &frictionOption, &releaseOption, &gapOption, &slaveOption,
+                 &searchOption, &stiffnessOption, &tangentialStiffnessOption},
+                padOption);
   requireOption({&tieMasterOption, &toleranceOption, &adjustOption}, tieSlaveOption);
   requireOption({&tieSlaveOption}, tieMasterOption);
 }
@@ -152,6 +168,8 @@ InterfaceSettings contactGiven(mesh::InterfaceRequest surfaces) {
   if (interface.role == Role::sticking && frictionOption.given(name))
     interface.stickingLimit = frictionOption.get(name);
   interface.releases = releaseOption.get(name);
+  interface.layerStiffness = stiffnessOption.get(name);
+  interface.layerTangentialStiffness = tangentialStiffnessOption.get(name);
   const auto gap = gapOption.get(name);
   interface.gapIsMeasured = !gap;
   interface.gap = gap.value_or(0);
@@ -194,7 +212,13 @@ std::vector<int> frictionExponents(const std::vector<InterfaceSettings>& interfa
 
 std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings) {
   std::vector<mesh::InterfaceRequest> requests;
-  for (const auto& interface : settings.interfaces) requests.push_back(interface.surfaces);
+  for (const auto& interface : settings.interfaces) {
+    auto& request = requests.emplace_back(interface.surfaces);
+    if (interface.layerStiffness == 0) continue;
+    request.layered.push_back(request.pad.name);
+    if (interface.slave != SlaveChoice::pad && !interface.onObstacle())
+      request.layered.push_back(request.disc.name);
+  }
   return requests;
 }
 

@@ -51,7 +51,10 @@ struct InterfaceSettings {
   std::optional<double> stickingLimit;
   bool releases = false;       ///< nodes of a sticking interface slide if they exceed this limit
   bool gapIsMeasured = false;  ///< the gap without load is the distance of the surfaces
-  double gap = 0;       ///< gap without load if it is not measured, m; negative: interference
+  double gap = 0;  ///< gap without load if it is not measured, m; negative: interference
+  /// Stiffness of a compliant layer along the normal and, on a sticking interface, along the face,
+  /// N/m³; 0: hard contact.
+  double layerStiffness = 0, layerTangentialStiffness = 0;
   bool adjust = false;  ///< of a tie: its nodes are moved onto the master
 
   /// Returns true for a tie, false for contact, whether its role is tied or not.

@@ -81,6 +81,13 @@ struct SectionPair {
   int lowerPart;   ///< connected part of the lower node
 };
 
+/// A node in no cell, at the place of a node on a surface whose compliant layer it moves with: the
+/// layer lies between the two.
+struct LayerNode {
+  PetscInt node;   ///< local node on the surface (owned)
+  PetscInt layer;  ///< local node (owned)
+};
+
 /// How the meshes of the two sides of an interface fit together.
 struct InterfaceMatch {
   std::string label;  ///< of the request, the key of the interface
@@ -140,6 +147,8 @@ struct Mesh {
   std::vector<Reference> references;
   std::vector<Section> sections;  ///< the same on all ranks
   std::vector<SectionPair> sectionPairs;
+  std::vector<LayerNode> layers;  ///< owned by this rank; images and unused ones too
+  PetscInt layerNodes = 0;        ///< of all ranks
   std::vector<Image> images;
   std::vector<ContactPair> pairs;          ///< of the interfaces that match
   std::vector<InterfaceMatch> interfaces;  ///< in the order of the request
@@ -151,7 +160,7 @@ struct Mesh {
     return local >= 0 && local < ownedNodes ? local : -1;
   }
   /// Returns the number of the nodes of all ranks that are in cells.
-  PetscInt cellNodes() const { return totalNodes - 2 * std::ssize(references); }
+  PetscInt cellNodes() const { return totalNodes - 2 * std::ssize(references) - layerNodes; }
   /// Returns the reference node that has this global node; null if there is none. Borrowed.
   const Reference* referenceWith(PetscInt global) const;
   /// Returns the reference node of this name; null if there is none. Borrowed.
@@ -181,6 +190,8 @@ struct InterfaceRequest {
   std::string name;
   std::string label;       ///< the kind of interface and its name: unique, for messages
   GroupRequest pad, disc;  ///< an empty name for the disc stands for a rigid obstacle
+  /// Surfaces whose nodes need layer nodes: those that may bear the gaps over a compliant layer.
+  std::vector<std::string> layered = {};
 };
 
 /// A PeriodicRequest asks for a periodic constraint: the group `image` is the group `of`,

@@ -9,6 +9,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/system/mpi.hpp"
+#include "model/mesh/layers.hpp"
 #include "model/mesh/pairing.hpp"
 #include "model/mesh/partition.hpp"
 #include "model/mesh/serialization.hpp"
@@ -38,6 +39,7 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
   // The first rank owns reference nodes, which are in no cell.
   for (const auto& reference : mesh.references)
     numbering.owner[reference.displacement] = numbering.owner[reference.rotation] = 0;
+  for (const auto& [node, layer] : mesh.layers) numbering.owner[layer] = numbering.owner[node];
   numbering.whole.resize(mesh.points.size());
   std::iota(numbering.whole.begin(), numbering.whole.end(), 0);
   std::stable_sort(numbering.whole.begin(), numbering.whole.end(),
@@ -57,9 +59,9 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
 /// The items of the mesh by the rank that gets them, so that all parts are
 /// made in one pass over the mesh.
 struct Shares {
-  std::vector<std::vector<std::vector<PetscInt>>> cells, faces;  // [rank][block] -> element
-  std::vector<std::vector<PetscInt>> images, pairs, sections;    // [rank] -> item
-  std::vector<std::vector<std::vector<PetscInt>>> groups;        // [rank][group] -> whole node
+  std::vector<std::vector<std::vector<PetscInt>>> cells, faces;        // [rank][block] -> element
+  std::vector<std::vector<PetscInt>> images, pairs, sections, layers;  // [rank] -> item
+  std::vector<std::vector<std::vector<PetscInt>>> groups;  // [rank][group] -> whole node
 };
 
 Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vector<int>& cellRank,
@@ -71,6 +73,7 @@ Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vecto
   shares.images.resize(ranks);
   shares.pairs.resize(ranks);
   shares.sections.resize(ranks);
+  shares.layers.resize(ranks);
   std::size_t cell = 0;
   for (std::size_t b = 0; b < mesh.cells.size(); ++b)
     for (std::size_t e = 0; e < mesh.cells[b].tag.size(); ++e, ++cell)
@@ -84,6 +87,8 @@ Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vecto
     shares.pairs[numbering.owner[mesh.pairs[i].node]].push_back(i);
   for (std::size_t i = 0; i < mesh.sectionPairs.size(); ++i)
     shares.sections[numbering.owner[mesh.sectionPairs[i].node]].push_back(i);
+  for (std::size_t i = 0; i < mesh.layers.size(); ++i)
+    shares.layers[numbering.owner[mesh.layers[i].node]].push_back(i);
   std::size_t g = 0;
   for (const auto& [name, nodes] : mesh.nodeGroups) {
     for (PetscInt node : nodes) shares.groups[numbering.owner[node]][g].push_back(node);
@@ -208,6 +213,9 @@ Mesh partOf(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   part.sectionPairs = picked(mesh.sectionPairs, shares.sections[rank]);
   for (auto& pair : part.sectionPairs)
     pair.node = local.of(pair.node), pair.lower = numbering.global[pair.lower];
+  part.layers = picked(mesh.layers, shares.layers[rank]);
+  for (auto& [node, layer] : part.layers) node = local.of(node), layer = local.of(layer);
+  part.layerNodes = std::ssize(mesh.layers);
   part.references = mesh.references;
   for (auto& reference : part.references)
     for (PetscInt* node : {&reference.displacement, &reference.rotation})
@@ -255,6 +263,7 @@ Mesh read(MPI_Comm comm, const Request& request, const meshfile::Settings& file,
       WholeMesh whole = load(file, request, reader);
       pairNodes(whole, request);
       straighten(whole, geometry, settings.straightening);
+      addLayers(whole, request);
       const auto cellRank = partition(whole, size);
       const Numbering numbering = number(whole, cellRank, size);
       const Shares shares = share(whole, numbering, cellRank, size);

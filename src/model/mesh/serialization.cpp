@@ -33,10 +33,12 @@ void fields(Stream& stream, Section& section) {
 void fields(Stream& stream, Mesh& mesh) {
   auto& [comm, dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
          globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
-         faces, nodeGroups, references, sections, sectionPairs, images, pairs, interfaces] = mesh;
+         faces, nodeGroups, references, sections, sectionPairs, layers, layerNodes, images, pairs,
+         interfaces] = mesh;
   stream(dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
          globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
-         faces, nodeGroups, references, sections, sectionPairs, images, pairs, interfaces);
+         faces, nodeGroups, references, sections, sectionPairs, layers, layerNodes, images, pairs,
+         interfaces);
 }
 
 }  // namespace squeal::mesh

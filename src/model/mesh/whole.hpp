@@ -19,7 +19,7 @@ struct WholeFaces : WholeBlock {
   std::vector<int> sign;       ///< see FaceBlock
 };
 
-/// The whole mesh, of which load() fills all but primary, images, pairs and interfaces.
+/// The whole mesh, of which load() fills all but primary, images, pairs, interfaces and layers.
 struct WholeMesh {
   int dimension = 0;
   std::vector<Point> points;
@@ -37,6 +37,7 @@ struct WholeMesh {
   std::vector<Section> sections;           ///< see Mesh
   std::vector<SectionPair> sectionPairs;   ///< in numbers of the whole mesh
   std::vector<Reference> references;       ///< see Mesh, in numbers of the whole mesh
+  std::vector<LayerNode> layers;           ///< in numbers of the whole mesh
   std::vector<PetscInt> primary;           ///< [node] the node that it repeats, itself if none
   std::vector<Image> images;               ///< in numbers of the whole mesh
   std::vector<ContactPair> pairs;          ///< in numbers of the whole mesh

@@ -96,6 +96,7 @@ Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings,
   const auto adjusted = [](const InterfaceSettings& options) { return options.adjust; };
   if (std::any_of(all.options.begin(), all.options.end(), adjusted))
     moveOntoMasters(mesh, exchange, all);
+  for (const auto& [node, layer] : mesh.layers) mesh.coordinates[layer] = mesh.coordinates[node];
   all.constraints = constraints::constraintsOf(mesh, supports);
   all.coupled = constraints::coupledNodes(mesh, supports);
   all.couplings = constraints::couplingNames(supports);

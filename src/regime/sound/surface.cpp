@@ -53,7 +53,7 @@ Marks nodesOf(const mesh::Mesh& mesh, const contact::Contact& contact, int inter
   };
   for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
     if (contact.interfaces.nodes[i].interface == interface)
-      add(contact.interfaces.connections[i], contact.interfaces.nodes[i].node);
+      add(contact.interfaces.connections[i], contact.interfaces.nodes[i].surfaceNode);
   for (const auto& tied : contact.interfaces.tied)
     if (tied.interface == interface) add(tied.connection, tied.connection.node);
   return marked(mesh, nodes, &contact);

@@ -54,7 +54,7 @@ interfaces::Interfaces findTies(mesh::Mesh& mesh, const ModelSettings& settings)
   return ties;
 }
 
-contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+contact::Contact buildContact(const mesh::Mesh& mesh, elasticity::Bodies& bodies,
                               interfaces::Interfaces ties, const contact::Settings& settings) {
   Stage stage(mesh.comm, "contact");
   contact::Contact contact = contact::build(mesh, bodies, std::move(ties), settings);

@@ -33,16 +33,16 @@ Marks marked(const mesh::Mesh& mesh, const std::vector<PetscInt>& globalNodes) {
 /// Returns the nodes of this rank that touch or are tied on an interface, and their masters.
 std::vector<PetscInt> nodesOf(const Subject& model, int interface) {
   std::vector<PetscInt> nodes;
-  const auto add = [&](const interfaces::Connection& connection) {
-    nodes.push_back(model.mesh.globalNode[connection.node]);
+  const auto add = [&](const interfaces::Connection& connection, PetscInt node) {
+    nodes.push_back(model.mesh.globalNode[node]);
     for (const auto& master : connection.masters)
       if (master.value != 0) nodes.push_back(master.node);
   };
   const auto& all = model.contact.interfaces;
   for (std::size_t i = 0; i < all.nodes.size(); ++i)
-    if (all.nodes[i].interface == interface) add(all.connections[i]);
+    if (all.nodes[i].interface == interface) add(all.connections[i], all.nodes[i].surfaceNode);
   for (const auto& tied : all.tied)
-    if (tied.interface == interface) add(tied.connection);
+    if (tied.interface == interface) add(tied.connection, tied.connection.node);
   return nodes;
 }
 

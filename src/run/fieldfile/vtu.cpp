@@ -82,13 +82,15 @@ struct Piece {
   std::vector<std::vector<float>> fields;       // [field][node][component]
 };
 
-/// Returns the part of this rank, without reference nodes, which are in no cell.
+/// Returns the part of this rank, without reference nodes and layer nodes, which are in no cell.
 Piece ownPiece(const mesh::Mesh& mesh, const std::vector<Field>& fields, int rank) {
   Piece piece;
   std::vector<PetscInt> number(mesh.localNodes(), -1);  // in the piece
   piece.fields.resize(fields.size());
+  std::vector<unsigned char> isLayer(mesh.localNodes(), 0);
+  for (const auto& [node, layer] : mesh.layers) isLayer[layer] = 1;
   for (PetscInt node = 0; node < mesh.localNodes(); ++node) {
-    if (mesh.referenceWith(mesh.globalNode[node])) continue;
+    if (isLayer[node] || mesh.referenceWith(mesh.globalNode[node])) continue;
     number[node] = std::ssize(piece.nodeTag);
     const auto& x = mesh.coordinates[node];
     piece.coordinates.insert(piece.coordinates.end(), x.begin(), x.end());

@@ -32,7 +32,8 @@ OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution
   const auto& mesh = *analysis.model.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const PetscInt row = mesh.dimension * analysis.model.contact.interfaces.nodes[i].globalNode;
+    const auto& node = analysis.model.contact.interfaces.nodes[i];
+    const PetscInt row = mesh.dimension * (mesh.firstNode + node.surfaceNode);
     check(VecSetValue(field, row, solution.contact[i].pressure, INSERT_VALUES));
     check(VecSetValue(field, row + 1, solution.contact[i].gap, INSERT_VALUES));
   }
@@ -48,7 +49,7 @@ OwnedVec workField(const analysis::Analysis& analysis, const pencil::Shape& shap
   OwnedVec field = elasticity::nodalVector(mesh);
   for (std::size_t i = 0; i < shape.frictionWork.size(); ++i) {
     const auto& node = analysis.model.contact.interfaces.nodes[i];
-    const PetscInt row = mesh.dimension * node.globalNode;
+    const PetscInt row = mesh.dimension * (mesh.firstNode + node.surfaceNode);
     check(VecSetValue(field, row, shape.frictionWork[i], INSERT_VALUES));
     check(VecSetValue(field, row + 1, shape.frictionWork[i] / node.area, INSERT_VALUES));
   }

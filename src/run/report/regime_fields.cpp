@@ -20,10 +20,11 @@ using Value = std::function<double(std::size_t)>;
 /// Collective. Returns a nodal vector with a value at the contact nodes of this rank in component
 /// 0, zero elsewhere.
 OwnedVec atContactNodes(const analysis::Analysis& analysis, const Value& value) {
-  OwnedVec field = elasticity::nodalVector(*analysis.model.mesh);
+  const auto& mesh = *analysis.model.mesh;
+  OwnedVec field = elasticity::nodalVector(mesh);
   const auto& nodes = analysis.model.contact.interfaces.nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    check(VecSetValue(field, analysis.model.mesh->dimension * nodes[i].globalNode, value(i),
+    check(VecSetValue(field, mesh.dimension * (mesh.firstNode + nodes[i].surfaceNode), value(i),
                       INSERT_VALUES));
   check(VecAssemblyBegin(field));
   check(VecAssemblyEnd(field));

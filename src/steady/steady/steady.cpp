@@ -335,6 +335,7 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
 double Problem::imbalance(const Solution& solution, Vec nodalForces,
                           const std::vector<Point>& onPads) const {
   const int dimension = mesh_.dimension;
+  contact_.moveFromLayers(nodalForces);
   const OwnedVec atNodes = elasticity::nodalVector(mesh_),
                  contactForces = elasticity::nodalVector(mesh_);
   {
@@ -344,6 +345,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
         values[dimension * contact_.interfaces.nodes[i].node + d] = onPads[i][d];
   }
   check(MatMultTranspose(contact_.sliding.jump, atNodes, contactForces));
+  contact_.moveFromLayers(contactForces);
   addTieForces(contact_, nodalForces, contactForces);
   // [part][contact, supports, load][component], and at the end the sum of all magnitudes, the scale
   // of the terms that cancel: resultants may be zero.

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Compliant layers on contact faces. A layer of the stiffness k, N/m³, lies between the nodes P of
+/// a face and the layer nodes L, which have the gaps to the other side. Along the normal n it is a
+/// spring on the whole face [M.85],
+///   E = ½ k ∫ (Σ φ_i n_i·(u_P,i − u_L,i))² dA,
+/// and along the face L moves with P. A layer of a sticking interface is a spring along the face
+/// too. Where the other side covers only a part of the integral of a shape function, its factor √k
+/// is reduced by the square root of that part.
+#include "model/interfaces/nodes.hpp"
+
+namespace squeal::interfaces {
+
+/// Collective. Returns for the contact nodes of `all`, which are layer nodes where their interface
+/// has a layer, the N×N permutation that exchanges each of these with its node on the face, images
+/// included; null without layers.
+OwnedMat layerExchange(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic);
+
+/// Collective. Returns the stiffness of the layers, N×N, symmetric, N/m; null without layers.
+OwnedMat layerStiffness(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic);
+
+}  // namespace squeal::interfaces

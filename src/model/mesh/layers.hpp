@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The nodes of compliant contact layers. Not collective: for rank 0 only.
+#include "model/mesh/whole.hpp"
+
+namespace squeal::mesh {
+
+/// Adds a layer node for each node of the surfaces InterfaceRequest::layered, and an image for each
+/// layer node of an image. Follows pairNodes() and straighten().
+void addLayers(WholeMesh& mesh, const Request& request);
+
+}  // namespace squeal::mesh
