@@ -121,7 +121,7 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
     node.node = own, node.globalNode = mesh.firstNode + own;
     node.surfaceNode = slave.node;
     node.master = candidate.partner, node.interface = candidate.interface;
-    node.role = options.role;
+    node.role = options.role, node.separates = options.separates;
     node.side = all.slaves[candidate.interface].sign;
     node.discBody = candidate.discBody;
     node.wholeArea = paired ? area[mesh.dimension * (slave.node + 1) - 1] : slave.wholeArea;

@@ -30,6 +30,7 @@ struct ContactNode {
   double gap;            ///< gap without load, m
   int interface;         ///< index into Interfaces::options
   Role role;             ///< never tied
+  bool separates;        ///< false: its gap stays zero
   int side;              ///< +1 if the slave is the pad, −1 if it is the disc
   PetscInt node;         ///< local node with the gap
   PetscInt globalNode;   ///< global node with the gap

@@ -53,6 +53,9 @@ const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveName
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance between two faces that the program pairs if the "
                               "two meshes do not match; 0 = automatic (half the size of a face)");
+const FlagOption separationOption("contact", "contact_<interface>_separation", true,
+                                  "separation of the two sides; off: they stay in contact, also "
+                                  "under tension, which friction forbids");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
@@ -107,6 +110,10 @@ void rejectIdleOptions(const InterfaceSettings& interface) {
   if (frictionOption.given(name))
     reject(factorOption, "is a factor on -flutter_friction, which -" +
                              frictionOption.fullName(name) + " replaces; give one of them");
+  if (interface.isTied()) reject(separationOption, "has no effect on a tied interface");
+  if (!interface.separates && (interface.gapIsMeasured || interface.gap > 0))
+    throw Error("option -" + separationOption.fullName(name) + " off needs -" +
+                gapOption.fullName(name) + " zero or negative: it would pull an open gap shut");
   if (interface.isTied())
     reject(stiffnessOption, "has no effect on a tied interface; model the layer as a body");
   if (interface.role != Role::sticking || interface.layerStiffness == 0)
@@ -123,7 +130,7 @@ void rejectIdleOptions(const InterfaceSettings& interface) {
 void requireSurfaces() {
   requireOption({&discOption, &obstacleVelocityOption, &obstacleDisplacementOption, &roleOption,
                  &factorOption, &frictionOption, &releaseOption, &gapOption, &slaveOption,
-                 &searchOption, &stiffnessOption, &tangentialStiffnessOption},
+                 &searchOption, &stiffnessOption, &tangentialStiffnessOption, &separationOption},
                 padOption);
   requireOption({&tieMasterOption, &toleranceOption, &adjustOption}, tieSlaveOption);
   requireOption({&tieSlaveOption}, tieMasterOption);
@@ -168,6 +175,7 @@ InterfaceSettings contactGiven(mesh::InterfaceRequest surfaces) {
   if (interface.role == Role::sticking && frictionOption.given(name))
     interface.stickingLimit = frictionOption.get(name);
   interface.releases = releaseOption.get(name);
+  interface.separates = separationOption.get(name);
   interface.layerStiffness = stiffnessOption.get(name);
   interface.layerTangentialStiffness = tangentialStiffnessOption.get(name);
   const auto gap = gapOption.get(name);
@@ -240,6 +248,10 @@ std::string searchText(const InterfaceSettings& interface) {
 }
 
 std::string roleName(const std::string& interface) { return "-" + roleOption.fullName(interface); }
+
+std::string separationName(const std::string& interface) {
+  return "-" + separationOption.fullName(interface);
+}
 
 std::string adjustName(const std::string& tie) { return "-" + adjustOption.fullName(tie); }
 

@@ -55,7 +55,8 @@ struct InterfaceSettings {
   /// Stiffness of a compliant layer along the normal and, on a sticking interface, along the face,
   /// N/m³; 0: hard contact.
   double layerStiffness = 0, layerTangentialStiffness = 0;
-  bool adjust = false;  ///< of a tie: its nodes are moved onto the master
+  bool separates = true;  ///< false: the gap of contact stays zero, also under tension
+  bool adjust = false;    ///< of a tie: its nodes are moved onto the master
 
   /// Returns true for a tie, false for contact, whether its role is tied or not.
   bool isTie() const { return surfaces.pad.option.starts_with("-tie_"); }
@@ -85,10 +86,12 @@ std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings);
 
 /// Return names of options of an interface with their dash, for messages:
 /// `-contact_<interface>_obstacle_velocity`, `-contact_<interface>_search` or
-/// `-tie_<name>_tolerance`, `-contact_<interface>_role`, and `-tie_<name>_adjust`.
+/// `-tie_<name>_tolerance`, `-contact_<interface>_role`, `-contact_<interface>_separation`, and
+/// `-tie_<name>_adjust`.
 std::string obstacleVelocityName(const std::string& interface);
 std::string searchName(const InterfaceSettings& interface);
 std::string roleName(const std::string& interface);
+std::string separationName(const std::string& interface);
 std::string adjustName(const std::string& tie);
 /// Returns the option of the search with its value in words, for messages.
 std::string searchText(const InterfaceSettings& interface);

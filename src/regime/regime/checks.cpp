@@ -42,6 +42,10 @@ void requireSupported(const Settings& settings, const elasticity::Bodies& bodies
   if (contact.interfaces.totalNodes == 0) reject("there is no contact");
   if (bodies.gyroscopic || bodies.rotationStiffness || contact.sliding.convected)
     reject("the time integration does not support convective terms; remove -motion_convective");
+  for (const auto& interface : contact.interfaces.options)
+    if (!interface.separates)
+      reject("the time integration lets all contact separate; remove " +
+             interfaces::separationName(interface.surfaces.name));
   if (bodies.settings.prestress)
     reject(
         "the time integration does not support the geometric stiffness of the steady stress; "

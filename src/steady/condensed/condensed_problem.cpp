@@ -152,7 +152,8 @@ ContactVector CondensedProblem::complementarity(Trial& trial, const ContactVecto
                       .accuracy = trial.accuracy.target},
                      gaps, trial.solution);
   };
-  if (!solve() && trial.start.withPivots && pivotGaps(*solver_, comm(), contactCase, gaps)) solve();
+  if (!solve() && trial.start.withPivots && pivotGaps(*solver_, contact_, contactCase, gaps))
+    solve();
   return solver_->withGaps(gaps, contactCase).causes;
 }
 
@@ -177,7 +178,8 @@ std::vector<CondensedProblem::Trial*> CondensedProblem::approach(std::vector<Tri
       auto& gaps = moving[k]->start.gaps;
       for (std::size_t i = 0; i < n; ++i) {
         const double gap = found[k].causes[n + i], force = found[k].effects[n + i];
-        const bool isOpen = cases[k].conditions.free[i], opens = isOpen ? gap > 0 : force < 0;
+        const bool isOpen = cases[k].conditions.free[i],
+                   opens = contact_.interfaces.nodes[i].separates && (isOpen ? gap > 0 : force < 0);
         if (opens != isOpen) changes[k] = 1;
         // The size of a new gap is still unknown; only its sign matters.
         gaps[i] = !opens ? 0 : isOpen ? gap : moving[k]->gapUnit;

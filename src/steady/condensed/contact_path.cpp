@@ -150,15 +150,18 @@ class PathTracer {
  private:
   MPI_Comm comm() const { return problem_.comm(); }
   sweep::Parameters at(double s) const { return between(from_, to_, s); }
-  /// Returns the forces at closed nodes and the gaps at open ones, relative, [contact node].
+  /// Returns the forces at closed nodes and the gaps at open ones, relative, [contact node];
+  /// infinity at nodes that do not separate.
   const std::vector<double>& margins(double s) {
     state_ = problem_.onSet({at(s), closed_, sticking_});
     margins_.clear();
     const std::size_t n = closed_.size();
-    for (std::size_t i = 0; i < n; ++i)
-      margins_.push_back(
-          (closed_[i] ? state_.effects[n + i] : problem_.gapStiffness(i) * state_.causes[n + i]) /
-          forceUnit_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double force =
+          closed_[i] ? state_.effects[n + i] : problem_.gapStiffness(i) * state_.causes[n + i];
+      margins_.push_back(problem_.contact().interfaces.nodes[i].separates ? force / forceUnit_
+                                                                          : INFINITY);
+    }
     return margins_;
   }
   /// Returns the worst place, except `but`.

@@ -170,7 +170,11 @@ bool solveGaps(const GapTask& task, std::vector<double>& gaps, steady::Solution&
     const WriteArray start(x);
     for (PetscInt i = 0; i < n; ++i) start[i] = gaps[i] / task.gapUnit;
   }
-  check(VecSet(high, PETSC_INFINITY));
+  {
+    const WriteArray most(high);
+    for (PetscInt i = 0; i < n; ++i)
+      most[i] = task.contact.interfaces.nodes[i].separates ? PETSC_INFINITY : 0;
+  }
   const steady::OwnedSNES snes = steady::newSnes(comm, task.accuracy);
   check(SNESSetFunction(snes, f, evaluate, &problem));
   check(SNESSetJacobian(snes, jacobian, jacobian, differentiate, nullptr));

@@ -20,7 +20,7 @@ struct GapTask {
 };
 
 /// Collective. Solves
-///   0 ≤ g ⟂ F(g) ≥ 0
+///   0 ≤ g ⟂ F(g) ≥ 0,   g = 0 at nodes that do not separate,
 /// from the initial `gaps`, [contact node of this rank], m, which become the solution. F are the
 /// forces of the case at the gaps, with balanced friction. Sets reason and tolerance of `solution`,
 /// and adds to its iterations. If SNES finds no solution, returns false and names the alternating

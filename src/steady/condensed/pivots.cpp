@@ -38,13 +38,18 @@ struct Line {
 
 class Lemke {
  public:
-  Lemke(impedance::ContactSolver& solver, MPI_Comm comm, const ContactCase& contactCase,
-        std::size_t n)
-      : solver_(solver), comm_(comm), asked_(contactCase), open_(n, 0), cover_(n) {
-    check(MPI_Comm_rank(comm, &rank_));
+  Lemke(impedance::ContactSolver& solver, const contact::Contact& contact,
+        const ContactCase& contactCase, std::size_t n)
+      : solver_(solver),
+        nodes_(contact.interfaces.nodes),
+        comm_(contact.mesh->comm),
+        asked_(contactCase),
+        open_(n, 0),
+        cover_(n) {
+    check(MPI_Comm_rank(comm_, &rank_));
     PetscInt own = n, end = 0;
-    check(MPI_Scan(&own, &end, 1, MPIU_INT, MPI_SUM, comm));
-    check(MPI_Allreduce(&own, &total_, 1, MPIU_INT, MPI_SUM, comm));
+    check(MPI_Scan(&own, &end, 1, MPIU_INT, MPI_SUM, comm_));
+    check(MPI_Allreduce(&own, &total_, 1, MPIU_INT, MPI_SUM, comm_));
     // No two nodes should reach zero together, as they would in a symmetric brake under equal
     // forces. The fractional parts of the multiples of the golden ratio all differ.
     for (std::size_t i = 0; i < n; ++i) {
@@ -115,7 +120,7 @@ class Lemke {
     const std::size_t n = open_.size();
     for (std::size_t i = 0; i < n; ++i) {
       const double needed = -found.effects[n + i] / cover_[i];
-      if (needed > worst) worst = needed, place.node = i;
+      if (nodes_[i].separates && needed > worst) worst = needed, place.node = i;
     }
     const auto [largest, where] = leastOf(-worst, place);
     pivot_ = where, opens_ = true;
@@ -161,7 +166,7 @@ class Lemke {
     double first = INFINITY;
     Place place{rank_, 0};
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      if (isPivot(i)) continue;
+      if (isPivot(i) || !nodes_[i].separates) continue;
       if (const double end = lines_[i].end(sizes_[i]); end < first) first = end, place.node = i;
     }
     return leastOf(first, place);
@@ -179,6 +184,7 @@ class Lemke {
   }
 
   impedance::ContactSolver& solver_;
+  const std::vector<contact::ContactNode>& nodes_;
   MPI_Comm comm_;
   const ContactCase& asked_;
   int rank_ = 0;
@@ -195,9 +201,9 @@ class Lemke {
 
 }  // namespace
 
-bool pivotGaps(impedance::ContactSolver& solver, MPI_Comm comm, const ContactCase& contactCase,
-               std::vector<double>& gaps) {
-  return Lemke(solver, comm, contactCase, gaps.size()).solve(gaps);
+bool pivotGaps(impedance::ContactSolver& solver, const contact::Contact& contact,
+               const ContactCase& contactCase, std::vector<double>& gaps) {
+  return Lemke(solver, contact, contactCase, gaps.size()).solve(gaps);
 }
 
 }  // namespace squeal::condensed

@@ -14,9 +14,9 @@ namespace squeal::condensed {
 /// contact, is added to F and reduced along the path of solutions, which may turn, until λ = 0.
 /// Without friction this finds a solution whenever one exists, even if only the contact supports a
 /// body. Each pivot opens or closes one node; a node that opens for the first time costs a solve
-/// with the factorisation. Returns true, with the gaps [contact node of this rank], m, if the path
-/// reaches λ = 0; otherwise the gaps do not change.
-bool pivotGaps(impedance::ContactSolver& solver, MPI_Comm comm,
+/// with the factorisation. Nodes that do not separate stay closed. Returns true, with the gaps
+/// [contact node of this rank], m, if the path reaches λ = 0; otherwise the gaps do not change.
+bool pivotGaps(impedance::ContactSolver& solver, const contact::Contact& contact,
                const impedance::ContactCase& contactCase, std::vector<double>& gaps);
 
 }  // namespace squeal::condensed

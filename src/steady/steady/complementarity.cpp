@@ -82,8 +82,10 @@ double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec 
   {
     const ReadArray gaps(x);
     const WriteArray values(f);
-    for (PetscInt column : problem.transformation().gapColumn)
-      if (gaps[column - first] <= 0) values[column - first] = std::min(values[column - first], 0.0);
+    const auto& columns = problem.transformation().gapColumn;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (double& force = values[columns[i] - first]; gaps[columns[i] - first] <= 0)
+        force = problem.contact().interfaces.nodes[i].separates ? std::min(force, 0.0) : 0;
   }
   PetscReal size = 0;
   check(VecNorm(f, NORM_2, &size));
@@ -187,10 +189,15 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
   const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
   check(VecSet(low, PETSC_NINFINITY));
   check(VecSet(high, PETSC_INFINITY));
-  for (PetscInt column : transformation.gapColumn)
-    check(VecSetValue(low, column, 0, INSERT_VALUES));
-  check(VecAssemblyBegin(low));
-  check(VecAssemblyEnd(low));
+  for (std::size_t i = 0; i < transformation.gapColumn.size(); ++i) {
+    check(VecSetValue(low, transformation.gapColumn[i], 0, INSERT_VALUES));
+    if (!problem.contact().interfaces.nodes[i].separates)
+      check(VecSetValue(high, transformation.gapColumn[i], 0, INSERT_VALUES));
+  }
+  for (const Vec bound : {low.get(), high.get()}) {
+    check(VecAssemblyBegin(bound));
+    check(VecAssemblyEnd(bound));
+  }
 
   const auto solve = [&] {
     const OwnedSNES snes = newSnes(problem.mesh().comm, accuracy.target);

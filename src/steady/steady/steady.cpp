@@ -15,6 +15,7 @@
 #include "steady/steady/complementarity.hpp"
 #include "steady/steady/nodal_forces.hpp"
 #include "steady/steady/resultants.hpp"
+#include "steady/steady/separation.hpp"
 
 namespace squeal::steady {
 namespace {
@@ -234,11 +235,14 @@ void Problem::conclude(Vec x, double left, Solution& solution) const {
     solution.converged = false;
     solution.reason = formatted(
         "round-off leaves a relative residual of %.1e because displacements reach %.3g m: a body "
-        "is under-constrained; use stiffer springs",
+        "is under-constrained and needs stiffer springs, or a contact stiffness is so large that "
+        "hard contact suits better",
         solution.residual, largestDisplacement(solution.at, x));
   }
   recover(x, left, solution);
   rejectUnderConstrained(solution);
+  if (std::string why = pulledFriction(contact_, solution); solution.converged && !why.empty())
+    solution.converged = false, solution.reason = std::move(why);
 }
 
 double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {
@@ -307,8 +311,10 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   double smallest = INFINITY;
   // SNES leaves a force of the order of its tolerance at an open gap.
   solution.negligibleForce = std::max(1e-8 * largest, 10 * noise);
-  for (const auto& state : solution.contact) {
-    const bool closed = state.normalForce > solution.negligibleForce;
+  for (std::size_t i = 0; i < solution.contact.size(); ++i) {
+    const auto& state = solution.contact[i];
+    const bool closed =
+        state.normalForce > solution.negligibleForce || !contact_.interfaces.nodes[i].separates;
     solution.closed.push_back(closed);
     solution.openNodes += !closed;
     smallest = std::min(smallest, state.pressure);

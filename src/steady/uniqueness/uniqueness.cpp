@@ -148,6 +148,10 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
           frictions,
           "nodes of " + interface.label() +
               " are free along it when they open, which the condensed matrix does not include");
+  for (const auto& interface : contact.interfaces.options)
+    if (!interface.separates)
+      return undecided(frictions, "nodes of " + interface.label() +
+                                      " stay closed, which the condensed matrix does not include");
   OpenContact condensed(contact, stiffness, contact.slip(speed, nullptr));
   const bool dense = condensed.size() <= settings.dense;
   if (dense) rejectUnusedUniquenessOptions(true);
