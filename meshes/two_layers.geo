@@ -12,7 +12,8 @@ DefineConstant[
   ny_pad = {7, Name "ny_pad", Min 1, Max 100000, Step 1},     // cells across the pad layer
   Lx = {3, Name "Lx"},                                        // period
   h_disc = {1, Name "h_disc"},                                // thickness of the disc layer
-  h_pad = {0.6, Name "h_pad"}                                 // thickness of the pad layer
+  h_pad = {0.6, Name "h_pad"},                                // thickness of the pad layer
+  h_soft = {0, Name "h_soft"}                                 // thickness of a layer, one cell, between pad and disc, on the pad (shared=0)
 ];
 
 // Disc layer: curves 1 bottom, 2 right, 3 face, 4 left.
@@ -28,8 +29,8 @@ Curve Loop(1) = {1, 2, -3, 4};
 Plane Surface(1) = {1};
 
 // Pad layer: curves 13 (or 3) face, 12 right, 11 top, 14 left.
-Point(11) = {0, h_pad, 0};
-Point(12) = {Lx, h_pad, 0};
+Point(11) = {0, h_soft + h_pad, 0};
+Point(12) = {Lx, h_soft + h_pad, 0};
 If (shared)
   start = 4;
   end = 3;
@@ -38,8 +39,8 @@ Else
   start = 14;
   end = 13;
   face = 13;
-  Point(start) = {0, 0, 0};
-  Point(end) = {Lx, 0, 0};
+  Point(start) = {0, h_soft, 0};
+  Point(end) = {Lx, h_soft, 0};
   Line(face) = {start, end};
 EndIf
 Line(12) = {end, 12};
@@ -48,23 +49,45 @@ Line(14) = {11, start};
 Curve Loop(2) = {face, 12, 11, 14};
 Plane Surface(2) = {2};
 
+// Soft layer: curves 23 face, 22 right, 24 left.
+pad_face = face;
+left() = {14};
+right() = {12};
+surfaces() = {1, 2};
+If (h_soft > 0)
+  Point(21) = {0, 0, 0};
+  Point(22) = {Lx, 0, 0};
+  Line(23) = {21, 22};
+  Line(22) = {22, end};
+  Line(24) = {start, 21};
+  Curve Loop(3) = {23, 22, -face, 24};
+  Plane Surface(3) = {3};
+  Transfinite Curve {22, 24} = 2;
+  Transfinite Curve {23} = nx_pad + 1;
+  pad_face = 23;
+  left() += {24};
+  right() += {22};
+  surfaces() += {3};
+  Physical Surface("soft") = {3};
+EndIf
+
 Transfinite Curve {1, 3} = nx + 1;
 Transfinite Curve {11, face} = (shared ? nx : nx_pad) + 1;
 Transfinite Curve {2, 4} = ny_disc + 1;
 Transfinite Curve {12, 14} = ny_pad + 1;
-Transfinite Surface {1, 2};
+Transfinite Surface {surfaces()};
 If (recombine)
-  Recombine Surface {1, 2};
+  Recombine Surface {surfaces()};
 EndIf
 
 Physical Curve("disc_bottom") = {1};
 Physical Curve("disc_right") = {2};
 Physical Curve("disc_face") = {3};
 Physical Curve("disc_left") = {4};
-Physical Curve("pad_face") = {face};
-Physical Curve("pad_right") = {12};
+Physical Curve("pad_face") = {pad_face};
+Physical Curve("pad_right") = {right()};
 Physical Curve("pad_top") = {11};
-Physical Curve("pad_left") = {14};
+Physical Curve("pad_left") = {left()};
 Physical Surface("disc") = {1};
 Physical Surface("pad") = {2};
 

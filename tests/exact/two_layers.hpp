@@ -19,8 +19,9 @@ inline constexpr double discThickness = 1, padThickness = 0.6, period = 3;
 struct Steady {
   double friction, depth;
   double padThickness = two_layers::padThickness;
+  double softness = 0;  ///< 1/k of a soft layer between the two, m³/N
   double pressure() const {
-    return depth / (discThickness / disc.uniaxial() + padThickness / pad.uniaxial());
+    return depth / (discThickness / disc.uniaxial() + padThickness / pad.uniaxial() + softness);
   }
   double u(double y, bool inPad) const {
     return inPad ? friction * pressure() / pad.mu() * (padThickness - y)
@@ -42,15 +43,17 @@ struct Sliding {
                       ///< relative velocity
   double carried = 0;  ///< W, m/s, where matter carries its displacement along; 0: approximation A
   double padThickness = two_layers::padThickness;
+  double softness = 0;  ///< 1/k, m³/N: a massless layer that the normal stress compresses by σ/k
 
   double k(int n) const { return 2 * M_PI * n / period; }
   /// D u + u_t = (s + ikW) u: as s in the disc at rest, for its axes travel with the matter.
   Complex discRate(int n, Complex s) const { return s + Complex(0, k(n) * carried); }
 };
 
-/// Zero where s is an eigenvalue of wave number index n: u = v = 0 where the layers are held; v and
-/// σ_yy continuous, and on both sides of the interface σ_xy = f φ σ_yy + f φ' p w*: the pad, whose
-/// outer normal is −y, is drawn along +x with −σ_xy, pressed with R_N = −σ_yy, and w* = s u_P − (s
+/// Zero where s is an eigenvalue of wave number index n: u = v = 0 where the layers are held; σ_yy
+/// continuous, v_P − v_D = σ_yy/k, and on both sides of the interface σ_xy = f φ σ_yy + f φ' p w*:
+/// the pad, whose outer normal is −y, is drawn along +x with −σ_xy, pressed with R_N = −σ_yy, and
+/// w* = s u_P − (s
 /// + ikW) u_D adds to w = −W, so that it lowers the sliding speed. [4.7] A layer whose rate is zero
 /// has a = b, where only two of its four potentials differ in displacement: a fourfold zero of the
 /// determinant that is not an eigenvalue, divided out.
@@ -64,7 +67,8 @@ inline Complex characteristic(const Sliding& sliding, int n, Complex s) {
   for (std::size_t j = 0; j < 4; ++j) {
     conditions[0][j] = bottom.u[j], conditions[1][j] = bottom.v[j];
     conditions[2][4 + j] = top.u[j], conditions[3][4 + j] = top.v[j];
-    conditions[4][j] = below.v[j], conditions[4][4 + j] = -above.v[j];
+    conditions[4][j] = below.v[j] + sliding.softness * below.yy[j],
+    conditions[4][4 + j] = -above.v[j];
     conditions[5][j] = below.yy[j], conditions[5][4 + j] = -above.yy[j];
     conditions[6][j] =
         below.xy[j] - sliding.friction * below.yy[j] + sliding.along * discRate * below.u[j];
