@@ -7,9 +7,9 @@
 
 namespace squeal::steady {
 
-/// Collective. Returns why a state is no solution if the normal force is tensile at a node with
-/// friction that does not separate: Coulomb's law has no friction force there. Otherwise returns
-/// an empty text.
+/// Collective. Returns the reason to refuse a state if the normal force is tensile at a node with
+/// friction that does not separate: Coulomb's law has no friction force there. Otherwise returns an
+/// empty text.
 std::string pulledFriction(const contact::Contact& contact, const Solution& solution);
 
 }  // namespace squeal::steady
