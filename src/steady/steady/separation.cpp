@@ -6,6 +6,7 @@
 #include "base/system/concatenation.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
+#include "model/contact/loose.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::steady {
@@ -37,6 +38,13 @@ std::string pulledFriction(const contact::Contact& contact, const Solution& solu
       "friction needs pressure: let them separate, or make the interface frictionless",
       count, count == 1 ? "node is" : "nodes are", mesh::text(first[0].position).c_str(),
       interfaces::separationName(contact.interfaces.names[first[0].interface]).c_str());
+}
+
+std::string heldByContactOnly(const contact::Contact& contact, const elasticity::Bodies& bodies) {
+  const auto mode = contact::rigidBodyMode(*contact.mesh, contact, bodies, {.any = false});
+  if (!mode) return "";
+  return "; only contact holds body '" + mode->body + "' (" + mode->motion +
+         "): check that the loads press it on";
 }
 
 }  // namespace squeal::steady

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Contact whose sides do not separate.
+/// Contact whose sides do not separate, and bodies that only contact holds.
 #include <string>
 
 #include "steady/steady/steady.hpp"
@@ -11,5 +11,9 @@ namespace squeal::steady {
 /// friction that does not separate: Coulomb's law has no friction force there. Otherwise returns an
 /// empty text.
 std::string pulledFriction(const contact::Contact& contact, const Solution& solution);
+
+/// Collective. Returns a hint if a body can move rigidly without contact: then there may be no
+/// solution because the loads pull it off. Otherwise returns an empty text.
+std::string heldByContactOnly(const contact::Contact& contact, const elasticity::Bodies& bodies);
 
 }  // namespace squeal::steady

@@ -243,6 +243,8 @@ void Problem::conclude(Vec x, double left, Solution& solution) const {
   rejectUnderConstrained(solution);
   if (std::string why = pulledFriction(contact_, solution); solution.converged && !why.empty())
     solution.converged = false, solution.reason = std::move(why);
+  if (solution.reason.starts_with("DIVERGED"))
+    solution.reason += heldByContactOnly(contact_, bodies_);
 }
 
 double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {

@@ -154,6 +154,15 @@ TEST(PatchTest, UniformPressureOnStronglyDistortedFaces) {
   printWorst();
 }
 
+// Faces in a ratio of 4 to 5 are at the threshold of the choice; the round-off of their lengths,
+// which differs from one period to the next, must not choose.
+TEST(Report, RoundOffDoesNotChooseTheSlave) {
+  for (const std::string length : {"3", "3.1", "0.7", "0.0447009756885618", "1.9e3"}) {
+    test::setCase("two_layers", "-mesh_set nx=5,nx_pad=4,ny_disc=2,ny_pad=2,Lx=" + length);
+    EXPECT_EQ(test::buildModel().contact.interfaces.slaves.at(0).surface, "pad_face") << length;
+  }
+}
+
 // Interfaces of different meshes are coupled; the report says what would have to match.
 TEST(Report, SaysWhyMeshesDoNotMatch) {
   test::setCase("two_layers", test::contact_cases::layers + ",nx_pad=5");
