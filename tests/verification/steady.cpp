@@ -247,5 +247,25 @@ TEST(Steady, TwoInterfacesOnOneBody) {
   }
 }
 
+// A pad of which all nodes are held is a rigid punch: the disc must bear the gaps, or a soft layer
+// lie between them. The disc is strained by itself, or with the layer in series.
+TEST(Steady, APunchIsHeldAtItsFace) {
+  const double compliance = exact::two_layers::discThickness / exact::two_layers::disc.uniaxial();
+  const std::string punch =
+      "-constraint_pad_clamped xy -constraint_pad_displacement 0,-0.01,0 -modes_count 5 "
+      "-flutter_friction 0,0.3 -flutter_track off -mesh_set nx=6,ny_disc=3,ny_pad=2";
+  const auto pressed = [&](const std::string& options, double pressure) {
+    const auto analysis = runCase("two_layers", punch + options);
+    for (const auto& solution : analysis.steady.solutions) {
+      ASSERT_TRUE(solution.converged) << solution.reason;
+      expectUniformPressure(analysis, solution, pressure, exact::two_layers::period, 1, 1);
+    }
+  };
+  for (const std::string mesh : {"", ",nx_pad=4", ",nx_pad=9,order=2"}) {
+    pressed(mesh + " -contact_interface_slave disc", depth / compliance);
+    pressed(mesh + " -contact_interface_stiffness 2", depth / (compliance + 0.5));
+  }
+}
+
 }  // namespace
 }  // namespace squeal::test

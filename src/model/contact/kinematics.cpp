@@ -35,6 +35,16 @@ struct Frame {
   std::vector<int> heldComponent;  ///< [tangent] component of the node's axes held along it, or −1
 };
 
+/// Returns how the contact can let a node be held along its normal.
+std::string otherSide(const ContactNode& node, const interfaces::Interfaces& all) {
+  const auto& options = all.options[node.interface];
+  const std::string& name = options.surfaces.name;
+  if (options.onObstacle()) return "leave nodes that touch a rigid obstacle free along its normal";
+  return "let the other side bear the gaps by " + interfaces::slaveName(name) +
+         (node.side > 0 ? " disc" : " pad") + ", or give a soft layer, " +
+         interfaces::stiffnessName(name);
+}
+
 Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int dimension) {
   const auto& constraints = all.constraints;
   Frame frame;
@@ -48,12 +58,15 @@ Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int di
         throw Error("option -constraint_" + constraints.groups[constraints.heldBy[at]] +
                     "_clamped holds " + component + " of a node of " +
                     all.options[node.interface].label() + " at " + text(node.position) +
-                    ", which sticks to the other side; let the other side be the slave");
+                    ", which sticks to the other side; let the other side bear the gaps by " +
+                    interfaces::slaveName(all.options[node.interface].surfaces.name) +
+                    (node.side > 0 ? " disc" : " pad"));
       if (std::abs(dot(e, node.normal)) > 1e-6)
         throw Error("option -constraint_" + constraints.groups[constraints.heldBy[at]] +
                     "_clamped holds " + component + " of the contact node at " +
                     text(node.position) +
-                    ", which is not tangential there; contact determines the normal component");
+                    ", which is not tangential there; contact determines the normal component: " +
+                    otherSide(node, all));
       frame.tangents.push_back(e);
       frame.heldComponent.push_back(d);
     }

@@ -48,8 +48,8 @@ const WordOrRealOption gapOption(
     "initial gap, without load; measured: the distance between the two "
     "surfaces of the mesh; negative: interference fit");
 const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
-                               "side whose nodes carry the gaps if the two meshes do not match; "
-                               "finer: the side with the finer mesh");
+                               "side whose nodes carry the gaps; finer: the pad if the two meshes "
+                               "match, otherwise the side with the finer mesh");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance between two faces that the program pairs if the "
                               "two meshes do not match; 0 = automatic (half the size of a face)");
@@ -222,6 +222,7 @@ std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings) 
   std::vector<mesh::InterfaceRequest> requests;
   for (const auto& interface : settings.interfaces) {
     auto& request = requests.emplace_back(interface.surfaces);
+    request.discIsSlave = interface.slave == SlaveChoice::disc;
     if (interface.layerStiffness == 0) continue;
     request.layered.push_back(request.pad.name);
     if (interface.slave != SlaveChoice::pad && !interface.onObstacle())
@@ -251,6 +252,14 @@ std::string roleName(const std::string& interface) { return "-" + roleOption.ful
 
 std::string separationName(const std::string& interface) {
   return "-" + separationOption.fullName(interface);
+}
+
+std::string slaveName(const std::string& interface) {
+  return "-" + slaveOption.fullName(interface);
+}
+
+std::string stiffnessName(const std::string& interface) {
+  return "-" + stiffnessOption.fullName(interface);
 }
 
 std::string adjustName(const std::string& tie) { return "-" + adjustOption.fullName(tie); }

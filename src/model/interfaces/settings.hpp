@@ -86,12 +86,14 @@ std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings);
 
 /// Return names of options of an interface with their dash, for messages:
 /// `-contact_<interface>_obstacle_velocity`, `-contact_<interface>_search` or
-/// `-tie_<name>_tolerance`, `-contact_<interface>_role`, `-contact_<interface>_separation`, and
-/// `-tie_<name>_adjust`.
+/// `-tie_<name>_tolerance`, `-contact_<interface>_role`, `-contact_<interface>_separation`,
+/// `-contact_<interface>_slave`, `-contact_<interface>_stiffness`, and `-tie_<name>_adjust`.
 std::string obstacleVelocityName(const std::string& interface);
 std::string searchName(const InterfaceSettings& interface);
 std::string roleName(const std::string& interface);
 std::string separationName(const std::string& interface);
+std::string slaveName(const std::string& interface);
+std::string stiffnessName(const std::string& interface);
 std::string adjustName(const std::string& tie);
 /// Returns the option of the search with its value in words, for messages.
 std::string searchText(const InterfaceSettings& interface);

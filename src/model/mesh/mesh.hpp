@@ -190,6 +190,7 @@ struct InterfaceRequest {
   std::string name;
   std::string label;       ///< the kind of interface and its name: unique, for messages
   GroupRequest pad, disc;  ///< an empty name for the disc stands for a rigid obstacle
+  bool discIsSlave = false;  ///< the nodes of the disc bear the gaps, also if the meshes match
   /// Surfaces whose nodes need layer nodes: those that may bear the gaps over a compliant layer.
   std::vector<std::string> layered = {};
 };

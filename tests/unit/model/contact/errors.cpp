@@ -97,7 +97,8 @@ TEST(Vectors, HaveAsManyComponentsAsTheMesh) {
 
 TEST(Contact, BadInputIsNamed) {
   const std::pair<const char*, const char*> mistakes[] = {
-      {"-constraint_pad_face_clamped y", "not tangential"},  // contact decides the normal component
+      {"-constraint_pad_face_clamped y",
+       "-contact_interface_slave disc"},  // contact decides the normal component
       {"-constraint_pad_top_clamped xz", "-constraint_pad_top_clamped"},
       {"-constraint_pad_top_clamped xyy", "-constraint_pad_top_clamped 'xyy': y twice"},
       {"-constraint_pad_top_clamped xyxyy", "'xyxyy': x twice; must be some of the letters xy"},

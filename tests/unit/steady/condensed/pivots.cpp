@@ -68,7 +68,7 @@ struct Condensed {
 void expectTheSolution(const std::string& options, double friction, PetscInt open) {
   Condensed condensed(options);
   std::vector<double> gaps(condensed.model.contact.interfaces.nodes.size(), 0.0);
-  ASSERT_TRUE(condensed::pivotGaps(condensed.solver, condensed.model.mesh->comm,
+  ASSERT_TRUE(condensed::pivotGaps(condensed.solver, condensed.model.contact,
                                    condensed.contactCase(friction), gaps));
   const auto full = condensed.problem.solve({friction}, condensed.closed);
   ASSERT_TRUE(full.converged) << full.reason;
@@ -88,6 +88,12 @@ void expectTheSolution(const std::string& options, double friction, PetscInt ope
 
 TEST(Pivots, NodesThatFrictionLifts) { expectTheSolution(pressedBlock, 0.5, 3); }
 
+// The frictionless path of pivots keeps the nodes of an interface that does not separate closed.
+TEST(Pivots, NodesThatDoNotSeparateStayClosed) {
+  expectTheSolution(floatingPad + " -contact_main_separation off -contact_other_separation off", 0,
+                    0);
+}
+
 TEST(Pivots, ClosedContactNeedsNone) { expectTheSolution(pressedBlock, 0, 0); }
 
 TEST(Pivots, PadHeldByTheContactAlone) {
@@ -98,7 +104,7 @@ TEST(Pivots, PadHeldByTheContactAlone) {
 TEST(Pivots, NoSolutionWhereThePadIsPulledOff) {
   Condensed condensed(floatingPad + " -load_second_y0_part_pressure -8e6");
   std::vector<double> gaps(condensed.model.contact.interfaces.nodes.size(), 0.25);
-  EXPECT_FALSE(condensed::pivotGaps(condensed.solver, condensed.model.mesh->comm,
+  EXPECT_FALSE(condensed::pivotGaps(condensed.solver, condensed.model.contact,
                                     condensed.contactCase(0), gaps));
   for (double gap : gaps) EXPECT_EQ(gap, 0.25);
 }
