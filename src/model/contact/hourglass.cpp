@@ -190,13 +190,14 @@ void rejectHourglassModes(const mesh::Mesh& mesh, const Contact& contact,
       weight += std::pow(vectors(motions.firstOf(c) + m, 0), 2);
     if (weight > largest) largest = weight, worst = c;
   }
-  const std::string& body = mesh.bodies[cells[worst].body];
+  const int material = cells[worst].material;
   throw Error(
-      "singular problem: body '" + body + "' has " +
+      "singular problem: " + mesh.materialText(material) + " has " +
       (count == 1 ? "an hourglass mode" : std::to_string(count) + " hourglass modes") +
       " without strain energy: reduced integration, with closed frictionless contact, does not "
       "resist a motion of cell " +
-      std::to_string(cells[worst].tag) + "; give " + material::integrationName(body) +
+      std::to_string(cells[worst].tag) + "; give " +
+      material::integrationName(mesh.materialGroups[material].name) +
       " full, or use two cells across the body in two directions");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Local axes, named once and used by supports, couplings, loads and springs. Not collective.
+/// Local axes, named once and used by supports, couplings, loads, springs and materials. Not
+/// collective.
 #include <map>
 #include <string>
 
@@ -26,6 +27,10 @@ class Frame {
   /// of a cylindrical one.
   Matrix3 axesAt(const Point& x) const;
   bool isGlobal() const { return name_.empty(); }
+  bool isCylindrical() const { return cylindrical_; }
+  /// Return the origin, m, and the axis of a cylindrical frame, a unit vector.
+  const Point& origin() const { return origin_; }
+  const Point& axis() const { return axes_[2]; }
 
  private:
   std::string name_;

@@ -74,4 +74,21 @@ const meshfile::GroupElements& GmshModel::group(const std::string& name,
                              : "its groups are: " + joined(names)));
 }
 
+void GmshModel::joinSections(const Request& request) {
+  for (const auto& [body, sections] : request.bodySections) {
+    meshfile::GroupElements all;
+    for (const auto& section : sections) {
+      const auto& part = group(section.name, "option " + section.option);
+      if (all.blocks.empty()) all.dimension = part.dimension;
+      if (part.dimension != all.dimension)
+        throw Error("option " + section.option + ": the sections '" + sections[0].name + "' and '" +
+                    section.name + "' have the dimensions " + std::to_string(all.dimension) +
+                    " and " + std::to_string(part.dimension) +
+                    "; all are volumes, or all surfaces of a plane mesh");
+      all.blocks.insert(all.blocks.end(), part.blocks.begin(), part.blocks.end());
+    }
+    contents_.groups.emplace(body, std::move(all));  // unless the mesh has a group of this name
+  }
+}
+
 }  // namespace squeal::mesh

@@ -22,6 +22,9 @@ class GmshModel {
   /// Returns a group, borrowed. If the mesh has none of this name, throws Error, naming the group,
   /// the option that needs it and the groups of the mesh.
   const meshfile::GroupElements& group(const std::string& name, const std::string& wantedBy) const;
+  /// Makes a group for each body whose sections are groups of the mesh while the body is not.
+  /// Throws Error for a section that is not in the mesh or has another dimension than the others.
+  void joinSections(const Request& request);
   const Point& point(PetscInt index) const { return contents_.points[index]; }
   PetscInt tag(PetscInt index) const { return contents_.tags[index]; }
   PetscInt nodeCount() const { return contents_.points.size(); }

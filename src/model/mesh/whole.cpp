@@ -355,7 +355,8 @@ PetscInt WholeMesh::cellCount() const {
 }
 
 WholeMesh load(const meshfile::Settings& file, const Request& request, meshfile::Reader reader) {
-  const GmshModel model(file, reader);
+  GmshModel model(file, reader);
+  model.joinSections(request);
   WholeMesh mesh;
   NodeIndex index(mesh, model);
   readBodies(mesh, model, request, index);

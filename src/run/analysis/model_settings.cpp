@@ -16,6 +16,7 @@ ModelSettings ModelSettings::given() {
 mesh::Request meshRequest(const ModelSettings& settings) {
   mesh::Request request;
   request.bodies = material::groupRequests(settings.materials);
+  request.bodySections = material::sectionRequests(settings.materials);
   request.moving = elasticity::movingBodies(settings.elasticity);
   request.nodeGroups = constraints::constrainedGroups(settings.constraints);
   for (const auto& group : elasticity::groundedGroups(settings.elasticity))

@@ -352,7 +352,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
     return sums[part * 9 + kind * 3 + d];
   };
   const OwnedVec load = this->load(solution.at), springs = elasticity::nodalVector(mesh_);
-  if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
+  if (bodies_.springs) check(MatMult(bodies_.springs, solution.displacement, springs));
   if (bodies_.linkStiffness)
     check(MatMultAdd(bodies_.linkStiffness, solution.displacement, springs, springs));
   const ReadArray forces(nodalForces), loads(load), grounded(springs), contacts(contactForces);
