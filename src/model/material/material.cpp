@@ -53,9 +53,10 @@ Anisotropy withAxes(Anisotropy given, const Settings& settings, int dimension) {
   const auto* name = std::get_if<FrameName>(&given.axes);
   if (!name) return given;
   const auto frame = frame::named(settings.frames, name->name, given.axesOption, dimension);
-  if (frame.isCylindrical())
+  if (frame.isCylindrical()) {
+    given.stiffness = rotated(given.stiffness, frame.turn());
     given.axes = CylinderAxis{frame.origin(), frame.axis()};
-  else
+  } else
     given.axes = Axes{frame.axesAt({})};
   return given;
 }

@@ -10,7 +10,8 @@ ModelSettings ModelSettings::given() {
           .elasticity = elasticity::Settings::given(),
           .file = meshfile::Settings::given(),
           .mesh = mesh::Settings::given(),
-          .contact = contact::Settings::given()};
+          .contact = contact::Settings::given(),
+          .idleFrames = frame::idleFrames()};
 }
 
 mesh::Request meshRequest(const ModelSettings& settings) {

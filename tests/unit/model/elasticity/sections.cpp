@@ -77,7 +77,7 @@ TEST(Sections, OneLawIsOneBody) {
   }
 }
 
-// The middle of each cell tells in which half it lies, on any number of ranks.
+// A cell belongs to the half that contains its middle, on any number of ranks.
 TEST(Sections, CellsHaveTheMaterialOfTheirSection) {
   for (const std::string body : {"body", "whole"})  // a group of the mesh, or only of options
     for (const std::string list : {"left,right", "right,left"}) {
@@ -314,7 +314,7 @@ TEST(Sections, RefusesWrongOptions) {
           "a section belongs to one body"});
   expect(law + "-material_body_sections left,other -material_other_sections right",
          {"option -material_body_sections: 'other' has sections itself; name these instead"});
-  // The whole cube is no part of one half.
+  // One half does not contain the whole cube.
   expect(
       test::material("left", "3", "0.3", "1") + "-material_left_sections body",
       {"option -material_left_sections: cell ", " of section 'body' is not in the group 'left'"});
