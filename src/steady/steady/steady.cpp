@@ -184,7 +184,8 @@ void Problem::rejectUnderConstrained(Solution& solution) const {
   solution.reason = formatted(
       "body '%s' is under-constrained (%s): %" PetscInt_FMT " of %" PetscInt_FMT
       " contact nodes are open, and it has no other support; start the sweep at a friction that "
-      "closes them, or support it with -constraint_<group>_clamped or -ground_<group>_stiffness",
+      "closes them, or support it with -constraint_<group>_clamped, -ground_<group>_stiffness or "
+      "-bushing_<name>_stiffness",
       mode->body.c_str(), mode->motion.c_str(), solution.openNodes, contact_.interfaces.totalNodes);
 }
 

@@ -275,6 +275,7 @@ TEST(Ground, SlantedSpringsSupportInTheirDirection) {
     return test::errorOf([] { test::buildModel(); });
   };
   EXPECT_TRUE(contains(message(""), "can move rigidly")) << message("");
+  EXPECT_TRUE(contains(message(""), "-ground_<group>_stiffness or -bushing_<name>_stiffness"));
   EXPECT_EQ(message("-ground_right_stiffness 1,1,1"), "");
 }
 
