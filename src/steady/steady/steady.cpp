@@ -8,6 +8,7 @@
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/contact/build.hpp"
+#include "model/contact/hourglass.hpp"
 #include "model/contact/loose.hpp"
 #include "model/contact/response.hpp"
 #include "model/elasticity/elasticity.hpp"
@@ -177,10 +178,15 @@ void Problem::requireSlip(const sweep::Parameters& at) const {
 /// is arbitrary, and no stiffness matrix of this active set is positive definite.
 void Problem::rejectUnderConstrained(Solution& solution) const {
   if (!solution.converged || solution.openNodes == 0) return;
-  const auto mode = contact::rigidBodyMode(
-      mesh_, contact_, bodies_, {.closed = solution.closed, .released = solution.sticking.free()});
-  if (!mode) return;
+  const contact::SupportingContact holding{.closed = solution.closed,
+                                           .released = solution.sticking.free()};
+  const auto mode = contact::rigidBodyMode(mesh_, contact_, bodies_, holding);
+  const std::string hourglass =
+      mode ? "" : contact::hourglassModes(mesh_, contact_, bodies_, holding);
+  if (!mode && hourglass.empty()) return;
   solution.converged = false;
+  solution.reason = hourglass;
+  if (!mode) return;
   solution.reason = formatted(
       "body '%s' is under-constrained (%s): %" PetscInt_FMT " of %" PetscInt_FMT
       " contact nodes are open, and it has no other support; start the sweep at a friction that "
