@@ -10,6 +10,7 @@
 #include "base/system/text.hpp"
 #include "model/attachments/forms.hpp"
 #include "model/elasticity/assembly.hpp"
+#include "model/elasticity/carried_axes.hpp"
 #include "model/elasticity/convection.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/ground.hpp"
@@ -219,6 +220,7 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
   bodies.motions = motionsOf(mesh.bodies, mesh.dimension, settings.motions);
   bodies.materials = material::materialsOf(mesh, materials);
   requireHex20(mesh, bodies.materials);
+  checkCarriedAxes(mesh, bodies.materials, bodies.motions, settings.convective);
   assembleMatrices(mesh, bodies);
   bodies.exposed = exposedCells(mesh, bodies.materials);
   warnOfHourglass(mesh, bodies.exposed);

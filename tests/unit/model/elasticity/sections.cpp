@@ -390,5 +390,47 @@ TEST(Sections, ConvectionNeedsSectionsOfRevolution) {
        "-motion_convective off"});
 }
 
+/// The warning about a rotor in the plane with this law and these axes, without convective terms,
+/// and the error with them.
+std::pair<std::string, std::string> ofMovingRotor(const std::string& law,
+                                                  const std::string& motion) {
+  const std::string rotor =
+      "-mesh_file meshes/cylinders.geo -mesh_set shared=1,n_theta=32 "
+      "-material_rotor_sections inner,outer -material_rotor_density 1 -material_outer_young 1 "
+      "-material_outer_poisson 0.3 -material_inner_engineering_constants " +
+      law + " " + motion;
+  const auto warning = test::warningsOf([&] { test::buildBodies(rotor); });
+  return {warning, test::errorOf([&] { test::buildBodies(rotor + " -motion_convective on"); })};
+}
+
+TEST(Sections, AxesMustBeThoseThatMatterCarries) {
+  const std::string constants = exact::orthotropic::constants, turns = "-motion_rotor_speed 2 ",
+                    frame = constants + " -material_inner_frame f ",
+                    isotropic = "2,2,0.8,0.3,0.42,0.42," + formatted("%.17g", 2 / 2.6) + ",0.7,0.7";
+  for (const auto& [law, motion] : {std::pair{constants, std::string()},
+                                    {constants + " -material_inner_cylindrical 0,0,0,0,0,1", turns},
+                                    {frame + "-frame_f_axis 0,0,-1 -frame_f_turn 30", turns},
+                                    {isotropic, turns + "-motion_rotor_origin 0.3,0.1 "}}) {
+    const auto [warning, error] = ofMovingRotor(law, motion);
+    EXPECT_FALSE(contains(warning, "carry")) << law;
+    EXPECT_FALSE(contains(error, "carry")) << law << error;
+  }
+  for (const std::string& law : {constants, frame + "-frame_f_axis 0,0,1 -frame_f_origin 0.01,0"}) {
+    const auto [warning, error] = ofMovingRotor(law, turns);
+    EXPECT_TRUE(contains(warning,
+                         "warning: section 'inner' of body 'rotor' moves, and its matter "
+                         "would carry the axes of its material"))
+        << law << warning;
+    EXPECT_TRUE(contains(error, "option -motion_convective: section 'inner' of body 'rotor'"))
+        << law << error;
+  }
+  // Under a translation uniform laws stay, and those of a cylinder do not.
+  EXPECT_FALSE(contains(ofMovingRotor(constants, "-motion_rotor_velocity 1,0").first, "carry"));
+  EXPECT_TRUE(contains(ofMovingRotor(constants + " -material_inner_cylindrical 0,0,0,0,0,1",
+                                     "-motion_rotor_velocity 1,0")
+                           .first,
+                       "carry"));
+}
+
 }  // namespace
 }  // namespace squeal
