@@ -16,8 +16,9 @@ const RealListOption speedOption(
     "swept factors on the velocities of all -motion_* options and of obstacles", true);
 const RealListOption pressureOption(
     "flutter", "flutter_pressure", "1", "", positive,
-    "swept factors on surface pressures and on the prescribed displacements of supports and "
-    "obstacles, but not on centrifugal forces",
+    "swept factors on surface pressures, forces and moments, except those with "
+    "-load_<group>_hydraulic off, and on the prescribed displacements of supports and obstacles, "
+    "but not on gravity and centrifugal forces",
     true);
 const RealListOption dampingOption(
     "flutter", "flutter_damping", "1", "", nonNegative,

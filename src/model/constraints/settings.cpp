@@ -191,12 +191,13 @@ class EquationReader {
 
  private:
   [[noreturn]] void reject(const std::string& why) const {
-    throw Error("option " + option_ + " '" + text_ + "': " + why);
+    throw Error("option " + option_ + " '" + text_ + "': " + why + hint_);
   }
   double number(const std::string& text) const;
   void addTerm(const std::string& text, double sign);
 
   std::string option_, text_;
+  std::string hint_;  // for the term that is read
   const Settings& settings_;
   EquationSettings equation_;
 };
@@ -212,6 +213,9 @@ double EquationReader::number(const std::string& text) const {
 
 void EquationReader::addTerm(const std::string& text, double sign) {
   EquationTerm term{.factor = sign};
+  for (std::size_t i = 1; i < text.size(); ++i)
+    if ((text[i] == '+' || text[i] == '-') && text[i - 1] != 'e' && text[i - 1] != 'E')
+      hint_ = "; a blank before + and - separates terms, as in a:x - 2*b:y";
   std::string place = text;
   if (const auto star = text.find('*'); star != std::string::npos) {
     term.factor *= number(trimmed(text.substr(0, star)));
@@ -220,6 +224,7 @@ void EquationReader::addTerm(const std::string& text, double sign) {
   const auto colon = place.rfind(':');
   if (colon == std::string::npos)
     reject("the term '" + text + "' has no component; write factor*group:component");
+  if (place.find(':') != colon && !hint_.empty()) reject("'" + text + "' has two components");
   term.group = place.substr(0, colon);
   std::string component = place.substr(colon + 1);
   if (component.starts_with('r')) term.rotation = true, component.erase(0, 1);
@@ -233,6 +238,7 @@ void EquationReader::addTerm(const std::string& text, double sign) {
     if (other.group == term.group && other.component == term.component &&
         other.rotation == term.rotation)
       reject("'" + place + "' is there twice");
+  hint_.clear();
   equation_.terms.push_back(std::move(term));
 }
 

@@ -91,7 +91,8 @@ void rejectRigidBodyModes(const mesh::Mesh& mesh, const Contact& contact,
   if (const auto mode = rigidBodyMode(mesh, contact, bodies, {}))
     throw Error("singular problem: body '" + mode->body +
                 "' can move rigidly with closed frictionless contact (" + mode->motion +
-                "); support it with -constraint_<group>_clamped or -ground_<group>_stiffness");
+                "); support it with -constraint_<group>_clamped, -ground_<group>_stiffness or "
+                "-bushing_<name>_stiffness");
 }
 
 }  // namespace squeal::contact

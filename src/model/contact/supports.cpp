@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "base/petsc/arrays.hpp"
+#include "base/petsc/check.hpp"
 #include "base/system/mpi.hpp"
 #include "model/mesh/vector.hpp"
 
@@ -45,19 +44,36 @@ void visitContact(const mesh::Mesh& mesh, const Contact& contact, const Supporti
   }
 }
 
+/// Returns the entries of the row of a component of an owned node between the components of the
+/// node. They span the directions of its springs.
+Point springRow(const mesh::Mesh& mesh, Mat springs, PetscInt node, int component) {
+  Point row{};
+  if (!springs) return row;
+  const PetscInt first = mesh.dimension * (mesh.firstNode + node), at = first + component;
+  PetscInt count = 0;
+  const PetscInt* columns = nullptr;
+  const PetscScalar* values = nullptr;
+  check(MatGetRow(springs, at, &count, &columns, &values));
+  for (PetscInt i = 0; i < count; ++i) row[columns[i] - first] = values[i];
+  check(MatRestoreRow(springs, at, &count, &columns, &values));
+  return row;
+}
+
 }  // namespace
 
-void forEachSupport(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
+void forEachSupport(const mesh::Mesh& mesh, const Contact& contact, Mat springs,
                     const SupportingContact& holding, const Visit& visit) {
-  std::optional<ReadArray> spring;
-  if (springs) spring.emplace(springs);
   const auto& constraints = contact.interfaces.constraints;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d) {
       const PetscInt i = mesh.dimension * node + d;
       const bool turned = constraints.axes.contains(node);
       Support support{.node = node, .position = mesh.coordinates[node], .direction = mesh::axis(d)};
-      if ((constraints.held[i] && !turned) || (spring && (*spring)[i] > 0)) visit(support);
+      if (constraints.held[i] && !turned) visit(support);
+      if (const Point force = springRow(mesh, springs, node, d); mesh::length(force) > 0) {
+        for (std::size_t c = 0; c < 3; ++c) support.direction[c] = force[c] / mesh::length(force);
+        if (!constraints.held[i] || turned || support.direction != mesh::axis(d)) visit(support);
+      }
       if (!constraints.held[i] || !turned) continue;
       support.direction = constraints.direction(node, d);
       visit(support);

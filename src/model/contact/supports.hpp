@@ -37,7 +37,7 @@ struct Support {
 /// be null), periodicity, ties, couplings and this contact on nodes of this rank. Springs count as
 /// supports, however soft. Both sides of contact have the position of the slave's node: the facets
 /// of a curved master would otherwise seem to restrain a free rotation.
-void forEachSupport(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
+void forEachSupport(const mesh::Mesh& mesh, const Contact& contact, Mat springs,
                     const SupportingContact& holding,
                     const std::function<void(const Support&)>& visit);
 

@@ -130,12 +130,18 @@ void Assembly::add(std::span<const PetscInt> nodes, const std::vector<double>& m
   }
 }
 
-void Assembly::addDiagonal(Vec diagonal) {
-  if (!diagonal) return;
-  const ReadArray values(diagonal);
-  const PetscInt first = mesh_->dimension * mesh_->firstNode;
-  for (PetscInt i = 0; i < values.size(); ++i)
-    check(MatSetValue(matrix_, first + i, first + i, values[i], ADD_VALUES));
+void Assembly::addRows(Mat matrix) {
+  if (!matrix) return;
+  const PetscInt first = mesh_->dimension * mesh_->firstNode,
+                 rows = mesh_->dimension * mesh_->ownedNodes;
+  for (PetscInt i = first; i < first + rows; ++i) {
+    PetscInt count = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    check(MatGetRow(matrix, i, &count, &columns, &values));
+    check(MatSetValues(matrix_, 1, &i, count, columns, values, ADD_VALUES));
+    check(MatRestoreRow(matrix, i, &count, &columns, &values));
+  }
 }
 
 OwnedMat Assembly::finish(SymmetryClass symmetry) {

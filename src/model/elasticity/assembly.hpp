@@ -56,8 +56,9 @@ class Assembly {
   /// row-major. With `scalar`, it is [node][node] and repeats on each component; otherwise its rows
   /// and columns are [node][component].
   void add(std::span<const PetscInt> nodes, const std::vector<double>& matrix, bool scalar);
-  /// Not collective. Adds a diagonal, which may be null.
-  void addDiagonal(Vec diagonal);
+  /// Not collective. Adds a matrix with entries between the components of each node; it may be
+  /// null.
+  void addRows(Mat matrix);
   /// Collective. Returns the sum over all ranks. The object must not be used afterwards.
   OwnedMat finish(SymmetryClass symmetry);
 

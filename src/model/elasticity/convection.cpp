@@ -47,7 +47,7 @@ void fold(const mesh::Mesh& mesh, Vec vector) {
 /// 0.015 of the scale on unstructured tetrahedra, and 0.14 with 12 facets whose neighbours have a
 /// ratio of lengths of 2 to 1. A square body reaches 0.5 to 1, and an axis off the centre by a
 /// tenth of the radius 0.24.
-void rejectCrossing(const mesh::Mesh& mesh, const std::string& body, const Motion& motion,
+void rejectCrossing(const mesh::Mesh& mesh, const std::string& subject, const Motion& motion,
                     Crossing& crossing) {
   const double tolerance = motion.speed != 0 ? 0.15 : 1e-6;
   for (Vec vector : {crossing.flux.get(), crossing.scale.get()})
@@ -61,8 +61,8 @@ void rejectCrossing(const mesh::Mesh& mesh, const std::string& body, const Motio
   std::string failure;
   if (where >= 0) {
     const Point& x = mesh.coordinates[where];
-    failure = "option -motion_convective: body '" + body +
-              "' is not a figure of revolution about its axis (or not uniform along its "
+    failure = "option -motion_convective: " + subject +
+              " is not a figure of revolution about its axis (or not uniform along its "
               "translation): its matter crosses its " +
               formatted("surface at (%g, %g, %g); use -motion_convective off (approximation A)",
                         x[0], x[1], x[2]);
@@ -75,33 +75,37 @@ void rejectCrossing(const mesh::Mesh& mesh, const std::string& body, const Motio
 ConvectiveTerms convectiveTerms(const mesh::Mesh& mesh, const std::vector<Material>& materials,
                                 const std::vector<Motion>& motions) {
   if (std::ranges::none_of(motions, &Motion::moves)) return {};
-  std::vector<Crossing> crossing(mesh.bodies.size());
-  for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
-    if (motions[body].moves()) crossing[body] = {nodeScalars(mesh), nodeScalars(mesh)};
+  // Matter that crosses the boundary of a section would change its material.
+  const auto motionOf = [&](std::size_t group) -> const Motion& {
+    return motions[mesh.materialGroups[group].body];
+  };
+  std::vector<Crossing> crossing(mesh.materialGroups.size());
+  for (std::size_t m = 0; m < crossing.size(); ++m)
+    if (motionOf(m).moves()) crossing[m] = {nodeScalars(mesh), nodeScalars(mesh)};
   const NodePattern pattern(mesh, [&](const mesh::CellBlock& block, std::size_t e) {
     return motions[block.body[e]].moves();
   });
   Assembly g(mesh, pattern, true), k(mesh, pattern, true);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
-    const int body = block.body[e];
-    const Motion& motion = motions[body];
+    const int material = block.material[e];
+    const Motion& motion = motions[block.body[e]];
     if (!motion.moves()) return;
     std::vector<Point> velocity;
     for (const auto& x : points) velocity.push_back(motion.velocity(x));
     const Convection cell =
-        convection(gradientTable(table, points), points, velocity, materials[body].density);
+        convection(gradientTable(table, points), points, velocity, materials[material].density);
     const auto nodes = block.nodesOf(e);
     g.add(nodes, cell.gyroscopic, true);
     k.add(nodes, cell.rotationStiffness, true);
     for (int i = 0; i < block.nodesPerCell; ++i) {
       const PetscInt node = mesh.globalNode[nodes[i]];
-      check(VecSetValue(crossing[body].flux, node, cell.flux[i], ADD_VALUES));
-      check(VecSetValue(crossing[body].scale, node, cell.fluxScale[i], ADD_VALUES));
+      check(VecSetValue(crossing[material].flux, node, cell.flux[i], ADD_VALUES));
+      check(VecSetValue(crossing[material].scale, node, cell.fluxScale[i], ADD_VALUES));
     }
   });
-  for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
-    if (crossing[body].flux) rejectCrossing(mesh, mesh.bodies[body], motions[body], crossing[body]);
+  for (std::size_t m = 0; m < crossing.size(); ++m)
+    if (crossing[m].flux) rejectCrossing(mesh, mesh.materialText(m), motionOf(m), crossing[m]);
   ConvectiveTerms terms;
   terms.gyroscopic = g.finish(SymmetryClass::skew);
   terms.rotationStiffness = k.finish(SymmetryClass::symmetric);

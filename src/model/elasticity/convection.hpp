@@ -17,8 +17,9 @@ struct ConvectiveTerms {
   OwnedMat rotationStiffness;  ///< K^R, N/m
 };
 
-/// Collective. Assembles the terms of these materials and motions, [body]. Throws Error if the
-/// matter of a moving body crosses the body's surface, since the place of the body then changes.
+/// Collective. Assembles the terms of these materials, [material group], and motions, [body].
+/// Throws Error if the matter of a moving body crosses the surface of the body or of one of its
+/// sections, since the place of the body, or the material at a place, then changes.
 ConvectiveTerms convectiveTerms(const mesh::Mesh& mesh,
                                 const std::vector<material::Material>& materials,
                                 const std::vector<Motion>& motions);

@@ -5,10 +5,12 @@
 
 #include "base/petsc/arrays.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/error.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/attachments/forms.hpp"
 #include "model/elasticity/assembly.hpp"
+#include "model/elasticity/carried_axes.hpp"
 #include "model/elasticity/convection.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/ground.hpp"
@@ -43,52 +45,52 @@ const ShapeTable& stiffnessRule(const Material& material, const ShapeTable& tabl
                                      : gradientTable(table, points);
 }
 
-/// Selects the cells of one body, or all.
-CellFilter cellsOf(std::optional<int> body) {
-  return [body](const mesh::CellBlock& block, std::size_t e) {
-    return !body || block.body[e] == *body;
+/// Selects the cells of one material group, or all.
+CellFilter cellsOf(std::optional<int> material) {
+  return [material](const mesh::CellBlock& block, std::size_t e) {
+    return !material || block.material[e] == *material;
   };
 }
 
 constexpr double leastLocking = 0.49;  // the bulk modulus is 50 times the shear modulus
 
-/// Collective. Warns of nearly incompressible bodies with linear cells.
+/// Collective. Warns of nearly incompressible materials with linear cells.
 void warnOfLocking(const mesh::Mesh& mesh, const Bodies& bodies) {
   const auto& materials = bodies.materials;
   const auto counts = linearCells(mesh, bodies.settings);
-  for (std::size_t b = 0; b < counts.size(); ++b)
-    if (counts[b] > 0 && locks(materials[b].poisson))
+  for (std::size_t m = 0; m < counts.size(); ++m)
+    if (counts[m] > 0 && locks(materials[m].poisson))
       printWarning(
           mesh.comm,
-          formatted("warning: body '%s', with a Poisson's ratio of %.6g, has %" PetscInt_FMT
+          formatted("warning: %s, with a Poisson's ratio of %.6g, has %" PetscInt_FMT
                     " linear cells, which lock above %g: use a mesh of second order",
-                    mesh.bodies[b].c_str(), materials[b].poisson, counts[b], leastLocking));
+                    mesh.materialText(m).c_str(), materials[m].poisson, counts[m], leastLocking));
 }
 
-/// The matrices of all cells, or of those of one body.
+/// The matrices of all cells, or of those of one material group.
 struct CellMatrices {
   Assembly stiffness, mass;
   std::optional<Assembly> damping;  // C = α M + (β + η / 2πf) K, dashpots
 };
 
-/// Collective. Sums over the cells, with entries for `dashpots` in the damping matrix if there are
-/// any.
-CellMatrices cellMatrices(const mesh::Mesh& mesh, const Bodies& bodies, std::optional<int> body,
-                          bool dashpots) {
+/// Collective. Sums over the cells, with entries for the dashpots of the ground in the damping
+/// matrix if there are any.
+CellMatrices cellMatrices(const mesh::Mesh& mesh, const Bodies& bodies, std::optional<int> group,
+                          const Ground& ground) {
   const auto& materials = bodies.materials;
-  const CellFilter uses = cellsOf(body);
+  const CellFilter uses = cellsOf(group);
   const NodePattern pattern(mesh, uses);
   CellMatrices sums{{mesh, pattern, false}, {mesh, pattern, true}, {}};
   const auto any = [&](double Material::*damping) {
     return std::ranges::any_of(materials, [&](const auto& given) { return given.*damping > 0; });
   };
   const bool stiff = any(&Material::stiffnessDamping);
-  if (!body && (stiff || any(&Material::massDamping) || dashpots))
-    sums.damping.emplace(mesh, pattern, !stiff);
+  if (!group && (stiff || any(&Material::massDamping) || ground.dashpots))
+    sums.damping.emplace(mesh, pattern, !stiff && !ground.turnedDashpots);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     if (!uses(block, e)) return;
-    const Material& material = materials[block.body[e]];
+    const Material& material = materials[block.material[e]];
     const auto nodes = block.nodesOf(e);
     const bool bubbles = bodies.settings.isIncompatible(table.name);
     const auto cellStiffness =
@@ -105,15 +107,29 @@ CellMatrices cellMatrices(const mesh::Mesh& mesh, const Bodies& bodies, std::opt
   return sums;
 }
 
+/// Throws Error for a motion or a body force of a section: they are those of whole bodies.
+void rejectSections(const mesh::Mesh& mesh, const Settings& settings) {
+  const auto reject = [&](const std::string& name, const std::string& option) {
+    for (const auto& group : mesh.materialGroups)
+      if (group.isSection && group.name == name)
+        throw Error("option " + option + ": '" + name + "' is not a body but a section of '" +
+                    mesh.bodies[group.body] + "'; give the option for the body");
+  };
+  for (const auto& [name, motion] : settings.motions) reject(name, motion.option);
+  for (const auto& [name, spin] : settings.spins) reject(name, spin.option);
+  for (const auto& [name, given] : settings.accelerations)
+    reject(name, "-load_" + name + "_acceleration");
+}
+
 void assembleMatrices(const mesh::Mesh& mesh, Bodies& bodies) {
-  Ground ground = groundOf(mesh, bodies.settings.ground);
-  auto sums = cellMatrices(mesh, bodies, {}, ground.dashpots.get() != nullptr);
-  sums.stiffness.addDiagonal(ground.springs);
+  Ground ground = groundOf(mesh, bodies.settings);
+  auto sums = cellMatrices(mesh, bodies, {}, ground);
+  sums.stiffness.addRows(ground.springs);
   bodies.stiffness = sums.stiffness.finish(SymmetryClass::rounded);
   bodies.mass = sums.mass.finish(SymmetryClass::rounded);
   bodies.springs = std::move(ground.springs);
   if (!sums.damping) return;
-  sums.damping->addDiagonal(ground.dashpots);
+  sums.damping->addRows(ground.dashpots);
   bodies.damping = sums.damping->finish(SymmetryClass::rounded);
 }
 
@@ -182,11 +198,11 @@ void addLayers(OwnedMat stiffness, Bodies& bodies) {
 bool locks(double poisson) { return poisson > leastLocking; }
 
 std::vector<PetscInt> linearCells(const mesh::Mesh& mesh, const Settings& settings) {
-  std::vector<PetscInt> counts(mesh.bodies.size(), 0);
+  std::vector<PetscInt> counts(mesh.materialGroups.size(), 0);
   for (const auto& block : mesh.cells) {
     const ShapeTable& table = shapeTable(block.type);
     if (table.order == 1 && !settings.isIncompatible(table.name))
-      for (const int body : block.body) ++counts[body];
+      for (const int material : block.material) ++counts[material];
   }
   mpi::reduce<PetscInt>(mesh.comm, counts, MPI_SUM);
   return counts;
@@ -205,9 +221,11 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
                 const Settings& settings) {
   Bodies bodies;
   bodies.settings = settings;
+  rejectSections(mesh, settings);
   bodies.motions = motionsOf(mesh.bodies, mesh.dimension, settings.motions);
   bodies.materials = material::materialsOf(mesh, materials);
   requireHex20(mesh, bodies.materials);
+  checkCarriedAxes(mesh, bodies.materials, bodies.motions, settings.convective);
   assembleMatrices(mesh, bodies);
   bodies.exposed = exposedCells(mesh, bodies.materials);
   warnOfHourglass(mesh, bodies.exposed);
@@ -224,29 +242,34 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
   return bodies;
 }
 
-BodyPart bodyPart(const mesh::Mesh& mesh, const Bodies& bodies, int body) {
+MaterialPart materialPart(const mesh::Mesh& mesh, const Bodies& bodies, int group) {
+  const int body = mesh.materialGroups[group].body;
   std::vector<Motion> motions(bodies.motions.size());
   motions[body] = bodies.motions[body];
-  auto sums = cellMatrices(mesh, bodies, body, false);
+  auto sums = cellMatrices(mesh, bodies, group, {});
+  // These terms are linear in the densities.
+  auto materials = bodies.materials;
+  for (int m = 0; m < std::ssize(materials); ++m)
+    if (m != group) materials[m].density = 0;
   ConvectiveTerms terms;
-  if (bodies.settings.convective) terms = convectiveTerms(mesh, bodies.materials, motions);
-  BodyPart part;
+  if (bodies.settings.convective) terms = convectiveTerms(mesh, materials, motions);
+  MaterialPart part;
   part.gyroscopic = std::move(terms.gyroscopic);
   part.rotationStiffness = std::move(terms.rotationStiffness);
-  const LoadInput input{mesh, bodies.materials, bodies.settings};
+  const LoadInput input{mesh, materials, bodies.settings};
   part.centrifugal = centrifugalForces(input, motions);
-  if (bodies.settings.bodyForces) part.weight = bodyForces(input, body);
+  if (bodies.settings.bodyForces) part.weight = bodyForces(input, group);
   part.stiffness = sums.stiffness.finish(SymmetryClass::rounded);
   part.mass = sums.mass.finish(SymmetryClass::rounded);
-  part.massDamping = bodies.materials[body].massDamping;
-  part.stiffnessDamping = bodies.materials[body].stiffnessDamping;
+  part.massDamping = bodies.materials[group].massDamping;
+  part.stiffnessDamping = bodies.materials[group].stiffnessDamping;
   return part;
 }
 
 OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec displacement,
-                            std::optional<int> body) {
+                            std::optional<int> group) {
   const auto values = localValues(mesh, displacement);
-  const CellFilter uses = cellsOf(body);
+  const CellFilter uses = cellsOf(group);
   const NodePattern pattern(mesh, uses);
   Assembly k(mesh, pattern, false);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
@@ -257,7 +280,7 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec di
     for (PetscInt node : nodes)
       for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[mesh.dimension * node + d]);
     const bool bubbles = bodies.settings.isIncompatible(table.name);
-    const Material& material = bodies.materials[block.body[e]];
+    const Material& material = bodies.materials[block.material[e]];
     const auto cell = geometricStiffness(stiffnessRule(material, table, points), points,
                                          material.law, bubbles, u);
     k.add(nodes, onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K

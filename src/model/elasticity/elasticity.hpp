@@ -31,9 +31,10 @@ struct Bodies {
   OwnedMat linkStiffness;   ///< the part of K of springs and bushings, N×N, N/m; null if none
   OwnedMat layerStiffness;  ///< the part of K of compliant contact layers, N×N, N/m; null if none
   std::vector<attachments::Form> links;  ///< springs and bushings, the same on all ranks
-  OwnedVec springs;             ///< stiffness of grounded springs, N entries, N/m; null if none
-  std::vector<Motion> motions;  ///< [body], base motions
-  std::vector<material::Material> materials;  ///< [body]
+  OwnedMat springs;  ///< the part of K of grounded springs, N×N, with entries between the
+                     ///< components of a node, N/m; null if none
+  std::vector<Motion> motions;                ///< [body], base motions
+  std::vector<material::Material> materials;  ///< [material group]
   std::vector<ExposedCell> exposed;           ///< of all ranks
   Settings settings;
 };
@@ -52,30 +53,31 @@ void addLayers(OwnedMat stiffness, Bodies& bodies);
 /// without incompatible modes lock: such a cell cannot deform at constant volume at each point of
 /// its rule.
 bool locks(double poisson);
-/// Collective. Returns the number of linear cells without incompatible modes, [body].
+/// Collective. Returns the number of linear cells without incompatible modes, [material group].
 std::vector<PetscInt> linearCells(const mesh::Mesh& mesh, const Settings& settings);
 
-/// The contribution of one body to Bodies, on all nodal displacements. Its matrices and its vector
-/// are derivatives: K, and the part of C with K, with respect to a factor on its moduli, and all
-/// others with respect to a factor on its density.
-struct BodyPart {
+/// The contribution of one material group, a body or a section of one, to Bodies, on all nodal
+/// displacements. Its matrices and its vectors are derivatives: K, and the part of C with K, with
+/// respect to a factor on its moduli, and all others with respect to a factor on its density.
+struct MaterialPart {
   OwnedMat stiffness, mass;  ///< without grounded springs
   OwnedMat gyroscopic,
-      rotationStiffness;  ///< null unless the body moves and there are convective terms
+      rotationStiffness;  ///< null unless its body moves and there are convective terms
   OwnedVec centrifugal;
-  OwnedVec weight;              ///< gravity, acceleration and spin of the body; null if none
+  OwnedVec weight;              ///< gravity, acceleration and spin of its body; null if none
   double massDamping = 0;       ///< α, 1/s: C = α M + …
   double stiffnessDamping = 0;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
 };
-/// Collective. Returns the contribution of the body with this index.
-BodyPart bodyPart(const mesh::Mesh& mesh, const Bodies& bodies, int body);
+/// Collective. Returns the contribution of the material group with this index.
+MaterialPart materialPart(const mesh::Mesh& mesh, const Bodies& bodies, int group);
 
 /// Collective. Returns the geometric stiffness [M.6], equal for all components,
 ///   K_σ,ij = ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
 /// for the stress of the given nodal displacements and of their incompatible modes. It is N×N, N/m,
-/// exactly symmetric and has the pattern of K. If `body` is given, only this body contributes.
+/// exactly symmetric and has the pattern of K. If `group` is given, only this material group
+/// contributes.
 OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec displacement,
-                            std::optional<int> body = {});
+                            std::optional<int> group = {});
 
 /// Collective. Returns a nodal vector of zeros, with N entries and the block size `dimension`.
 OwnedVec nodalVector(const mesh::Mesh& mesh);

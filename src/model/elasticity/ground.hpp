@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Springs and dashpots between node groups and the ground.
-#include <map>
 #include <string>
 
 #include "base/petsc/owned.hpp"
 #include "model/elasticity/settings.hpp"
 #include "model/mesh/mesh.hpp"
+#include "model/mesh/vector.hpp"
 
 namespace squeal::elasticity {
 
-/// The sums over all groups at each nodal displacement, N entries. A vector is null if all its
-/// values are zero.
+/// The sums over all groups, N×N, with entries between the components of a node. A matrix is null
+/// if all its values are zero.
 struct Ground {
-  OwnedVec springs;   ///< N/m
-  OwnedVec dashpots;  ///< N·s/m
+  OwnedMat springs;             ///< N/m, symmetric
+  OwnedMat dashpots;            ///< N·s/m, symmetric
+  bool turnedDashpots = false;  ///< there are dashpots in other axes than the global ones
 };
 
 /// Collective. Returns the springs and dashpots. The nodes of each group share its total equally.
-/// Throws Error for fewer components than dimensions.
-Ground groundOf(const mesh::Mesh& mesh, const std::map<std::string, GroundSettings>& settings);
+/// Throws Error for fewer components than dimensions, for a frame that does not exist, and for a
+/// node on the axis of a cylindrical frame.
+Ground groundOf(const mesh::Mesh& mesh, const Settings& settings);
+
+/// Collective. Returns the stiffness of the springs of a group at each of its nodes, in the order
+/// of Mesh::nodeGroups, N/m. Throws Error as groundOf() does.
+std::vector<mesh::Matrix3> groundSprings(const mesh::Mesh& mesh, const Settings& settings,
+                                         const std::string& group);
 
 }  // namespace squeal::elasticity

@@ -44,7 +44,7 @@ std::vector<char> boundaryNodes(const mesh::Mesh& mesh) {
 
 ExposedCell exposedCell(const mesh::Mesh& mesh, const mesh::CellBlock& block, std::size_t e) {
   const auto local = block.nodesOf(e);
-  ExposedCell cell{block.tag[e], block.body[e], mesh.nodePart[local[0]], {}, {}};
+  ExposedCell cell{block.tag[e], block.material[e], mesh.nodePart[local[0]], {}, {}};
   for (std::size_t i = 0; i < nodes; ++i) {
     cell.node[i] = mesh.globalNode[local[i]];
     cell.point[i] = mesh.coordinates[local[i]];
@@ -56,16 +56,16 @@ ExposedCell exposedCell(const mesh::Mesh& mesh, const mesh::CellBlock& block, st
 
 void requireHex20(const mesh::Mesh& mesh, const std::vector<Material>& materials) {
   if (!anyReduced(materials)) return;
-  std::vector<int> other(materials.size(), 0);  // [body] a type of its cells that is not hex20
+  std::vector<int> other(materials.size(), 0);  // a type of the cells that is not hex20
   for (const auto& block : mesh.cells)
     if (block.type != hex20)
-      for (const int body : block.body) other[body] = std::max(other[body], block.type);
+      for (const int m : block.material) other[m] = std::max(other[m], block.type);
   mpi::reduce<int>(mesh.comm, other, MPI_MAX);
-  for (std::size_t b = 0; b < materials.size(); ++b) {
-    if (!materials[b].reducedIntegration || other[b] == 0) continue;
-    const std::string name = shapeTable(other[b]).name;
-    throw Error("option " + material::integrationName(mesh.bodies[b]) + " reduced: body '" +
-                mesh.bodies[b] + "' has " + name +
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    if (!materials[m].reducedIntegration || other[m] == 0) continue;
+    const std::string name = shapeTable(other[m]).name;
+    throw Error("option " + material::integrationName(mesh.materialGroups[m].name) +
+                " reduced: " + mesh.materialText(m) + " has " + name +
                 " cells, and only hex20 cells have reduced integration; " +
                 (name == "hex8"
                      ? "use incompatible modes (-elasticity_incompatible_modes hex8) or hex20"
@@ -80,32 +80,32 @@ std::vector<ExposedCell> exposedCells(const mesh::Mesh& mesh,
   std::vector<ExposedCell> cells;
   for (const auto& block : mesh.cells)
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
-      if (!materials[block.body[e]].reducedIntegration) continue;
+      if (!materials[block.material[e]].reducedIntegration) continue;
       const auto middles = block.nodesOf(e).subspan(corners);  // of its edges
       if (std::ranges::all_of(middles, [&](PetscInt node) { return boundary[node]; }))
         cells.push_back(exposedCell(mesh, block, e));
     }
   auto all = concatenated(mesh.comm, cells);
-  std::ranges::sort(all, {}, [](const auto& cell) { return std::tuple(cell.body, cell.tag); });
+  std::ranges::sort(all, {}, [](const auto& cell) { return std::tuple(cell.material, cell.tag); });
   return all;
 }
 
 void warnOfHourglass(const mesh::Mesh& mesh, std::span<const ExposedCell> cells) {
   constexpr std::size_t most = 10;
-  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+  for (std::size_t m = 0; m < mesh.materialGroups.size(); ++m) {
     std::vector<std::string> tags;
     for (const auto& cell : cells)
-      if (cell.body == int(b)) tags.push_back(std::to_string(cell.tag));
+      if (cell.material == int(m)) tags.push_back(std::to_string(cell.tag));
     const std::size_t count = tags.size();
     if (count == 0) continue;
     tags.resize(std::min(count, most));
     printWarning(
         mesh.comm,
-        "warning: body '" + mesh.bodies[b] + "' has " + std::to_string(count) + " hex20 " +
+        "warning: " + mesh.materialText(m) + " has " + std::to_string(count) + " hex20 " +
             (count == 1 ? "cell" : "cells") + " with reduced integration and without an edge " +
             "inside the body, so neighbours hold their hourglass modes weakly or not at all; use " +
             "two cells across the body in two directions, or " +
-            material::integrationName(mesh.bodies[b]) + " full: " +
+            material::integrationName(mesh.materialGroups[m].name) + " full: " +
             (count == 1 ? "cell " : "cells ") + joined(tags) + (count > most ? ", …" : ""));
   }
 }

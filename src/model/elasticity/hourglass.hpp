@@ -12,22 +12,24 @@
 
 namespace squeal::elasticity {
 
-/// Collective. Throws Error for a body with reduced integration that has other cells than hex20.
+/// Collective. Throws Error for a material group with reduced integration that has other cells than
+/// hex20.
 void requireHex20(const mesh::Mesh& mesh, const std::vector<material::Material>& materials);
 
 /// A cell with reduced integration of any rank that has no edge inside the bodies.
 struct ExposedCell {
   PetscInt tag;                   ///< gmsh's
-  int body, part;                 ///< index into Mesh::bodies, connected part
+  int material, part;             ///< index into Mesh::materialGroups, connected part
   std::array<PetscInt, 20> node;  ///< global nodes, in gmsh's order
   std::array<mesh::Point, 20> point;
 };
-/// Collective. Returns the exposed cells of all ranks, by body and tag; none without reduced
-/// integration. The cells around an edge inside a body hold each other's hourglass modes: together
-/// they have only rigid motions without strain. Cells in a row do not, nor do those of an L.
+/// Collective. Returns the exposed cells of all ranks, by material group and tag; none without
+/// reduced integration. The cells around an edge inside a body hold each other's hourglass modes:
+/// together they have only rigid motions without strain. Cells in a row do not, nor do those of an
+/// L.
 std::vector<ExposedCell> exposedCells(const mesh::Mesh& mesh,
                                       const std::vector<material::Material>& materials);
-/// Collective. Warns of each body with such cells.
+/// Collective. Warns of each material group with such cells.
 void warnOfHourglass(const mesh::Mesh& mesh, std::span<const ExposedCell> cells);
 
 /// The motions of a cell without strain at the points of the reduced rule.

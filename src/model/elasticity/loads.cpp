@@ -71,13 +71,13 @@ OwnedVec centrifugalForces(const LoadInput& input, const std::vector<Motion>& mo
       const Motion& motion = motions[block.body[e]];
       if (motion.speed != 0)
         addLoad(forces, input.mesh, block.nodesOf(e),
-                centrifugal(table, points, input.materials[block.body[e]].density, motion), 1);
+                centrifugal(table, points, input.materials[block.material[e]].density, motion), 1);
     });
   assembled(forces);
   return forces;
 }
 
-OwnedVec bodyForces(const LoadInput& input, std::optional<int> body) {
+OwnedVec bodyForces(const LoadInput& input, std::optional<int> material) {
   const auto& [mesh, materials, settings] = input;
   OwnedVec forces = nodalVector(mesh);
   const auto accelerations = accelerationsOf(input);
@@ -85,8 +85,8 @@ OwnedVec bodyForces(const LoadInput& input, std::optional<int> body) {
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     const int own = block.body[e];
-    if (body && own != *body) return;
-    const double density = input.materials[own].density;
+    if (material && block.material[e] != *material) return;
+    const double density = input.materials[block.material[e]].density;
     const auto nodes = block.nodesOf(e);
     if (accelerations[own] != Point{}) {
       const std::size_t count = nodes.size();

@@ -16,16 +16,16 @@ namespace squeal::elasticity {
 /// What the loads depend on; borrowed.
 struct LoadInput {
   const mesh::Mesh& mesh;
-  const std::vector<material::Material>& materials;  ///< [body]
+  const std::vector<material::Material>& materials;  ///< [material group]
   const Settings& settings;
 };
 
 /// Collective. Returns the centrifugal forces of these motions, [body].
 OwnedVec centrifugalForces(const LoadInput& input, const std::vector<Motion>& motions);
 
-/// Collective. Returns gravity, accelerations and spins of the bodies, or of one body. Throws Error
-/// for options of a group that is not a body.
-OwnedVec bodyForces(const LoadInput& input, std::optional<int> body);
+/// Collective. Returns gravity, accelerations and spins of all bodies, or of the cells of one
+/// material group. Throws Error for options of a group that is not a body.
+OwnedVec bodyForces(const LoadInput& input, std::optional<int> material);
 
 /// Pressures and forces on nodes, and the weight of point masses.
 struct SurfaceLoads {

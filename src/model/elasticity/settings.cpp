@@ -27,6 +27,9 @@ const RealListOption stiffnessOption("ground", "ground_<group>_stiffness", "0,0,
 const RealListOption dampingOption("ground", "ground_<group>_damping", "0,0,0", "N s/m",
                                    nonNegative,
                                    "dashpots along x, y, z to the ground, shared like springs");
+const TextOption groundFrameOption("ground", "ground_<group>_frame", "",
+                                   "name of the -frame whose axes are x, y, z of the springs and "
+                                   "dashpots; default: the global axes");
 const RealOption pressureOption("load", "load_<group>_pressure", 0.0, "Pa", anyReal,
                                 "pressure on a surface group, positive inwards");
 const FlagOption centrifugalOption("load", "load_centrifugal", true,
@@ -128,6 +131,10 @@ std::map<std::string, GroundSettings> groundGiven() {
     ground[group].dashpots = true;
     ground[group].damping = dampingOption.vector(group);
   }
+  for (const auto& group : groundFrameOption.subjects()) {
+    if (!ground.contains(group)) requireOption({&groundFrameOption}, stiffnessOption);
+    ground[group].frame = groundFrameOption.get(group);
+  }
   return ground;
 }
 
@@ -169,6 +176,8 @@ std::vector<mesh::GroupRequest> loadedSurfaces(const Settings& settings) {
     requests.push_back({surface, "-" + pressureOption.fullName(surface)});
   return requests;
 }
+
+std::string groundFrameName(const std::string& group) { return groundFrameOption.dashed(group); }
 
 std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings) {
   std::vector<mesh::GroupRequest> requests;

@@ -29,6 +29,7 @@ struct MotionSettings {
 struct GroundSettings {
   VectorValue stiffness;                   ///< N/m
   VectorValue damping;                     ///< N·s/m
+  std::string frame = {};                  ///< whose axes these are; empty: the global ones
   bool springs = false, dashpots = false;  ///< true if given
 };
 
@@ -62,6 +63,8 @@ std::vector<std::string> movingBodies(const Settings& settings);
 /// dashpots.
 std::vector<mesh::GroupRequest> loadedSurfaces(const Settings& settings);
 std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings);
+/// Returns the option `-ground_<group>_frame`, for messages.
+std::string groundFrameName(const std::string& group);
 /// Returns the options that give a motion, for messages.
 inline const char* motionOptions() { return "-motion_<body>_*"; }
 

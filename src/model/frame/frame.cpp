@@ -23,12 +23,35 @@ Point unitOf(const VectorValue& direction, const std::string& option, int dimens
   return unit(given);
 }
 
+/// Returns the axes after the turn, by rows, in components along those before it.
+Matrix3 turnOf(const FrameSettings& settings, int dimension) {
+  Matrix3 turn = mesh::identity3;
+  if (settings.turn == 0) return turn;
+  if (dimension == 2 && settings.turnAxis != 2)
+    throw Error("option " + settings.turnAxisOption + ": in the plane must be z");
+  const std::size_t next = (settings.turnAxis + 1) % 3, last = (settings.turnAxis + 2) % 3;
+  const double c = std::cos(settings.turn), s = std::sin(settings.turn);
+  turn[next][next] = turn[last][last] = c;
+  turn[next][last] = s, turn[last][next] = -s;
+  return turn;
+}
+
+/// Returns the product of matrices.
+Matrix3 product(const Matrix3& a, const Matrix3& b) {
+  Matrix3 c{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k) c[i][j] += a[i][k] * b[k][j];
+  return c;
+}
+
 }  // namespace
 
 Frame::Frame(const FrameSettings& settings, int dimension)
     : name_(settings.name),
       cylindrical_(settings.cylindrical),
-      origin_(settings.origin.in(dimension)) {
+      origin_(settings.origin.in(dimension)),
+      turn_(turnOf(settings, dimension)) {
   // An axis in the plane has two components, that of a cylindrical frame three.
   const Point first =
       unitOf(settings.first, settings.firstOption, settings.cylindrical ? 3 : dimension);
@@ -52,7 +75,7 @@ Frame::Frame(const FrameSettings& settings, int dimension)
 }
 
 Matrix3 Frame::axesAt(const Point& x) const {
-  if (!cylindrical_) return axes_;
+  if (!cylindrical_) return product(turn_, axes_);
   const Point r = mesh::minus(x, origin_), radial = mesh::tangential(r, axes_[2]);
   if (length(radial) <= parallel * length(r))
     throw Error(
@@ -60,7 +83,7 @@ Matrix3 Frame::axesAt(const Point& x) const {
                   "direction is not defined",
                   name_.c_str(), x[0], x[1], x[2]));
   const Point e = unit(radial);
-  return {e, cross(axes_[2], e), axes_[2]};
+  return product(turn_, {e, cross(axes_[2], e), axes_[2]});
 }
 
 Frame named(const std::map<std::string, FrameSettings>& frames, const std::string& name,

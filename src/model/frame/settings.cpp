@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "model/frame/settings.hpp"
 
+#include <cmath>
 #include <set>
 
 #include "base/options/options.hpp"
@@ -17,13 +18,18 @@ const RealListOption xyOption("frame", "frame_<name>_xy", "0,1,0", "", anyReal,
                               "another direction in the local plane of x and y");
 const RealListOption axisOption("frame", "frame_<name>_axis", "0,0,1", "", anyReal,
                                 "axis of cylindrical axes: x is radial, y tangential, z axial");
+const RealOption turnOption("frame", "frame_<name>_turn", 0.0, "deg", anyReal,
+                            "angle by which the local axes are turned about one of them, "
+                            "right-handed: ply angle, cone angle");
+const ChoiceOption turnAxisOption("frame", "frame_<name>_turn_about", {"x", "y", "z"}, "z",
+                                  "local axis about which -frame_<name>_turn turns the others");
 
 }  // namespace
 
 std::map<std::string, FrameSettings> framesGiven() {
   std::set<std::string> names;
-  for (const Option* option :
-       std::vector<const Option*>{&originOption, &xOption, &xyOption, &axisOption})
+  for (const Option* option : std::vector<const Option*>{&originOption, &xOption, &xyOption,
+                                                         &axisOption, &turnOption, &turnAxisOption})
     for (const auto& name : option->subjects()) names.insert(name);
   std::map<std::string, FrameSettings> frames;
   for (const auto& name : names) {
@@ -34,15 +40,32 @@ std::map<std::string, FrameSettings> framesGiven() {
                   ", for cylindrical ones");
     if (cylindrical && xyOption.given(name))
       throw Error("option -" + xyOption.fullName(name) + " needs -" + xOption.fullName(name));
+    if (turnAxisOption.given(name) && !turnOption.given(name))
+      throw Error("option " + turnAxisOption.dashed(name) + " needs " + turnOption.dashed(name));
     frames[name] = {.name = name,
                     .cylindrical = cylindrical,
                     .origin = originOption.vector(name),
                     .first = (cylindrical ? axisOption : xOption).vector(name),
                     .second = xyOption.vector(name),
+                    .turn = turnOption.get(name) * M_PI / 180,
+                    .turnAxis = turnAxisOption.get(name)[0] - 'x',
                     .firstOption = "-" + (cylindrical ? axisOption : xOption).fullName(name),
-                    .secondOption = "-" + xyOption.fullName(name)};
+                    .secondOption = "-" + xyOption.fullName(name),
+                    .turnAxisOption = turnAxisOption.dashed(name)};
   }
   return frames;
+}
+
+std::vector<std::string> idleFrames() {
+  std::set<std::string> used;
+  for (const Option* option : Option::all())
+    if (const auto* text = dynamic_cast<const TextOption*>(option);
+        text && option->name.ends_with("_frame"))
+      for (const auto& subject : option->subjects()) used.insert(text->get(subject));
+  std::vector<std::string> idle;
+  for (const auto& [name, frame] : framesGiven())
+    if (!used.contains(name)) idle.push_back(name);
+  return idle;
 }
 
 }  // namespace squeal::frame

@@ -4,6 +4,7 @@
 /// same results and Errors.
 #include <map>
 #include <string>
+#include <vector>
 
 #include "base/options/option_types.hpp"
 
@@ -15,11 +16,16 @@ struct FrameSettings {
   VectorValue origin = {};  ///< m; of a cylindrical frame a point on its axis
   VectorValue first = {};   ///< direction of x or, if cylindrical, of the axis
   VectorValue second = {};  ///< another direction in the plane of x and y, if rectangular
-  std::string firstOption, secondOption;  ///< with their dash, for messages
+  double turn = 0;          ///< angle by which these axes are turned about one of them, rad
+  int turnAxis = 2;         ///< 0, 1, 2: about their x, y, z
+  std::string firstOption, secondOption, turnAxisOption;  ///< with their dash, for messages
 };
 
 /// Returns the frames of the options, [name]. Throws Error for a frame without its directions, and
 /// for one with those of both kinds.
 std::map<std::string, FrameSettings> framesGiven();
+
+/// Returns the names of frames that no option `…_frame` selects.
+std::vector<std::string> idleFrames();
 
 }  // namespace squeal::frame

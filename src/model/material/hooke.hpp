@@ -56,7 +56,7 @@ bool mirrorSymmetric(const Hooke& solid);
 /// and σ_zz = σ_yz = σ_zx = 0 in plane stress.
 Hooke inPlane(const Hooke& solid, bool planeStress);
 
-/// Hooke's law of a body.
+/// Hooke's law of a material.
 struct Law {
   Hooke uniform;
   std::function<Hooke(const Point&)> varying;  ///< if not empty, the law at each point instead

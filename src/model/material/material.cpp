@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/petsc/check.hpp"
+#include "model/frame/frame.hpp"
 #include "model/mesh/vector.hpp"
 
 namespace squeal::material {
@@ -34,12 +35,12 @@ void requirePlane(const Anisotropy& given, const Hooke& turned) {
 
 /// Returns the law with cylindrical axes at each point. Throws Error if the axis is not normal to
 /// the plane of a plane problem.
-Law cylindricalLaw(const Anisotropy& given, const CylinderAxis& axis, const std::string& body,
-                   int dimension, bool planeStress) {
+Law cylindricalLaw(const Anisotropy& given, const CylinderAxis& axis, int dimension,
+                   bool planeStress) {
   const Hooke& solid = given.stiffness;
   const Point origin = axis.origin, k = axis.direction;
   if (dimension == 2 && std::hypot(k[0], k[1]) > 1e-9)
-    throw Error("option " + cylindricalName(body) + ": the axis of a plane problem must be 0,0,1");
+    throw Error("option " + given.axesOption + ": the axis of a plane problem must be 0,0,1");
   if (dimension == 2) requirePlane(given, solid);
   return {{}, [=](const Point& x) {
             const Hooke turned = rotated(solid, cylindricalAxes(x, origin, k));
@@ -47,16 +48,30 @@ Law cylindricalLaw(const Anisotropy& given, const CylinderAxis& axis, const std:
           }};
 }
 
-Law lawOf(const std::string& name, const BodySettings& body, int dimension, bool planeStress) {
+/// Replaces the name of a frame by its axes.
+Anisotropy withAxes(Anisotropy given, const Settings& settings, int dimension) {
+  const auto* name = std::get_if<FrameName>(&given.axes);
+  if (!name) return given;
+  const auto frame = frame::named(settings.frames, name->name, given.axesOption, dimension);
+  if (frame.isCylindrical()) {
+    given.stiffness = rotated(given.stiffness, frame.turn());
+    given.axes = CylinderAxis{frame.origin(), frame.axis()};
+  } else
+    given.axes = Axes{frame.axesAt({})};
+  return given;
+}
+
+Law lawOf(const BodySettings& body, const Settings& settings, int dimension) {
+  const bool planeStress = settings.planeStress;
   if (!body.anisotropy) return {isotropic(body.young, body.poisson, dimension, planeStress), {}};
-  const Anisotropy& given = *body.anisotropy;
+  const Anisotropy given = withAxes(*body.anisotropy, settings, dimension);
   if (const auto* axis = std::get_if<CylinderAxis>(&given.axes))
-    return cylindricalLaw(given, *axis, name, dimension, planeStress);
+    return cylindricalLaw(given, *axis, dimension, planeStress);
   const Hooke turned = rotated(given.stiffness, std::get<Axes>(given.axes));
   if (dimension == 3) return {turned, {}};
   requirePlane(given, turned);
   if (!mirrorSymmetric(turned))
-    throw Error("option " + orientationName(name) +
+    throw Error("option " + given.axesOption +
                 ": one axis of the material must be normal to the plane of the mesh");
   return {inPlane(turned, planeStress), {}};
 }
@@ -81,9 +96,9 @@ double poissonRatio(const BodySettings& body, int dimension, bool planeStress) {
 
 std::vector<Material> materialsOf(const mesh::Mesh& mesh, const Settings& settings) {
   std::vector<Material> materials;
-  for (const auto& name : mesh.bodies) {
-    const BodySettings& body = settings.bodies.at(name);
-    materials.push_back({.law = lawOf(name, body, mesh.dimension, settings.planeStress),
+  for (const auto& group : mesh.materialGroups) {
+    const BodySettings& body = settings.bodies.at(group.name);
+    materials.push_back({.law = lawOf(body, settings, mesh.dimension),
                          .density = body.density,
                          .massDamping = body.massDamping,
                          .stiffnessDamping = body.stiffnessDamping,

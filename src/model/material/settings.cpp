@@ -48,6 +48,9 @@ const RealListOption cylindricalOption(
     "material", "material_<group>_cylindrical", "", "m", anyReal,
     "axis of a body with cylindrical axes, instead of _orientation: ox,oy,oz,kx,ky,kz, a "
     "point and a direction; axis 1 radial, 2 tangential, 3 along k");
+const TextOption frameOption("material", "material_<group>_frame", "",
+                             "name of the -frame whose axes x, y, z are 1, 2, 3, instead of "
+                             "_orientation and _cylindrical");
 const RealOption densityOption("material", "material_<group>_density", std::nullopt, "kg/m3",
                                positive, "mass density of the body");
 const RealOption rayleighMassOption("material", "material_<group>_rayleigh_mass", 0.0, "1/s",
@@ -66,19 +69,12 @@ const ChoiceOption integrationOption(
     "material", "material_<group>_integration", {"full", "reduced"}, "full",
     "quadrature of the stiffness; reduced: 2x2x2 points (C3D20R), only for hex20 cells; mass and "
     "loads always have full integration");
+const TextOption sectionsOption(
+    "material", "material_<body>_sections", "",
+    "volume groups that make up a body, each with a material of its own; options that a section "
+    "does not have are those of the body");
 const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
                                "assumption of plane problems: plane strain or plane stress");
-
-/// Returns β + η / (2π f), s [M.5].
-double stiffnessDamping(const std::string& body) {
-  const double beta = rayleighStiffnessOption.get(body);
-  if (lossFactorOption.given(body))
-    return beta + lossFactorOption.get(body) / (2 * M_PI * lossFrequencyOption.get(body));
-  if (lossFrequencyOption.given(body))
-    throw Error("option -" + lossFrequencyOption.fullName(body) + " needs -" +
-                lossFactorOption.fullName(body));
-  return beta;
-}
 
 /// Returns the numbers of the option. Throws Error unless there are `count`.
 std::vector<double> numbers(const RealListOption& option, const std::string& body,
@@ -128,7 +124,7 @@ Hooke stiffnessMatrix(const std::string& body, const RealListOption& option, std
 /// Returns the anisotropic law that the option gives, without axes.
 Anisotropy anisotropy(const std::string& body, const RealListOption& option) {
   const bool general = &option == &anisotropicOption;
-  Anisotropy law{{}, {}, general, "-" + option.fullName(body)};
+  Anisotropy law{{}, {}, general, "-" + option.fullName(body), {}};
   if (general || &option == &orthotropicOption)
     law.stiffness = stiffnessMatrix(body, option, general ? 21 : 9);
   else
@@ -146,7 +142,7 @@ Axes orientation(const std::string& body) {
   const auto v = numbers(orientationOption, body, 6);
   const Point a{v[0], v[1], v[2]}, b{v[3], v[4], v[5]};
   if (!(length(cross(a, b)) > 1e-9 * length(a) * length(b)))
-    throw Error("option " + orientationName(body) +
+    throw Error("option " + orientationOption.dashed(body) +
                 ": the two directions must be neither parallel nor zero");
   return axesOf(a, b);
 }
@@ -155,7 +151,7 @@ CylinderAxis cylinderAxis(const std::string& body) {
   const auto v = numbers(cylindricalOption, body, 6);
   const Point origin{v[0], v[1], v[2]}, direction{v[3], v[4], v[5]};
   if (!(length(direction) > 0))
-    throw Error("option " + cylindricalName(body) + ": the axis has no length");
+    throw Error("option " + cylindricalOption.dashed(body) + ": the axis has no length");
   return {origin, unit(direction)};
 }
 
@@ -166,97 +162,233 @@ void exclude(const std::string& body, const Option& one, const Option& other) {
                 " exclude each other");
 }
 
-/// Throws Error if options of different laws are given.
-void rejectSecondLaw(const std::string& body) {
+/// The options of the axes.
+std::vector<const Option*> axesOptions() {
+  return {&orientationOption, &cylindricalOption, &frameOption};
+}
+
+/// All options of a material.
+std::vector<const Option*> materialOptions() {
+  std::vector<const Option*> options{
+      &youngOption,         &poissonOption,           &densityOption,
+      &rayleighMassOption,  &rayleighStiffnessOption, &lossFactorOption,
+      &lossFrequencyOption, &integrationOption};
+  for (const auto& more :
+       {axesOptions(), std::vector<const Option*>{&engineeringOption, &transverseOption,
+                                                  &orthotropicOption, &anisotropicOption}})
+    options.insert(options.end(), more.begin(), more.end());
+  return options;
+}
+
+/// Throws Error if options of different laws, or of different axes, are given.
+void rejectSecondLaw(const std::string& group) {
   const auto laws = anisotropicLaws();
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    exclude(body, *laws[i], youngOption);
-    exclude(body, *laws[i], poissonOption);
-    for (std::size_t j = i + 1; j < laws.size(); ++j) exclude(body, *laws[i], *laws[j]);
+    exclude(group, *laws[i], youngOption);
+    exclude(group, *laws[i], poissonOption);
+    for (std::size_t j = i + 1; j < laws.size(); ++j) exclude(group, *laws[i], *laws[j]);
   }
-  exclude(body, orientationOption, cylindricalOption);
+  const auto axes = axesOptions();
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    for (std::size_t j = i + 1; j < axes.size(); ++j) exclude(group, *axes[i], *axes[j]);
 }
 
-/// Reads the elastic law of a body.
-void readLaw(const std::string& body, BodySettings& settings) {
-  rejectSecondLaw(body);
-  for (const auto* law : anisotropicLaws()) {
-    if (!law->given(body)) continue;
-    settings.anisotropy = anisotropy(body, *law);
-    if (cylindricalOption.given(body))
-      settings.anisotropy->axes = cylinderAxis(body);
-    else
-      settings.anisotropy->axes = orientation(body);
+/// Reads the material of a volume group. An option that is not given for a section is that of its
+/// body. The law is inherited as a whole, except that an isotropic one may take one of its two
+/// constants from the body; the axes are inherited as a whole.
+class MaterialReader {
+ public:
+  /// `body` is the body of a section, or the group itself. Adds the options that are read to
+  /// `used`.
+  MaterialReader(std::string group, std::string body, std::set<std::string>& used)
+      : group_(std::move(group)), body_(std::move(body)), used_(used) {}
+  BodySettings read();
+
+ private:
+  /// Returns the group if it has the option, and otherwise the body if that has it.
+  std::string of(const Option& option);
+  bool given(const Option& option) { return option.given(of(option)); }
+  void readLaw(BodySettings& settings);
+  void readAxes(Anisotropy& law);
+  double stiffnessDamping();
+
+  std::string group_, body_;
+  std::set<std::string>& used_;
+};
+
+std::string MaterialReader::of(const Option& option) {
+  const std::string& subject = !option.given(group_) && option.given(body_) ? body_ : group_;
+  used_.insert(option.fullName(subject));
+  return subject;
+}
+
+void MaterialReader::readAxes(Anisotropy& law) {
+  const Option* chosen = &orientationOption;
+  std::string subject = group_;
+  for (const std::string& candidate : {body_, group_})  // those of the group replace the body's
+    for (const auto* option : axesOptions())
+      if (option->given(candidate)) chosen = option, subject = candidate;
+  used_.insert(chosen->fullName(subject));
+  law.axesOption = chosen->dashed(subject);
+  if (chosen == &frameOption)
+    law.axes = FrameName{frameOption.get(subject)};
+  else if (chosen == &cylindricalOption)
+    law.axes = cylinderAxis(subject);
+  else
+    law.axes = orientation(subject);
+}
+
+void MaterialReader::readLaw(BodySettings& settings) {
+  rejectSecondLaw(group_);
+  const auto lawOf = [](const std::string& group) -> const RealListOption* {
+    for (const auto* law : anisotropicLaws())
+      if (law->given(group)) return law;
+    return nullptr;
+  };
+  const bool isotropic = youngOption.given(group_) || poissonOption.given(group_);
+  const bool ofGroup = isotropic || lawOf(group_);
+  const std::string& subject = ofGroup ? group_ : body_;
+  if (const auto* law = lawOf(subject)) {
+    used_.insert(law->fullName(subject));
+    settings.anisotropy = anisotropy(subject, *law);
+    readAxes(*settings.anisotropy);
     return;
   }
-  for (const auto* option : {&orientationOption, &cylindricalOption})
-    if (option->given(body))
-      throw Error("option -" + option->fullName(body) + " needs -" +
-                  engineeringOption.fullName(body) + ", _transverse, _orthotropic or _anisotropic");
-  settings.poisson = poissonOption.get(body);
-  settings.young = youngOption.get(body);
+  for (const auto* option : axesOptions())
+    if (option->given(group_))
+      throw Error("option " + option->dashed(group_) + " needs " +
+                  engineeringOption.dashed(group_) + ", _transverse, _orthotropic or _anisotropic");
+  if (!ofGroup && body_ != group_ && !youngOption.given(body_) && !poissonOption.given(body_))
+    throw Error("option " + youngOption.dashed(group_) +
+                " (or _engineering_constants, _transverse, _orthotropic, _anisotropic) is missing: "
+                "neither the section nor its body '" +
+                body_ + "' has a law");
+  settings.poisson = poissonOption.get(of(poissonOption));
+  settings.young = youngOption.get(of(youngOption));
 }
 
-BodySettings bodyGiven(const std::string& body) {
+/// Returns β + η / (2π f), s [M.5].
+double MaterialReader::stiffnessDamping() {
+  const double beta = rayleighStiffnessOption.get(of(rayleighStiffnessOption));
+  if (given(lossFactorOption))
+    return beta + lossFactorOption.get(of(lossFactorOption)) /
+                      (2 * M_PI * lossFrequencyOption.get(of(lossFrequencyOption)));
+  if (given(lossFrequencyOption))
+    throw Error("option " + lossFrequencyOption.dashed(of(lossFrequencyOption)) + " needs " +
+                lossFactorOption.dashed(group_));
+  return beta;
+}
+
+BodySettings MaterialReader::read() {
   BodySettings settings;
-  readLaw(body, settings);
-  settings.density = densityOption.get(body);
-  settings.massDamping = rayleighMassOption.get(body);
-  settings.stiffnessDamping = stiffnessDamping(body);
-  settings.reducedIntegration = integrationOption.get(body) == "reduced";
+  readLaw(settings);
+  settings.density = densityOption.get(of(densityOption));
+  settings.massDamping = rayleighMassOption.get(of(rayleighMassOption));
+  settings.stiffnessDamping = stiffnessDamping();
+  settings.reducedIntegration = integrationOption.get(of(integrationOption)) == "reduced";
   return settings;
 }
 
-/// Returns the groups with an elastic law. Throws Error if there is none, and for a group with
+/// Returns the sections of the bodies that have any. Throws Error for a list without a group, and
+/// for a group that is in two lists or twice in one.
+std::map<std::string, std::vector<std::string>> sectionsGiven() {
+  std::map<std::string, std::vector<std::string>> sections;
+  std::map<std::string, std::string> bodyOf;
+  for (const auto& body : sectionsOption.subjects()) {
+    const std::string option = "option " + sectionsOption.dashed(body);
+    sections[body] = sectionsOption.list(body);
+    if (sections[body].empty()) throw Error(option + ": names no group");
+    for (const auto& section : sections[body]) {
+      const auto [known, isNew] = bodyOf.emplace(section, body);
+      if (!isNew && known->second == body)
+        throw Error(option + ": names the group '" + section + "' twice");
+      if (!isNew)
+        throw Error(option + ": '" + section + "' is also in " +
+                    sectionsOption.dashed(known->second) + "; a section belongs to one body");
+    }
+  }
+  for (const auto& [section, body] : bodyOf)
+    if (sectionsOption.given(section))
+      throw Error("option " + sectionsOption.dashed(body) + ": '" + section + "' " +
+                  (section == body ? "is the body itself; its sections are other groups"
+                                   : "has sections itself; name these instead"));
+  return sections;
+}
+
+/// Returns the volume groups with an elastic law, sections included. Throws Error for a group with
 /// other options but no law.
-std::set<std::string> groupsGiven() {
+std::set<std::string> groupsGiven(const std::map<std::string, std::vector<std::string>>& sections) {
   std::set<std::string> groups;
   for (const auto& group : youngOption.subjects()) groups.insert(group);
   for (const auto* law : anisotropicLaws())
     for (const auto& group : law->subjects()) groups.insert(group);
-  for (const Option* option :
-       std::vector<const Option*>{&poissonOption, &densityOption, &rayleighMassOption,
-                                  &rayleighStiffnessOption, &lossFactorOption, &lossFrequencyOption,
-                                  &orientationOption, &cylindricalOption, &integrationOption})
+  for (const auto& [body, list] : sections) groups.insert(list.begin(), list.end());
+  for (const Option* option : materialOptions())
     for (const auto& group : option->subjects())
-      if (!groups.count(group))
+      if (!groups.count(group) && !sections.contains(group))
         throw Error("option -" + youngOption.fullName(group) +
                     " (or _engineering_constants, _transverse, _orthotropic, _anisotropic) is "
                     "missing, but -" +
                     option->fullName(group) + " is given");
+  for (const auto& [body, list] : sections) groups.erase(body);
   if (groups.empty())
     throw Error("no body: " + howToGiveMaterials() + " for each volume group of the mesh");
   return groups;
+}
+
+/// Throws Error for an option of a body that all of its sections replace.
+void rejectIdle(const Settings& settings, const std::set<std::string>& used) {
+  for (const auto& [body, sections] : settings.sections) {
+    rejectSecondLaw(body);
+    for (const Option* option : materialOptions())
+      if (option->given(body) && !used.contains(option->fullName(body)))
+        throw Error("option " + option->dashed(body) + ": no section of '" + body +
+                    "' uses it, as all have their own; remove it");
+  }
 }
 
 }  // namespace
 
 Settings Settings::given() {
   Settings settings;
-  for (const auto& group : groupsGiven()) settings.bodies[group] = bodyGiven(group);
+  settings.sections = sectionsGiven();
+  std::map<std::string, std::string> bodyOf;
+  for (const auto& [body, sections] : settings.sections)
+    for (const auto& section : sections) bodyOf[section] = body;
+  std::set<std::string> used;
+  for (const auto& group : groupsGiven(settings.sections)) {
+    const auto body = bodyOf.find(group);
+    settings.bodies[group] =
+        MaterialReader(group, body == bodyOf.end() ? group : body->second, used).read();
+  }
+  rejectIdle(settings, used);
+  settings.frames = frame::framesGiven();
   settings.planeStress = planeOption.get() == "stress";
   return settings;
 }
 
 std::vector<mesh::GroupRequest> groupRequests(const Settings& settings) {
+  std::map<std::string, std::string> bodies;  // the option that names each
+  for (const auto& [group, body] : settings.bodies) bodies[group] = youngOption.dashed(group);
+  for (const auto& [body, sections] : settings.sections) {
+    for (const auto& section : sections) bodies.erase(section);
+    bodies[body] = sectionsOption.dashed(body);
+  }
   std::vector<mesh::GroupRequest> requests;
-  for (const auto& [group, body] : settings.bodies)
-    requests.push_back({group, "-" + youngOption.fullName(group)});
+  for (const auto& [body, option] : bodies) requests.push_back({body, option});
+  return requests;
+}
+
+std::map<std::string, std::vector<mesh::GroupRequest>> sectionRequests(const Settings& settings) {
+  std::map<std::string, std::vector<mesh::GroupRequest>> requests;
+  for (const auto& [body, sections] : settings.sections)
+    for (const auto& section : sections)
+      requests[body].push_back({section, sectionsOption.dashed(body)});
   return requests;
 }
 
 std::string howToGiveMaterials() { return "give -material_<group>_young, _poisson and _density"; }
 
-std::string orientationName(const std::string& body) {
-  return "-" + orientationOption.fullName(body);
-}
-
-std::string cylindricalName(const std::string& body) {
-  return "-" + cylindricalOption.fullName(body);
-}
-
-std::string integrationName(const std::string& body) {
-  return "-" + integrationOption.fullName(body);
-}
+std::string integrationName(const std::string& group) { return integrationOption.dashed(group); }
 
 }  // namespace squeal::material

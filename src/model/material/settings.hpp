@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "model/frame/settings.hpp"
 #include "model/material/hooke.hpp"
 #include "model/mesh/mesh.hpp"
 
@@ -19,18 +20,24 @@ struct CylinderAxis {
   Point direction{0, 0, 1};  ///< unit vector
 };
 
-/// The elastic law and the axes of an anisotropic body.
-struct Anisotropy {
-  Hooke stiffness;  ///< in the axes of the material, 6×6
-  std::variant<Axes, CylinderAxis> axes;
-  bool general = false;  ///< it is not orthotropic in these axes
-  std::string option;    ///< that gives the constants, with its dash, for messages
+/// The name of a frame whose axes x, y, z are the axes 1, 2, 3.
+struct FrameName {
+  std::string name;
 };
 
-/// The material of one body.
+/// The elastic law and the axes of an anisotropic material.
+struct Anisotropy {
+  Hooke stiffness;  ///< in the axes of the material, 6×6
+  std::variant<Axes, CylinderAxis, FrameName> axes;
+  bool general = false;    ///< it is not orthotropic in these axes
+  std::string option;      ///< that gives the constants, with its dash, for messages
+  std::string axesOption;  ///< that gives the axes, or could give them
+};
+
+/// The material of one body, or of one section of a body.
 struct BodySettings {
-  double young = 0;                      ///< Young's modulus of an isotropic body, Pa
-  double poisson = 0;                    ///< Poisson's ratio of an isotropic body
+  double young = 0;                      ///< Young's modulus of an isotropic material, Pa
+  double poisson = 0;                    ///< Poisson's ratio of an isotropic material
   std::optional<Anisotropy> anisotropy;  ///< in place of young and poisson
   double density = 0;                    ///< kg/m³
   double massDamping = 0;                ///< α, 1/s: C = α M + …
@@ -39,24 +46,26 @@ struct BodySettings {
 };
 
 struct Settings {
-  bool planeStress = false;                    ///< of plane problems; otherwise plane strain
-  std::map<std::string, BodySettings> bodies;  ///< [volume group], those with an elastic law
+  bool planeStress = false;  ///< of plane problems; otherwise plane strain
+  /// [volume group] the materials of bodies without sections, and of sections.
+  std::map<std::string, BodySettings> bodies;
+  std::map<std::string, std::vector<std::string>> sections;  ///< [body] its sections
+  std::map<std::string, frame::FrameSettings> frames;        ///< [name]
 
   /// Reads the options. Throws Error if no group has a law, for a group with other options but no
-  /// law, for a wrong or missing option, for options of different laws, and for constants without
-  /// positive strain energy.
+  /// law, for a wrong or missing option, for options of different laws, for constants without
+  /// positive strain energy, for a section of two bodies or with sections of its own, and for an
+  /// option of a body that all of its sections replace.
   static Settings given();
 };
 
-/// Returns the volume groups with a material, for the mesh reader.
+/// Returns the bodies, sorted by name, for the mesh reader.
 std::vector<mesh::GroupRequest> groupRequests(const Settings& settings);
+/// Returns the sections of bodies, [body], for the mesh reader.
+std::map<std::string, std::vector<mesh::GroupRequest>> sectionRequests(const Settings& settings);
 /// Returns the options that give a material, for messages: "give -…".
 std::string howToGiveMaterials();
-/// Return names of options of a body, with their dash, for messages:
-/// `-material_<group>_orientation` and `-material_<group>_cylindrical`.
-std::string orientationName(const std::string& body);
-std::string cylindricalName(const std::string& body);
-/// Returns the same for `-material_<group>_integration`.
-std::string integrationName(const std::string& body);
+/// Returns the option `-material_<group>_integration` of a body or section, for messages.
+std::string integrationName(const std::string& group);
 
 }  // namespace squeal::material

@@ -7,6 +7,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/system/text.hpp"
+#include "model/mesh/body_sections.hpp"
 #include "model/mesh/twins.hpp"
 
 namespace squeal::mesh {
@@ -25,7 +26,7 @@ void requireSupported(const WholeBlock& block, const std::string& body) {
 std::string cellText(const WholeMesh& mesh, const ElementPlace& place) {
   const auto& block = mesh.cells[place.block];
   return std::to_string(block.tag[place.element]) + " of group '" +
-         mesh.bodies[block.label[place.element]] + "'";
+         mesh.materialGroups[block.material[place.element]].name + "'";
 }
 
 /// Throws Error if a cell is there twice, since its stiffness and mass would be doubled, or if it
@@ -93,6 +94,7 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
             known, WholeBlock{block.type, block.nodesPerElement, block.corners, {}, {}, {}, {}});
       for (auto tag : block.tag) {
         const auto [entry, isNew] = bodyOf.emplace(tag, b);
+        if (!isNew && entry->second == b) rejectTwoSections(mesh, model, request, b, tag);
         if (!isNew && entry->second == b)
           throw Error("option -mesh_file: two cells of group '" + mesh.bodies[b] +
                       "' have the tag " + std::to_string(tag));
@@ -106,6 +108,7 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
       known->label.insert(known->label.end(), block.tag.size(), b);
     }
   }
+  assignMaterials(mesh, model, request, index);
   requireMaterials(mesh, model, bodyOf, request, index);
   requireDistinctCells(mesh);
   if (mesh.dimension == 2)

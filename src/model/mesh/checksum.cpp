@@ -13,7 +13,7 @@ std::string checksum(const Mesh& mesh) {
   };
   add(mesh.coordinates);
   add(mesh.globalNode);
-  for (const auto& block : mesh.cells) add(block.nodes);
+  for (const auto& block : mesh.cells) add(block.nodes), add(block.material);
   add(concatenated(mesh.comm, std::vector<unsigned long>{sum}));
   return formatted("checksum %08lx", sum);
 }

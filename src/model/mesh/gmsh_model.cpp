@@ -59,7 +59,8 @@ GmshModel::GmshModel(const meshfile::Settings& settings, meshfile::Reader reader
 }
 
 const meshfile::GroupElements& GmshModel::group(const std::string& name,
-                                                const std::string& wantedBy) const {
+                                                const std::string& wantedBy,
+                                                const std::vector<std::string>& references) const {
   const auto found = contents_.groups.find(meshfile::groupName(name));
   if (found != contents_.groups.end()) return found->second;
   constexpr std::size_t most = 40;  // a shape has a group for each face
@@ -71,7 +72,25 @@ const meshfile::GroupElements& GmshModel::group(const std::string& name,
   throw Error(wantedBy + " names group '" + name + "', which is not in the mesh; " +
               (names.empty() ? "it has no physical groups at all: name its bodies and surfaces "
                                "(Physical Volume, Physical Surface)"
-                             : "its groups are: " + joined(names)));
+                             : "its groups are: " + joined(names)) +
+              (references.empty() ? "" : "; the reference nodes are: " + joined(references)));
+}
+
+void GmshModel::joinSections(const Request& request) {
+  for (const auto& [body, sections] : request.bodySections) {
+    meshfile::GroupElements all;
+    for (const auto& section : sections) {
+      const auto& part = group(section.name, "option " + section.option);
+      if (all.blocks.empty()) all.dimension = part.dimension;
+      if (part.dimension != all.dimension)
+        throw Error("option " + section.option + ": the sections '" + sections[0].name + "' and '" +
+                    section.name + "' have the dimensions " + std::to_string(all.dimension) +
+                    " and " + std::to_string(part.dimension) +
+                    "; all are volumes, or all surfaces of a plane mesh");
+      all.blocks.insert(all.blocks.end(), part.blocks.begin(), part.blocks.end());
+    }
+    contents_.groups.emplace(body, std::move(all));  // unless the mesh has a group of this name
+  }
 }
 
 }  // namespace squeal::mesh

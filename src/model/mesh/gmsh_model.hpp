@@ -20,8 +20,13 @@ class GmshModel {
                      meshfile::Reader reader = meshfile::readInProgram);
 
   /// Returns a group, borrowed. If the mesh has none of this name, throws Error, naming the group,
-  /// the option that needs it and the groups of the mesh.
-  const meshfile::GroupElements& group(const std::string& name, const std::string& wantedBy) const;
+  /// the option that needs it, the groups of the mesh and the reference nodes that would do as
+  /// well.
+  const meshfile::GroupElements& group(const std::string& name, const std::string& wantedBy,
+                                       const std::vector<std::string>& references = {}) const;
+  /// Makes a group for each body whose sections are groups of the mesh while the body is not.
+  /// Throws Error for a section that is not in the mesh or has another dimension than the others.
+  void joinSections(const Request& request);
   const Point& point(PetscInt index) const { return contents_.points[index]; }
   PetscInt tag(PetscInt index) const { return contents_.tags[index]; }
   PetscInt nodeCount() const { return contents_.points.size(); }

@@ -17,6 +17,16 @@ const Reference* Mesh::reference(const std::string& name) const {
   return found == references.end() ? nullptr : &*found;
 }
 
+bool Mesh::hasSections() const {
+  return std::ranges::any_of(materialGroups, &MaterialGroup::isSection);
+}
+
+std::string Mesh::materialText(int group) const {
+  const auto& [name, body, isSection] = materialGroups[group];
+  return isSection ? "section '" + name + "' of body '" + bodies[body] + "'"
+                   : "body '" + name + "'";
+}
+
 std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
 }  // namespace squeal::mesh

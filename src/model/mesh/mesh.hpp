@@ -22,9 +22,10 @@ using Point = std::array<double, 3>;
 struct CellBlock {
   int type = 0;  ///< gmsh element type
   int nodesPerCell = 0;
-  std::vector<PetscInt> nodes;  ///< [cell][node] local node, in gmsh's order
-  std::vector<int> body;        ///< [cell] index into Mesh::bodies
-  std::vector<PetscInt> tag;    ///< [cell] gmsh's element tag
+  std::vector<PetscInt> nodes;     ///< [cell][node] local node, in gmsh's order
+  std::vector<int> body;           ///< [cell] index into Mesh::bodies
+  std::vector<PetscInt> tag;       ///< [cell] gmsh's element tag
+  std::vector<int> material = {};  ///< [cell] index into Mesh::materialGroups
 
   std::span<const PetscInt> nodesOf(std::size_t cell) const {
     return std::span(nodes).subspan(cell * nodesPerCell, nodesPerCell);
@@ -64,6 +65,13 @@ struct ContactPair {
   int masterBody;   ///< index into Mesh::bodies of the disc side; −1 for a rigid obstacle
   int masterPart;   ///< connected part of the master node; −1 for a rigid obstacle
   Point offset;     ///< position of the master minus that of the node in the file, m
+};
+
+/// A volume group whose cells have one material: a body without sections, or a section of a body.
+struct MaterialGroup {
+  std::string name;
+  int body;        ///< index into Mesh::bodies
+  bool isSection;  ///< false: it is the whole body, and has its name
 };
 
 /// A section that cuts a body: its two sides move apart by the displacement of a reference node.
@@ -135,8 +143,9 @@ struct Mesh {
   /// [local node] connected part (0 … parts−1) of the bodies once contact is cut
   std::vector<int> nodePart;
   int parts = 0;
-  std::vector<std::string> partName;  ///< [part] names of its bodies joined by '+'
-  std::vector<std::string> bodies;    ///< groups with a material
+  std::vector<std::string> partName;          ///< [part] names of its bodies joined by '+'
+  std::vector<std::string> bodies;            ///< groups with a material, or made up of sections
+  std::vector<MaterialGroup> materialGroups;  ///< in the order of the bodies
   std::vector<CellBlock> cells;
   std::vector<std::string> surfaces;  ///< surface groups that options name
   std::vector<FaceBlock> faces;
@@ -154,6 +163,10 @@ struct Mesh {
   std::vector<InterfaceMatch> interfaces;  ///< in the order of the request
 
   PetscInt localNodes() const { return globalNode.size(); }
+  /// Returns true if a body is made up of sections.
+  bool hasSections() const;
+  /// Returns a material group for messages: "body 'NAME'" or "section 'NAME' of body 'BODY'".
+  std::string materialText(int group) const;
   /// Returns the local number of a global node that this rank owns; −1 for other nodes.
   PetscInt ownedNode(PetscInt global) const {
     const PetscInt local = global - firstNode;
@@ -188,8 +201,8 @@ struct GroupRequest {
 /// One contact interface as the mesh sees it: two surface groups, or a pad on a rigid obstacle.
 struct InterfaceRequest {
   std::string name;
-  std::string label;       ///< the kind of interface and its name: unique, for messages
-  GroupRequest pad, disc;  ///< an empty name for the disc stands for a rigid obstacle
+  std::string label;         ///< the kind of interface and its name: unique, for messages
+  GroupRequest pad, disc;    ///< an empty name for the disc stands for a rigid obstacle
   bool discIsSlave = false;  ///< the nodes of the disc bear the gaps, also if the meshes match
   /// Surfaces whose nodes need layer nodes: those that may bear the gaps over a compliant layer.
   std::vector<std::string> layered = {};
@@ -221,7 +234,9 @@ struct SectionRequest {
 
 /// The groups that the later stages need from the mesh.
 struct Request {
-  std::vector<GroupRequest> bodies;  ///< volume groups with a material
+  std::vector<GroupRequest> bodies;  ///< volume groups with a material, or made up of sections
+  /// [body] the volume groups that make up the body; a body that is not here is one group.
+  std::map<std::string, std::vector<GroupRequest>> bodySections;
   /// Bodies with a motion. Where an interface has shared nodes, they are its disc side.
   std::vector<std::string> moving;
   /// Groups of any dimension, or reference nodes, whose nodes are constrained or loaded.

@@ -174,7 +174,8 @@ void addElements(const WholeMesh& mesh, const Shares& shares, int rank, const Lo
                           .nodesPerCell = block.nodesPerElement,
                           .nodes = local.of(elementNodes(block, which)),
                           .body = picked(block.label, which),
-                          .tag = picked(block.tag, which)});
+                          .tag = picked(block.tag, which),
+                          .material = picked(block.material, which)});
   }
   for (std::size_t b = 0; b < mesh.faces.size(); ++b) {
     const auto& block = mesh.faces[b];
@@ -205,6 +206,7 @@ Mesh partOf(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   part.parts = std::ssize(mesh.partName);
   part.partName = mesh.partName;
   part.bodies = mesh.bodies, part.surfaces = mesh.surfaces;
+  part.materialGroups = mesh.materialGroups;
   addElements(mesh, shares, rank, local, part);
   std::size_t g = 0;
   for (const auto& [name, nodes] : mesh.nodeGroups)

@@ -6,8 +6,8 @@ namespace squeal::mesh {
 // A structured binding names all members: one that is missing here does not compile.
 
 void fields(Stream& stream, CellBlock& block) {
-  auto& [type, nodesPerCell, nodes, body, tag] = block;
-  stream(type, nodesPerCell, nodes, body, tag);
+  auto& [type, nodesPerCell, nodes, body, tag, material] = block;
+  stream(type, nodesPerCell, nodes, body, tag, material);
 }
 
 void fields(Stream& stream, FaceBlock& block) {
@@ -25,6 +25,11 @@ void fields(Stream& stream, Reference& reference) {
   stream(name, position, displacement, rotation, part);
 }
 
+void fields(Stream& stream, MaterialGroup& group) {
+  auto& [name, body, isSection] = group;
+  stream(name, body, isSection);
+}
+
 void fields(Stream& stream, Section& section) {
   auto& [name, normal, reference] = section;
   stream(name, normal, reference);
@@ -32,13 +37,13 @@ void fields(Stream& stream, Section& section) {
 
 void fields(Stream& stream, Mesh& mesh) {
   auto& [comm, dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
-         globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
-         faces, nodeGroups, references, sections, sectionPairs, layers, layerNodes, images, pairs,
-         interfaces] = mesh;
+         globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, materialGroups, cells,
+         surfaces, faces, nodeGroups, references, sections, sectionPairs, layers, layerNodes,
+         images, pairs, interfaces] = mesh;
   stream(dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
-         globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
-         faces, nodeGroups, references, sections, sectionPairs, layers, layerNodes, images, pairs,
-         interfaces);
+         globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, materialGroups, cells,
+         surfaces, faces, nodeGroups, references, sections, sectionPairs, layers, layerNodes,
+         images, pairs, interfaces);
 }
 
 }  // namespace squeal::mesh

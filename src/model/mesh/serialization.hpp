@@ -10,6 +10,7 @@ void fields(Stream& stream, CellBlock& block);
 void fields(Stream& stream, FaceBlock& block);
 void fields(Stream& stream, InterfaceMatch& match);
 void fields(Stream& stream, Reference& reference);
+void fields(Stream& stream, MaterialGroup& group);
 void fields(Stream& stream, Section& section);
 /// Exchanges all members except the communicator.
 void fields(Stream& stream, Mesh& mesh);

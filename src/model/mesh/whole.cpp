@@ -73,11 +73,12 @@ struct NamedElements {
 NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Request& request,
                         const NodeIndex& index) {
   NamedElements named;
-  const auto add = [&](const GroupRequest& request, int dimension) {
+  const auto add = [&](const GroupRequest& request, int dimension,
+                       const std::vector<std::string>& references = {}) {
     const std::string& name = request.name;
     const std::string wantedBy = "option " + request.option;
     if (named.groups.count(name)) return;
-    auto group = model.group(name, wantedBy);
+    auto group = model.group(name, wantedBy, references);
     if (dimension >= 0 && group.dimension != dimension)
       throw Error(wantedBy + ": group '" + name + "' has dimension " +
                   std::to_string(group.dimension) + "; a boundary of dimension " +
@@ -96,10 +97,10 @@ NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Req
   for (const auto& reference : request.references)
     if (!reference.position) add(reference.centreOf, -1);
   for (const auto& section : request.sections) add(section.surface, boundary);
+  std::vector<std::string> references;
+  for (const auto& reference : request.references) references.push_back(reference.name);
   for (const auto& group : request.nodeGroups)
-    if (std::ranges::find(request.references, group.name, &ReferenceRequest::name) ==
-        request.references.end())
-      add(group, -1);
+    if (std::ranges::find(references, group.name) == references.end()) add(group, -1, references);
   for (const auto& pair : request.periodic) {
     add({pair.image, pair.option}, -1);
     add({pair.of, pair.option}, -1);
@@ -355,7 +356,8 @@ PetscInt WholeMesh::cellCount() const {
 }
 
 WholeMesh load(const meshfile::Settings& file, const Request& request, meshfile::Reader reader) {
-  const GmshModel model(file, reader);
+  GmshModel model(file, reader);
+  model.joinSections(request);
   WholeMesh mesh;
   NodeIndex index(mesh, model);
   readBodies(mesh, model, request, index);

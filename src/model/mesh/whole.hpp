@@ -27,6 +27,7 @@ struct WholeMesh {
   PetscInt unusedNodes = 0;  ///< see Mesh
   Straightened straightened;
   std::vector<std::string> bodies, surfaces;
+  std::vector<MaterialGroup> materialGroups;  ///< see Mesh
   std::vector<WholeBlock> cells;
   std::vector<WholeFaces> faces;
   std::map<std::string, std::vector<PetscInt>> nodeGroups;

@@ -15,10 +15,11 @@ namespace squeal::meshfile {
 /// The elements of one gmsh type. Its reader leaves the labels empty.
 struct ElementBlock {
   int type = 0, nodesPerElement = 0, corners = 0;
-  std::vector<PetscInt> nodes;  ///< [element][node] index of the node
-  std::vector<int> label;       ///< [element] body (cells) or surface (faces)
-  std::vector<PetscInt> tag;    ///< [element] gmsh's tag
-  std::string typeName = {};    ///< gmsh's name of the type, for messages
+  std::vector<PetscInt> nodes;     ///< [element][node] index of the node
+  std::vector<int> label;          ///< [element] body (cells) or surface (faces)
+  std::vector<PetscInt> tag;       ///< [element] gmsh's tag
+  std::string typeName = {};       ///< gmsh's name of the type, for messages
+  std::vector<int> material = {};  ///< [element] material group of a cell; empty for its reader
 
   std::span<PetscInt> nodesOf(std::size_t element) {
     return std::span(nodes).subspan(element * nodesPerElement, nodesPerElement);

@@ -6,8 +6,8 @@ namespace squeal::meshfile {
 // A structured binding names all members: one that is missing here does not compile.
 
 void fields(Stream& stream, ElementBlock& block) {
-  auto& [type, nodesPerElement, corners, nodes, label, tag, typeName] = block;
-  stream(type, nodesPerElement, corners, nodes, label, tag, typeName);
+  auto& [type, nodesPerElement, corners, nodes, label, tag, typeName, material] = block;
+  stream(type, nodesPerElement, corners, nodes, label, tag, typeName, material);
 }
 
 void fields(Stream& stream, GroupElements& group) {

@@ -23,31 +23,31 @@ class CellFinder {
       for (std::size_t e = 0; e < block.body.size(); ++e)
         for (PetscInt node : block.nodesOf(e))
           if (const auto found = cells_.find(node); found != cells_.end())
-            found->second.push_back({block.nodesOf(e), block.body[e]});
+            found->second.push_back({block.nodesOf(e), block.body[e], block.material[e]});
   }
-  /// Returns the body of the cell that has all of these nodes.
-  int bodyAt(std::span<const PetscInt> nodes) const {
+  struct Cell {
+    std::span<const PetscInt> nodes;
+    int body, material;
+  };
+  /// Returns the cell that has all of these nodes.
+  const Cell& cellAt(std::span<const PetscInt> nodes) const {
     for (const auto& cell : cells_.at(nodes[0]))
       if (std::all_of(nodes.begin(), nodes.end(), [&](PetscInt node) {
             return std::find(cell.nodes.begin(), cell.nodes.end(), node) != cell.nodes.end();
           }))
-        return cell.body;
+        return cell;
     throw Error("a face of the mesh bounds no cell of its process");
   }
 
  private:
-  struct Cell {
-    std::span<const PetscInt> nodes;
-    int body;
-  };
   std::unordered_map<PetscInt, std::vector<Cell>> cells_;  // [first local node of a face]
 };
 
 }  // namespace
 
 void fields(Stream& stream, Face& face) {
-  auto& [type, nodes, parts, points, sign, body] = face;
-  stream(type, nodes, parts, points, sign, body);
+  auto& [type, nodes, parts, points, sign, body, material] = face;
+  stream(type, nodes, parts, points, sign, body, material);
 }
 
 std::vector<Face> facesOf(const mesh::Mesh& mesh, const std::string& surface) {
@@ -64,7 +64,8 @@ std::vector<Face> facesOf(const mesh::Mesh& mesh, const std::string& surface) {
       Face& face = faces.emplace_back();
       face.type = block.type;
       face.sign = block.sign[e];
-      face.body = finder.bodyAt(nodes.first(corners));
+      const auto& cell = finder.cellAt(nodes.first(corners));
+      face.body = cell.body, face.material = cell.material;
       for (PetscInt node : nodes) {
         face.nodes.push_back(mesh.globalNode[node]);
         face.parts.push_back(mesh.nodePart[node]);

@@ -18,7 +18,8 @@ struct Face {
   std::vector<int> parts;       ///< [node] connected part of the mesh
   std::vector<Point> points;    ///< [node] coordinates, m
   int sign = 1;  ///< +1 if the normal by node order points out of the body, −1 if it points into it
-  int body = -1;  ///< index into Mesh::bodies
+  int body = -1;      ///< index into Mesh::bodies
+  int material = -1;  ///< index into Mesh::materialGroups
 };
 
 void fields(Stream& stream, Face& face);

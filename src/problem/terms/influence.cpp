@@ -28,9 +28,9 @@ bool dependsOnSteadyState(const contact::Contact& contact, const sweep::Paramete
 /// A parameter θ, and the change of the steady state with θ.
 struct Influences::Influence {
   std::string name;
-  double sweep::Parameters::*member = nullptr;  // θ in the point; null: θ belongs to a body
-  int body = -1;
-  bool density = false;  // θ is a factor on the density of the body; otherwise on its moduli
+  double sweep::Parameters::*member = nullptr;  // θ in the point; null: θ belongs to a material
+  int material = -1;                            // index into Mesh::materialGroups
+  bool density = false;  // θ is a factor on the density of the material; otherwise on its moduli
   double size = 1;       // θ, for the step of differences
   steady::Change change = {};
   std::vector<double> responseForce = {};  // its change
@@ -66,8 +66,8 @@ void Influences::derive(pencil::ComplexModes& point, const pencil::Pencil& penci
 }
 
 std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {
-  for (int body = parts_.size(); body < std::ssize(mesh_.bodies); ++body)
-    parts_.push_back(elasticity::bodyPart(mesh_, bodies_, body));
+  for (int group = parts_.size(); group < std::ssize(mesh_.materialGroups); ++group)
+    parts_.push_back(elasticity::materialPart(mesh_, bodies_, group));
   std::vector<Influence> list;
   for (const auto& parameter : sweep::allParameters) {
     const bool isFriction = parameter.value == &sweep::Parameters::friction;
@@ -75,10 +75,10 @@ std::vector<Influences::Influence> Influences::influences(const BodyPoint& state
                     .member = parameter.value,
                     .size = isFriction ? 1 : state.at.*parameter.value});
   }
-  for (int body = 0; body < std::ssize(mesh_.bodies); ++body)
+  for (int group = 0; group < std::ssize(mesh_.materialGroups); ++group)
     for (const bool density : {false, true})
-      list.push_back({.name = (density ? "density_" : "young_") + mesh_.bodies[body],
-                      .body = body,
+      list.push_back({.name = (density ? "density_" : "young_") + mesh_.materialGroups[group].name,
+                      .material = group,
                       .density = density});
   if (!dependsOnSteadyState(contact_, state.at, state.prestress, settings_)) return list;
   const steady::Problem problem(mesh_, bodies_, contact_);
@@ -111,7 +111,7 @@ void Influences::addSteadyChange(const BodyPoint& state, const steady::Problem& 
     cause.held = contact_.kinematics.offset;
   }
   if (!influence.member) {
-    const auto& part = parts_[influence.body];
+    const auto& part = parts_[influence.material];
     if (influence.density) {
       inertiaForms(part.rotationStiffness, part.centrifugal, v * v);
       if (part.weight) check(VecAXPY(force, -1, part.weight));
@@ -160,12 +160,12 @@ Influences::Projected Influences::project(const BodyPoint& state,
   return pair;
 }
 
-/// Returns zᴴ (∂P/∂θ) u for the matrices of one body [M.47]: K, C and K_σ for its moduli, or M, C,
-/// G and K^R for its density.
+/// Returns zᴴ (∂P/∂θ) u for the matrices of one material [M.47]: K, C and K_σ for its moduli, or M,
+/// C, G and K^R for its density.
 Complex Influences::materialForm(const Influence& influence, const BodyPoint& state,
                                  const Projected& pair) const {
   if (influence.member) return 0;
-  const auto& part = parts_[influence.body];
+  const auto& part = parts_[influence.material];
   const auto form = [&](Mat matrix) { return matrix ? dot(pair.z, product(matrix, pair.u)) : 0; };
   const Complex s = pair.s;
   const double v = state.at.speed, c = state.at.damping;
@@ -175,7 +175,7 @@ Complex Influences::materialForm(const Influence& influence, const BodyPoint& st
   Complex sum = (1.0 + s * c * part.stiffnessDamping) * form(part.stiffness);
   if (state.prestress)
     sum += form(elasticity::geometricStiffness(mesh_, bodies_, state.solution.displacement,
-                                               influence.body));
+                                               influence.material));
   return sum;
 }
 

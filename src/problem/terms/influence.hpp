@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Derivatives of the eigenvalues with respect to the parameters of the point, and to the moduli
-/// and the density of each body, from the matrices of the pencil.
+/// and the density of each material, from the matrices of the pencil.
 #include <vector>
 
 #include "algebra/linalg/complex.hpp"
@@ -38,10 +38,10 @@ class Influences {
   /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point.
   /// `pencil` contains the terms of the point. The derivatives [M.46] include the terms that depend
   /// on the steady state; the active set and the matrix of modal damping are constant. The
-  /// parameters are friction, speed, pressure and damping as in Parameters, a factor young_BODY on
-  /// all moduli of a body (ds/d ln E), and a factor density_BODY on its density (ds/d ln ρ). The
-  /// search for left vectors starts from `start`. Throws Error if the change of the steady state
-  /// does not converge.
+  /// parameters are friction, speed, pressure and damping as in Parameters, a factor young_GROUP on
+  /// all moduli of a material group (ds/d ln E), and a factor density_GROUP on its density
+  /// (ds/d ln ρ). The search for left vectors starts from `start`. Throws Error if the change of
+  /// the steady state does not converge.
   void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
 
@@ -61,7 +61,7 @@ class Influences {
   const elasticity::Bodies& bodies_;
   const contact::Contact& contact_;
   Settings settings_;
-  std::vector<elasticity::BodyPart> parts_;  // [body], made when first needed
+  std::vector<elasticity::MaterialPart> parts_;  // [material group], made when first needed
 };
 
 }  // namespace squeal::terms

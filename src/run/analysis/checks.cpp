@@ -59,10 +59,9 @@ void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact&
   check(VecNorm(contact.kinematics.offset, NORM_INFINITY, &displacement));
   if (load == 0 && displacement == 0)
     throw Error(
-        "option -flutter_pressure scales pressures and held displacements, and there are none: "
-        "give "
-        "-load_<group>_pressure, "
-        "-constraint_<group>_displacement or -contact_<interface>_obstacle_displacement");
+        "option -flutter_pressure scales hydraulic loads and held displacements, and there are "
+        "none: give -load_<group>_pressure, _force or _moment, without -load_<group>_hydraulic "
+        "off, -constraint_<group>_displacement or -contact_<interface>_obstacle_displacement");
 }
 
 void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms,

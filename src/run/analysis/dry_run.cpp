@@ -30,7 +30,7 @@ void printList(MPI_Comm comm, const char* head, const std::vector<std::string>& 
 
 void printMesh(const mesh::Mesh& mesh, const elasticity::Settings& settings,
                std::vector<std::string> held) {
-  std::vector<std::string> bodies, nodes, loads;
+  std::vector<std::string> bodies, sections, nodes, loads;
   for (int b = 0; b < std::ssize(mesh.bodies); ++b) {
     double cells = 0;
     for (const auto& block : mesh.cells)
@@ -48,7 +48,15 @@ void printMesh(const mesh::Mesh& mesh, const elasticity::Settings& settings,
       faces += std::count(block.surface.begin(), block.surface.end(), i);
     loads.push_back(counted(mesh.surfaces[i], mpi::sum(mesh.comm, faces), "faces"));
   }
+  for (int m = 0; m < std::ssize(mesh.materialGroups); ++m) {
+    if (!mesh.materialGroups[m].isSection) continue;
+    double cells = 0;
+    for (const auto& block : mesh.cells)
+      cells += std::count(block.material.begin(), block.material.end(), m);
+    sections.push_back(counted(mesh.materialGroups[m].name, mpi::sum(mesh.comm, cells), "cells"));
+  }
   printList(mesh.comm, "bodies", bodies);
+  if (!sections.empty()) printList(mesh.comm, "sections", sections);
   printList(mesh.comm, "held", nodes);
   printList(mesh.comm, "loads", loads);
 }

@@ -70,6 +70,8 @@ contact::Contact buildContact(const mesh::Mesh& mesh, elasticity::Bodies& bodies
 
 Model buildModel(MPI_Comm comm, const ModelSettings& settings) {
   Model model;
+  for (const auto& name : settings.idleFrames)
+    printWarning(comm, "warning: frame '" + name + "' is not used: no option …_frame names it");
   model.mesh = std::make_unique<mesh::Mesh>(readMesh(comm, settings));
   auto ties = findTies(*model.mesh, settings);  // may move nodes, so before elements
   model.bodies = assembleBodies(*model.mesh, settings);

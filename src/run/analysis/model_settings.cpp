@@ -10,12 +10,14 @@ ModelSettings ModelSettings::given() {
           .elasticity = elasticity::Settings::given(),
           .file = meshfile::Settings::given(),
           .mesh = mesh::Settings::given(),
-          .contact = contact::Settings::given()};
+          .contact = contact::Settings::given(),
+          .idleFrames = frame::idleFrames()};
 }
 
 mesh::Request meshRequest(const ModelSettings& settings) {
   mesh::Request request;
   request.bodies = material::groupRequests(settings.materials);
+  request.bodySections = material::sectionRequests(settings.materials);
   request.moving = elasticity::movingBodies(settings.elasticity);
   request.nodeGroups = constraints::constrainedGroups(settings.constraints);
   for (const auto& group : elasticity::groundedGroups(settings.elasticity))

@@ -20,6 +20,7 @@ struct ModelSettings {
   meshfile::Settings file;
   mesh::Settings mesh;
   contact::Settings contact;
+  std::vector<std::string> idleFrames;  ///< names of frames that nothing uses
 
   /// Reads the options. Throws Error as these rooms document it.
   static ModelSettings given();

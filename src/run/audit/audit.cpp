@@ -18,9 +18,7 @@ Audit auditOf(const Subject& model) {
   auto all = audit.bodies;
   all.insert(all.end(), audit.points.begin(), audit.points.end());
   audit.total = totalOf(all);
-  const auto moduli = moduliOf(model);
-  for (std::size_t b = 0; b < moduli.size(); ++b)
-    audit.waveSpeed.push_back(std::sqrt(moduli[b].largest / model.bodies.materials[b].density));
+  audit.waveSpeed = waveSpeeds(model);
   audit.cells = cellQuality(model.mesh);
   audit.parts = partSupports(model);
   const auto add = [&](const Findings& more) {

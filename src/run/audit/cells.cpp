@@ -114,14 +114,15 @@ Findings cellFindings(const Subject& model, const std::vector<CellQuality>& qual
                           "mesh again there with edges of similar lengths"});
   }
   const auto linear = elasticity::linearCells(mesh, model.bodies.settings);
-  for (std::size_t b = 0; b < linear.size(); ++b)
-    if (const double poisson = model.bodies.materials[b].poisson;
-        elasticity::locks(poisson) && linear[b] > 0)
+  for (std::size_t m = 0; m < linear.size(); ++m)
+    if (const double poisson = model.bodies.materials[m].poisson;
+        elasticity::locks(poisson) && linear[m] > 0)
       findings.push_back(
           {Kind::locking, Severity::warning,
-           formatted("body '%s' is nearly incompressible, with a Poisson's ratio of %.6g, and has "
+           formatted("%s is nearly incompressible, with a Poisson's ratio of %.6g, and has "
                      "%s, which lock",
-                     mesh.bodies[b].c_str(), poisson, counted(linear[b], "linear cell").c_str()),
+                     mesh.materialText(m).c_str(), poisson,
+                     counted(linear[m], "linear cell").c_str()),
            "use a mesh of second order, or -elasticity_incompatible_modes for hex8 and quad4"});
   return findings;
 }

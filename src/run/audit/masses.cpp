@@ -14,7 +14,8 @@ namespace {
 
 using elasticity::ShapeTable;
 
-/// Collective. Calls visit(body, x, volume) for each point of the quadrature rules of this rank.
+/// Collective. Calls visit(material group, x, volume) for each point of the quadrature rules of
+/// this rank.
 template <class Visit>
 void forEachPoint(const mesh::Mesh& mesh, const Visit& visit) {
   elasticity::forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e,
@@ -25,7 +26,7 @@ void forEachPoint(const mesh::Mesh& mesh, const Visit& visit) {
       Point x{};
       for (int a = 0; a < table.nodes; ++a)
         x = mesh::plus(x, nodes[a], table.value[q * table.nodes + a]);
-      visit(block.body[e], x, table.weight[q] * det);
+      visit(block.material[e], x, table.weight[q] * det);
     }
   });
 }
@@ -68,6 +69,25 @@ void addOuter(Matrix3& sum, const Point& r, double factor) {
     for (std::size_t j = 0; j < 3; ++j) sum[i][j] += factor * r[i] * r[j];
 }
 
+/// The factor of a material group on volumes, and a scale of the body: ρ = weight · scale. A body
+/// with one density has the weight 1, so that its centre is that of its volume.
+struct Weights {
+  std::vector<double> weight;  // [material group]
+  std::vector<double> scale;   // [body], kg/m³
+};
+
+Weights weightsOf(const Subject& model) {
+  const auto& groups = model.mesh.materialGroups;
+  Weights weights{{}, std::vector<double>(model.mesh.bodies.size(), 0.0)};
+  for (std::size_t m = 0; m < groups.size(); ++m) {
+    const double density = model.bodies.materials[m].density;
+    double& scale = weights.scale[groups[m].body];
+    if (scale == 0) scale = density;
+    weights.weight.push_back(density / scale);
+  }
+  return weights;
+}
+
 }  // namespace
 
 std::vector<BodyMass> bodyMasses(const Subject& model) {
@@ -76,22 +96,27 @@ std::vector<BodyMass> bodyMasses(const Subject& model) {
   for (const auto& name : mesh.bodies) bodies.push_back({.body = name});
   measure(mesh, bodies);
   const std::size_t count = bodies.size();
-  std::vector<double> sums(4 * count, 0.0);  // [body] volume and ∫ x
-  forEachPoint(mesh, [&](int body, const Point& x, double volume) {
-    sums[4 * body] += volume;
-    for (std::size_t d = 0; d < 3; ++d) sums[4 * body + 1 + d] += volume * x[d];
+  const Weights weights = weightsOf(model);
+  std::vector<double> sums(5 * count, 0.0);  // [body] volume, and with weights volume and ∫ x
+  forEachPoint(mesh, [&](int group, const Point& x, double volume) {
+    double* sum = &sums[5 * mesh.materialGroups[group].body];
+    const double weighted = volume * weights.weight[group];
+    sum[0] += volume, sum[1] += weighted;
+    for (std::size_t d = 0; d < 3; ++d) sum[2 + d] += weighted * x[d];
   });
   mpi::reduce<double>(mesh.comm, sums, MPI_SUM);
   for (std::size_t b = 0; b < count; ++b) {
-    bodies[b].volume = sums[4 * b];
-    bodies[b].mass = model.bodies.materials[b].density * sums[4 * b];
-    for (std::size_t d = 0; d < 3; ++d) bodies[b].centre[d] = sums[4 * b + 1 + d] / sums[4 * b];
+    const double* sum = &sums[5 * b];
+    bodies[b].volume = sum[0];
+    bodies[b].mass = weights.scale[b] * sum[1];
+    for (std::size_t d = 0; d < 3; ++d) bodies[b].centre[d] = sum[2 + d] / sum[1];
   }
   // About the centre of the body: a second moment about a far origin would lose digits.
   std::vector<Matrix3> second(count, Matrix3{});
-  forEachPoint(mesh, [&](int body, const Point& x, double volume) {
+  forEachPoint(mesh, [&](int group, const Point& x, double volume) {
+    const int body = mesh.materialGroups[group].body;
     addOuter(second[body], mesh::minus(x, bodies[body].centre),
-             volume * model.bodies.materials[body].density);
+             volume * model.bodies.materials[group].density);
   });
   mpi::reduce<double>(mesh.comm, {second.data()->data()->data(), 9 * count}, MPI_SUM);
   for (std::size_t b = 0; b < count; ++b) bodies[b].inertia = inertiaOf(second[b]);

@@ -30,9 +30,9 @@ constexpr double smallestPressure = 100;                // Pa, a thousandth of t
 constexpr double largestGravity = 1000;                 // m/s², a hundred times that of the Earth
 constexpr double largestStrain = 0.1;                   // p/E
 
-/// The numbers of a body that the rules judge.
+/// The numbers of a material that the rules judge.
 struct Elastic {
-  std::string body;
+  std::string group, name;  ///< the volume group, and its name in messages
   double young, density, speed;
 
   bool isSi() const {
@@ -61,10 +61,10 @@ Moduli moduliAlongAxes(const material::Hooke& law) {
 /// Adds a finding if √(E/ρ) is a speed that no solid has.
 void judgeSpeed(const Elastic& body, Findings& findings) {
   const std::string head = formatted(
-      "body '%s': a modulus of %.4g Pa and a density of %.4g kg/m3 give a wave speed "
+      "%s: a modulus of %.4g Pa and a density of %.4g kg/m3 give a wave speed "
       "sqrt(E/rho) of %.3g m/s, ",
-      body.body.c_str(), body.young, body.density, body.speed);
-  const std::string option = "-material_" + body.body;
+      body.name.c_str(), body.young, body.density, body.speed);
+  const std::string option = "-material_" + body.group;
   const auto add = [&](const std::string& text, const std::string& remedy) {
     findings.push_back({Kind::units, Severity::warning, head + text, remedy});
   };
@@ -117,12 +117,12 @@ void judgePressure(const Subject& model, const std::vector<Elastic>& bodies,
         std::ranges::find(model.mesh.surfaces, surface) == model.mesh.surfaces.end())
       continue;
     std::vector<int> loaded(bodies.size(), 0);
-    for (const auto& face : mortar::facesOf(model.mesh, surface)) loaded.at(face.body) = 1;
+    for (const auto& face : mortar::facesOf(model.mesh, surface)) loaded.at(face.material) = 1;
     mpi::reduce<int>(model.mesh.comm, loaded, MPI_MAX);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (!loaded[b]) continue;
-      const std::string head = formatted("the pressure of %.4g Pa on '%s' of body '%s'", pressure,
-                                         surface.c_str(), bodies[b].body.c_str());
+      const std::string head = formatted("the pressure of %.4g Pa on '%s' of %s", pressure,
+                                         surface.c_str(), bodies[b].name.c_str());
       const std::string option = "-load_" + surface + "_pressure";
       if (std::abs(pressure) > largestStrain * moduli[b].least)
         findings.push_back({Kind::units, Severity::warning,
@@ -159,21 +159,31 @@ void judgeGravity(const Subject& model, const std::vector<Elastic>& bodies, Find
 
 std::vector<Moduli> moduliOf(const Subject& model) {
   std::vector<Moduli> moduli;
-  for (const auto& name : model.mesh.bodies) {
-    const auto& material = model.materials.bodies.at(name);
+  for (const auto& group : model.mesh.materialGroups) {
+    const auto& material = model.materials.bodies.at(group.name);
     moduli.push_back({material.young, material.young});
     if (material.anisotropy) moduli.back() = moduliAlongAxes(material.anisotropy->stiffness);
   }
   return moduli;
 }
 
+std::vector<double> waveSpeeds(const Subject& model) {
+  const auto moduli = moduliOf(model);
+  std::vector<double> speeds(model.mesh.bodies.size(), 0.0);
+  for (std::size_t m = 0; m < moduli.size(); ++m) {
+    double& speed = speeds[model.mesh.materialGroups[m].body];
+    speed = std::max(speed, std::sqrt(moduli[m].largest / model.bodies.materials[m].density));
+  }
+  return speeds;
+}
+
 Findings unitFindings(const Subject& model, const std::vector<BodyMass>& masses) {
   const auto moduli = moduliOf(model);
   std::vector<Elastic> bodies;
-  for (std::size_t b = 0; b < masses.size(); ++b) {
-    const double density = model.bodies.materials[b].density;
-    bodies.push_back(
-        {masses[b].body, moduli[b].largest, density, std::sqrt(moduli[b].largest / density)});
+  for (std::size_t m = 0; m < moduli.size(); ++m) {
+    const double density = model.bodies.materials[m].density;
+    bodies.push_back({model.mesh.materialGroups[m].name, model.mesh.materialText(m),
+                      moduli[m].largest, density, std::sqrt(moduli[m].largest / density)});
   }
   Findings findings;
   for (const auto& body : bodies) judgeSpeed(body, findings);

@@ -8,15 +8,18 @@
 
 namespace squeal::audit {
 
-/// The moduli of a body.
+/// The moduli of a material.
 struct Moduli {
   double least = 0,
-         largest = 0;  ///< Young's moduli; along its axes, if the body is anisotropic, Pa
+         largest = 0;  ///< Young's moduli; along its axes, if the material is anisotropic, Pa
 };
-/// Not collective. Returns the moduli, [body].
+/// Not collective. Returns the moduli, [material group].
 std::vector<Moduli> moduliOf(const Subject& model);
 
-/// Collective. Judges the wave speed √(E/ρ) of each body, the size of the model, its
+/// Not collective. Returns √(E/ρ) of each body, [body], m/s; of several sections the largest.
+std::vector<double> waveSpeeds(const Subject& model);
+
+/// Collective. Judges the wave speed √(E/ρ) of each material, the size of the model, its
 /// pressures and its gravity.
 Findings unitFindings(const Subject& model, const std::vector<BodyMass>& masses);
 

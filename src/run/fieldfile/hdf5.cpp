@@ -170,23 +170,30 @@ void Hdf5File::writeMesh(const mesh::Mesh& mesh) {
   writeRows<int>("/mesh", "node_part", 1, std::span(mesh.nodePart).first(owned));
   writeAttribute("/mesh", "dimension", PetscInt{mesh.dimension});
   writeAttribute("/mesh", "bodies", joined(mesh.bodies, ","));
+  if (mesh.hasSections()) {
+    std::vector<std::string> materials;
+    for (const auto& group : mesh.materialGroups) materials.push_back(group.name);
+    writeAttribute("/mesh", "materials", joined(materials, ","));
+  }
   writeAttribute("/mesh", "parts", joined(mesh.partName, ","));
   for (int type : elementTypes(mesh)) writeCells(mesh, type);
 }
 
 void Hdf5File::writeCells(const mesh::Mesh& mesh, int type) {
   const auto& table = element::shapeTable(type);
-  std::vector<PetscInt> nodes, bodies, tags;
+  std::vector<PetscInt> nodes, bodies, tags, materials;
   for (const auto& block : mesh.cells) {
     if (block.type != type) continue;
     for (PetscInt node : block.nodes) nodes.push_back(mesh.globalNode[node]);
     bodies.insert(bodies.end(), block.body.begin(), block.body.end());
     tags.insert(tags.end(), block.tag.begin(), block.tag.end());
+    materials.insert(materials.end(), block.material.begin(), block.material.end());
   }
   const std::string group = "/mesh/cells_" + std::to_string(type);
   writeRows<PetscInt>(group, "nodes", table.nodes, nodes);
   writeRows<PetscInt>(group, "body", 1, bodies);
   writeRows<PetscInt>(group, "tag", 1, tags);
+  if (mesh.hasSections()) writeRows<PetscInt>(group, "material", 1, materials);
   writeAttribute(group, "gmsh_element_type", PetscInt{type});
   writeAttribute(group, "gmsh_element_name", table.gmshName);
 }

@@ -79,12 +79,15 @@ struct Piece {
   std::vector<double> coordinates;              // [node][3]
   std::vector<PetscInt> nodeTag, nodes;         // nodes: of all cells
   std::vector<int> nodePart, type, body, rank;  // type: VTKCellType, body and rank: [cell]
+  bool hasSections = false;                     // a body is made up of sections
+  std::vector<int> material;                    // [cell], if there are sections
   std::vector<std::vector<float>> fields;       // [field][node][component]
 };
 
 /// Returns the part of this rank, without reference nodes and layer nodes, which are in no cell.
 Piece ownPiece(const mesh::Mesh& mesh, const std::vector<Field>& fields, int rank) {
   Piece piece;
+  piece.hasSections = mesh.hasSections();
   std::vector<PetscInt> number(mesh.localNodes(), -1);  // in the piece
   piece.fields.resize(fields.size());
   std::vector<unsigned char> isLayer(mesh.localNodes(), 0);
@@ -107,6 +110,8 @@ Piece ownPiece(const mesh::Mesh& mesh, const std::vector<Field>& fields, int ran
       for (const int i : order) piece.nodes.push_back(number[block.nodesOf(cell)[i]]);
     piece.type.insert(piece.type.end(), block.body.size(), type);
     piece.body.insert(piece.body.end(), block.body.begin(), block.body.end());
+    if (piece.hasSections)
+      piece.material.insert(piece.material.end(), block.material.begin(), block.material.end());
   }
   piece.rank.assign(piece.body.size(), rank);
   return piece;
@@ -144,7 +149,7 @@ void gatherOnFirst(MPI_Comm comm, Piece& piece) {
   for (auto& node : piece.nodes) node += rank > 0 ? before : 0;
   gatherOnFirst(comm, piece.coordinates);
   for (auto* list : {&piece.nodeTag, &piece.nodes}) gatherOnFirst(comm, *list);
-  for (auto* list : {&piece.nodePart, &piece.type, &piece.body, &piece.rank})
+  for (auto* list : {&piece.nodePart, &piece.type, &piece.body, &piece.rank, &piece.material})
     gatherOnFirst(comm, *list);
   for (auto& field : piece.fields) gatherOnFirst(comm, field);
 }
@@ -186,6 +191,8 @@ vtkNew<vtkUnstructuredGrid> gridOf(const Piece& piece, const std::vector<Field>&
   }
   grid->GetCellData()->AddArray(filledArray<vtkIntArray>("body", 1, piece.body));
   grid->GetCellData()->AddArray(filledArray<vtkIntArray>("rank", 1, piece.rank));
+  if (piece.hasSections)
+    grid->GetCellData()->AddArray(filledArray<vtkIntArray>("material", 1, piece.material));
   return grid;
 }
 
@@ -262,8 +269,8 @@ std::string arrayTag(const std::string& type, const std::string& name, int compo
 /// Returns the text of the file that lists the pieces. VTK's own writer truncates the stem at its
 /// last dot: steady_0.2 and steady_0.4 would both use, and overwrite, the pieces of steady_0.
 template <class Path>
-std::string summaryText(const std::vector<Field>& fields, const fs::path& folder, const Path& path,
-                        int pieces) {
+std::string summaryText(const std::vector<Field>& fields, bool hasSections, const fs::path& folder,
+                        const Path& path, int pieces) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
       "header_type=\"UInt64\">\n"
@@ -272,6 +279,7 @@ std::string summaryText(const std::vector<Field>& fields, const fs::path& folder
   for (const auto& field : fields) text += arrayTag("Float32", field.name, field.components);
   text += "    </PPointData>\n    <PCellData>\n" + arrayTag("Int32", "body", 1) +
           arrayTag("Int32", "rank", 1);
+  if (hasSections) text += arrayTag("Int32", "material", 1);
   text +=
       "    </PCellData>\n    <PPoints>\n" + arrayTag("Float64", "Points", 3) + "    </PPoints>\n";
   for (int i = 0; i < pieces; ++i)
@@ -310,7 +318,8 @@ void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Fi
   const std::string failure = place == 0 ? writePiece(gridOf(piece, pointFields), path(index)) : "";
   failTogether(mesh.comm, failure.empty() ? "" : head + failure);
   onFirstRank(mesh.comm, head, [&] {
-    output::writeFile(summary, summaryText(pointFields, stem.filename(), path, pieces));
+    output::writeFile(summary,
+                      summaryText(pointFields, mesh.hasSections(), stem.filename(), path, pieces));
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
+#include "model/elasticity/ground.hpp"
 #include "model/elasticity/loads.hpp"
 #include "steady/steady/nodal_forces.hpp"
 #include "steady/steady/resultants.hpp"
@@ -117,13 +118,13 @@ void Reactions::addGround(const Solution& solution, List& list) const {
   for (const auto& [group, given] : bodies_.settings.ground) {
     if (!given.springs) continue;
     const auto& nodes = mesh_.nodeGroups.at(group);
-    const PetscInt count = mpi::sum(mesh_.comm, PetscInt(nodes.size()));
-    const Point stiffness = given.stiffness.in(mesh_.dimension);
+    const auto stiffness = elasticity::groundSprings(mesh_, bodies_.settings, group);
     Wrench sum;
-    for (const PetscInt node : nodes) {
-      Point force = componentsAt(mesh_, u.data(), node);
-      for (std::size_t d = 0; d < 3; ++d) force[d] *= -stiffness[d] / count;
-      sum.addNode(mesh_, node, force);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Point displacement = componentsAt(mesh_, u.data(), nodes[i]);
+      Point force{};
+      for (std::size_t d = 0; d < 3; ++d) force[d] = -mesh::dot(stiffness[i][d], displacement);
+      sum.addNode(mesh_, nodes[i], force);
     }
     list.add("ground", group, sum, List::Source::outside);
   }

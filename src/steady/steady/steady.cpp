@@ -8,6 +8,7 @@
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/contact/build.hpp"
+#include "model/contact/hourglass.hpp"
 #include "model/contact/loose.hpp"
 #include "model/contact/response.hpp"
 #include "model/elasticity/elasticity.hpp"
@@ -178,14 +179,20 @@ void Problem::requireSlip(const sweep::Parameters& at) const {
 /// is arbitrary, and no stiffness matrix of this active set is positive definite.
 void Problem::rejectUnderConstrained(Solution& solution) const {
   if (!solution.converged || solution.openNodes == 0) return;
-  const auto mode = contact::rigidBodyMode(
-      mesh_, contact_, bodies_, {.closed = solution.closed, .released = solution.sticking.free()});
-  if (!mode) return;
+  const contact::SupportingContact holding{.closed = solution.closed,
+                                           .released = solution.sticking.free()};
+  const auto mode = contact::rigidBodyMode(mesh_, contact_, bodies_, holding);
+  const std::string hourglass =
+      mode ? "" : contact::hourglassModes(mesh_, contact_, bodies_, holding);
+  if (!mode && hourglass.empty()) return;
   solution.converged = false;
+  solution.reason = hourglass;
+  if (!mode) return;
   solution.reason = formatted(
       "body '%s' is under-constrained (%s): %" PetscInt_FMT " of %" PetscInt_FMT
       " contact nodes are open, and it has no other support; start the sweep at a friction that "
-      "closes them, or support it with -constraint_<group>_clamped or -ground_<group>_stiffness",
+      "closes them, or support it with -constraint_<group>_clamped, -ground_<group>_stiffness or "
+      "-bushing_<name>_stiffness",
       mode->body.c_str(), mode->motion.c_str(), solution.openNodes, contact_.interfaces.totalNodes);
 }
 
@@ -362,7 +369,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
     return sums[part * 9 + kind * 3 + d];
   };
   const OwnedVec load = this->load(solution.at), springs = elasticity::nodalVector(mesh_);
-  if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
+  if (bodies_.springs) check(MatMult(bodies_.springs, solution.displacement, springs));
   if (bodies_.linkStiffness)
     check(MatMultAdd(bodies_.linkStiffness, solution.displacement, springs, springs));
   const ReadArray forces(nodalForces), loads(load), grounded(springs), contacts(contactForces);

@@ -52,4 +52,16 @@ inline Mesh bar() {
   return mesh;
 }
 
+/// The same, where the wedges are two sections of the pad.
+inline Mesh sectionedBar() {
+  Mesh mesh = bar();
+  mesh.materialGroups = {{"disc", 0, false}, {"first", 1, true}, {"second", 1, true}};
+  for (auto& block : mesh.cells) {
+    const bool wedges = block.type == 6;
+    block.body.assign(block.tag.size(), wedges);
+    block.material = wedges ? std::vector<int>{1, 2} : std::vector<int>{0};
+  }
+  return mesh;
+}
+
 }  // namespace squeal::test

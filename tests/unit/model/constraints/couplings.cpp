@@ -197,6 +197,13 @@ TEST(Couplings, FaultsAreNamed) {
       {"-constraint_tip_clamped_rotation x", "'tip' is not a reference node"},
       {"-equation_a 'tip:x = 0'", "group 'tip' has 9 nodes; a term needs a group of one node"},
       {eccentric + "-coupling_c_nodes tip -equation_a 'r:x 0'", "must have one equals sign"},
+      {eccentric + "-coupling_c_nodes tip -equation_a 'r:z-2*r:y = 0'",
+       "'r:z-2' is not a number; a blank before + and - separates terms"},
+      {eccentric + "-coupling_c_nodes tip -equation_a 'r:z-r:y = 0'",
+       "'r:z-r:y' has two components; a blank before + and - separates terms"},
+      {eccentric + "-coupling_c_nodes tip,q",
+       "names group 'q', which is not in the mesh; its groups are: beam, bottom, clamped, left, "
+       "right, tip, top; the reference nodes are: r"},
       {eccentric + "-coupling_c_nodes tip -equation_a 'r:w = 0'",
        "the component of 'r:w' must be x, y, z, rx, ry or rz"},
       {eccentric + "-coupling_c_nodes tip -equation_a 'r:x = 1' -equation_b '2*r:x = 3'",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/system/mpi.hpp"
+#include "model/contact/hourglass.hpp"
 #include "support/algebra/symmetric.hpp"
 #include "support/harness/messages.hpp"
 #include "support/model/model.hpp"
@@ -96,6 +97,47 @@ TEST(Hourglass, ContactAndSpringsHoldThem) {
                       "-contact_plate_obstacle_velocity 0,0,0" +
                       more),
               message(face + "xy -constraint_bottom_clamped z" + more));
+}
+
+/// Returns "3 hourglass modes" of a message, "an hourglass mode", or nothing.
+std::string countIn(const std::string& message) {
+  const auto at = message.find(" has ");
+  if (at == std::string::npos) return "";
+  return message.substr(at + 5, message.find(" without") - at - 5);
+}
+
+// Where nodes of the contact are open, it holds nothing: the modes are those without contact.
+TEST(Hourglass, OpenContactDoesNotHoldThem) {
+  const std::string plate =
+      " -contact_plate_pad bottom -contact_plate_role frictionless "
+      "-contact_plate_obstacle_velocity 0,0,0";
+  int freed = 0;
+  for (const std::string supports :
+       {"-ground_clamped_stiffness 1,1,1 -ground_tip_stiffness 1,0,0",
+        "-ground_clamped_stiffness 1,1,1", "-ground_left_stiffness 1,1,1",
+        "-ground_clamped_stiffness 1,1,1 -ground_tip_stiffness 1,1,1"}) {
+    SCOPED_TRACE(supports);
+    test::setOptions(row("nx=3,ny=1,nz=1", supports));
+    const auto without = test::errorOf([] { test::buildModel(); });
+    test::setOptions(row("nx=3,ny=1,nz=1", supports + plate));
+    auto mesh = test::readMesh();
+    auto ties = test::findTies(mesh);
+    const auto bodies = test::assembleBodies(mesh);
+    const auto contact =
+        contact::build(mesh, bodies, std::move(ties), contact::Settings::given());  // closed: none
+    const contact::Mask open(contact.interfaces.nodes.size(), 0);
+    const auto found = contact::hourglassModes(mesh, contact, bodies, {.closed = open});
+    EXPECT_EQ(countIn(found), countIn(without));
+    freed += !found.empty();
+    EXPECT_EQ(test::contains(found, "open and sliding nodes"), !found.empty());
+  }
+  EXPECT_GE(freed, 1);
+}
+
+// Each cell of a row has one mode, also those beyond the first hundred.
+TEST(Hourglass, OfManyCells) {
+  test::setOptions(row("nx=150,ny=1,nz=1", "-constraint_clamped_clamped xyz"));
+  EXPECT_EQ(countIn(test::errorOf([] { test::buildModel(); })), "150 hourglass modes");
 }
 
 // A tie holds as shared nodes do. A column of two cells on a clamped face has two modes, a single

@@ -119,7 +119,7 @@ TEST(ReducedIntegration, PartOfABodyIsItsStiffness) {
   const auto [mesh, bodies] =
       test::buildBodies("-mesh_file meshes/beam.geo -mesh_set " + test::smallBox +
                         test::material("beam", "2", "0.3", "1") + reduced);
-  const auto part = elasticity::bodyPart(mesh, bodies, 0);
+  const auto part = elasticity::materialPart(mesh, bodies, 0);
   const auto whole = test::denseCopy(bodies.stiffness);
   EXPECT_LT(test::largestDifference(test::denseCopy(part.stiffness), whole),
             1e-14 * test::largestEntry(whole));

@@ -89,6 +89,31 @@ TEST(Units, OrthotropicBody) {
   EXPECT_EQ(test::linesOf(found), "");
 }
 
+// Findings name the section, and the pressure is that on the section which it loads.
+TEST(Units, Sections) {
+  const std::string plate =
+      "-mesh_file meshes/laminate.geo -material_plate_sections lower,upper "
+      "-material_plate_young 2e11 -material_plate_poisson 0.3 -material_plate_density 7800 "
+      "-constraint_bottom_clamped xyz ";
+  EXPECT_EQ(missingIn(test::audited(plate), 0, {}), "");
+  EXPECT_EQ(missingIn(test::audited(plate + "-material_upper_density 7.8"), 1,
+                      {"section 'upper' of body 'plate': a modulus", "-material_upper_density"}),
+            "");
+  const std::string soft = plate + "-material_upper_young 1e7 -load_top_pressure 2e6 ";
+  EXPECT_EQ(missingIn(test::audited(soft), 1,
+                      {"the pressure of 2e+06 Pa on 'top' of section 'upper' of body 'plate'",
+                       "0.2 times its modulus of 1e+07 Pa"}),
+            "");
+  EXPECT_NEAR(test::audited(soft).waveSpeed.at(0), std::sqrt(2e11 / 7800), 1e-9);
+  EXPECT_EQ(missingIn(test::audited(plate + "-material_upper_young 1e7 -load_left_pressure 2e6 "),
+                      1, {"on 'left' of section 'upper' of body 'plate'"}),
+            "");
+  EXPECT_EQ(missingIn(test::audited(plate + "-material_lower_poisson 0.4999 "
+                                            "-elasticity_incompatible_modes none "),
+                      1, {"section 'lower' of body 'plate' is nearly incompressible"}),
+            "");
+}
+
 TEST(Units, Pressure) {
   const auto options = block("audit_p.msh", {0.1, 0.05, 0.01}, "2.1e11", "7850");
   const std::string load = " -load_box_x0_pressure ";

@@ -65,6 +65,28 @@ TEST(Masses, Box) {
   }
 }
 
+// Two plies of 1 × 0.8 and 0.3 and 0.5 thick, with densities 2 and 6: the sum of two boxes.
+TEST(Masses, BodyOfTwoSections) {
+  const auto masses = massesOf(
+      "-mesh_file meshes/laminate.geo -material_plate_sections lower,upper -material_plate_young 1 "
+      "-material_plate_poisson 0.3 -material_lower_density 2 -material_upper_density 6");
+  ASSERT_EQ(masses.size(), 1u);
+  const auto& plate = masses[0];
+  const double low = 2 * 0.8 * 0.3, high = 6 * 0.8 * 0.5,
+               z = (0.15 * low + 0.55 * high) / (low + high);
+  EXPECT_EQ(plate.body, "plate");
+  EXPECT_EQ(plate.cells, 4 * 3 * 5);
+  EXPECT_NEAR(plate.volume, 0.64, 1e-12);
+  EXPECT_NEAR(plate.mass, low + high, 1e-12);
+  for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(plate.centre[d], (Point{0.5, 0.4, z}[d]), 1e-12);
+  const double across =
+      low * (0.09 / 12 + std::pow(z - 0.15, 2)) + high * (0.25 / 12 + std::pow(z - 0.55, 2));
+  EXPECT_NEAR(plate.inertia[0][0], plate.mass * 0.64 / 12 + across, 1e-12);
+  EXPECT_NEAR(plate.inertia[1][1], plate.mass / 12 + across, 1e-12);
+  EXPECT_NEAR(plate.inertia[2][2], plate.mass * 1.64 / 12, 1e-12);
+  EXPECT_NEAR(plate.inertia[0][1], 0, 1e-12);
+}
+
 TEST(Masses, RectangleInThePlane) {
   test::BlockWriter writer;
   writer.add("plate", {3, {4, 1, 3}, {1, 0, 2}, {3, 0, 2.5}});

@@ -64,6 +64,15 @@ TEST(Hdf5, HoldsTheMeshInGlobalOrder) {
   EXPECT_EQ(reader.text("/mesh", "bodies"), "disc,pad");
 }
 
+TEST(Hdf5, HoldsTheMaterialsOfSections) {
+  const Folder folder;
+  const Mesh mesh = sectionedBar();
+  Hdf5File(PETSC_COMM_WORLD, folder.path / "results.h5", option).writeMesh(mesh);
+  Reader reader(folder.path / "results.h5");
+  EXPECT_EQ(reader.text("/mesh", "materials"), "disc,first,second");
+  EXPECT_EQ(reader.integers("/mesh/cells_6", "material").first, (std::vector<PetscInt>{1, 2}));
+}
+
 TEST(Hdf5, HoldsNodeVectors) {
   const Folder folder;
   const Mesh mesh = bar();

@@ -88,6 +88,22 @@ TEST(Vtu, HoldsFieldsOfAllRanks) {
   EXPECT_EQ(filesIn(together), 1);
 }
 
+// The wedges are sections of the pad; a mesh without sections has no such field.
+TEST(Vtu, HoldsTheMaterialsOfSections) {
+  const Folder folder;
+  const Mesh mesh = sectionedBar();
+  writeVtu(mesh, folder.path / "sections", {}, option);
+  const auto grid = readVtu(folder.path / "sections.pvtu");
+  auto* cells = grid->GetCellData();
+  ASSERT_TRUE(cells->GetArray("material"));
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
+    const int fromTheEnd = grid->GetNumberOfCells() - 1 - i;
+    EXPECT_EQ(cells->GetArray("material")->GetTuple1(i), fromTheEnd < 2 ? 2 - fromTheEnd : 0);
+  }
+  writeVtu(bar(), folder.path / "bodies", {}, option);
+  EXPECT_FALSE(readVtu(folder.path / "bodies.pvtu")->GetCellData()->GetArray("material"));
+}
+
 // Names that differ after the last dot only must not share the files of their pieces.
 TEST(Vtu, KeepsFilesOfASweepApart) {
   const Folder folder;

@@ -213,6 +213,21 @@ TEST(Reactions, OfSprings) {
                opposite(sum(sum(applied, found.row("ground", "tip")), spring)));
 }
 
+// Springs along the radii of a cylinder about a line through (0.5, 0, −0.3): they exert no moment
+// about it, and none of their forces is along it.
+TEST(Reactions, OfGroundSpringsInAFrame) {
+  const Balance found(atEccentric + "-coupling_c_nodes tip " + force + moment + clamp +
+                      "-ground_top_stiffness 1e9,0,0 -ground_top_frame f -frame_f_axis 0,1,0 "
+                      "-frame_f_origin 0.5,0,-0.3 ");
+  const Wrench ground = found.row("ground", "top");
+  const Point axis{0, 1, 0},
+      about = mesh::minus(ground.moment, mesh::cross({0.5, 0, -0.3}, ground.force));
+  EXPECT_GT(mesh::length(ground.force), 1);
+  EXPECT_NEAR(mesh::dot(ground.force, axis), 0, 1e-9 * mesh::length(ground.force));
+  EXPECT_NEAR(mesh::dot(about, axis), 0, 1e-9 * mesh::length(ground.force));
+  found.expect("support", "clamped", opposite(sum(applied, ground)));
+}
+
 TEST(Reactions, OfSlantedSupports) {
   const std::string slanted =
       "-constraint_tip_clamped x -constraint_tip_frame f -frame_f_x 3,4,0 -frame_f_xy 0,1,0 ";

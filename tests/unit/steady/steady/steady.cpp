@@ -304,5 +304,27 @@ TEST(Steady, FrictionOpposesTheSlipOfTheDeformedDisc) {
   expectCoulomb(0.6);
 }
 
+// A row of cells with reduced integration on springs at one end: a plate holds their hourglass
+// modes as long as it is pressed on them.
+TEST(Steady, OpenContactThatLeavesHourglassModesIsNoSolution) {
+  const auto solve = [](double pressure) {
+    test::setOptions(
+        "-mesh_file meshes/beam.geo -mesh_set order=2,serendipity=1,Lx=2,Ly=0.7,Lz=0.5,nx=3,ny=1,"
+        "nz=1 -material_beam_integration reduced -ground_clamped_stiffness 1,1,1 "
+        "-contact_plate_pad bottom -contact_plate_role frictionless "
+        "-contact_plate_obstacle_velocity 0,0,0 " +
+        test::material("beam", "2", "0.3", "1") + formatted("-load_top_pressure %g", pressure));
+    const auto model = test::buildModel();
+    const contact::CoupledSystem system(
+        model.bodies, model.contact,
+        contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
+    return steady::Problem(*model.mesh, model.bodies, model.contact).solve({0}, system);
+  };
+  const auto pressed = solve(1e-3), lifted = solve(-1e-3);
+  EXPECT_TRUE(pressed.converged) << pressed.reason;
+  EXPECT_FALSE(lifted.converged);
+  EXPECT_EQ(lifted.reason.find("body 'beam' has 3 hourglass modes"), 0u) << lifted.reason;
+}
+
 }  // namespace
 }  // namespace squeal

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Anisotropic materials of moving bodies: matter that arrives at a place must have the law of the
+/// place.
+#include <vector>
+
+#include "model/elasticity/motion.hpp"
+#include "model/material/material.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::elasticity {
+
+/// Collective. Checks that the motion of each body leaves the laws of its materials unchanged: the
+/// law at a point, moved with the matter, is the law at the place that the point reaches. Such are
+/// isotropic laws, axes of a cylinder about the axis of rotation, an axis of transverse isotropy
+/// along it, and uniform laws under translation. Otherwise throws Error with `convective` terms,
+/// and warns without: under approximation A the axes stay at rest while the matter moves.
+void checkCarriedAxes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+                      const std::vector<Motion>& motions, bool convective);
+
+}  // namespace squeal::elasticity
