@@ -69,6 +69,7 @@ struct Settings {
   std::vector<CouplingSettings> couplings;             ///< sorted by name
   std::vector<EquationSettings> equations;             ///< sorted by name
   std::vector<BoltSettings> bolts;                     ///< sorted by name
+  bool boltsUnderPressure = false;  ///< the loads that the sweep scales act in the first step
   std::map<std::string, std::string> imageOf;          ///< [group] the group whose image it is
 
   /// Reads the options. Throws Error for options that need others, for a reference node that
@@ -92,5 +93,6 @@ std::string clampFrameName(const std::string& group);
 std::string couplingNodesName(const std::string& coupling);
 std::string couplingFrameName(const std::string& coupling);
 std::string equationName(const std::string& equation);
+std::string boltsUnderPressureName();
 
 }  // namespace squeal::constraints

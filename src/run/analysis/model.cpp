@@ -75,7 +75,7 @@ Model buildModel(MPI_Comm comm, const ModelSettings& settings) {
   model.bodies = assembleBodies(*model.mesh, settings);
   model.contact = buildContact(*model.mesh, model.bodies, std::move(ties), settings.contact);
   contact::requireMotion(model.contact);
-  tightenBolts(model, settings.constraints.bolts);
+  tightenBolts(model, settings.constraints);
   return model;
 }
 

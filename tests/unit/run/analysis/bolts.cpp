@@ -69,6 +69,14 @@ std::string assembly() {
          "-contact_joint_role frictionless -bolt_b_section section ";
 }
 
+/// A column on the sleeve that only its contact holds along z.
+const char* const rider = R"(
+x0 = 3; w = 2; z0 = 1; h = 0.5; Call Column;
+Physical Surface("rider_low") = {s};
+Physical Surface("rider_high") = {top};
+Physical Volume("rider") = {volume};
+)";
+
 /// The state of the assembly under an external force that draws the plates apart.
 struct State {
   double bolt = 0;   ///< tension, N
@@ -146,6 +154,30 @@ TEST(Bolts, ForcesBalance) {
   EXPECT_EQ(found, 2);
 }
 
+// The rider presses the plates together, and the bolt gives way to the sleeve, unless the pressure
+// acts while the bolt is tightened. Without pressure the rider is loose.
+TEST(Bolts, PartsThatOnlyPressureHolds) {
+  const std::string file = test::writeFile("rider.geo", std::string(geometry) + rider);
+  const double pressure = 5e3, area = 2, pressed = pressure * area,
+               share = boltStiffness / (boltStiffness + sleeveStiffness);
+  const std::string options = formatted("-load_rider_high_pressure %.17g ", pressure) +
+                              "-mesh_file " + file + test::material("rider", "2e9", "0", "1000") +
+                              "-constraint_rider_high_clamped xy -contact_rider_pad rider_low "
+                              "-contact_rider_disc sleeve_high -contact_rider_role frictionless ";
+  const std::string tightened = formatted("-bolt_b_force %.17g ", force);
+  const double shortening = force * (1 / boltStiffness + 1 / sleeveStiffness);
+  const auto before = stateWith(options + formatted("-bolt_b_shortening %.17g ", shortening));
+  EXPECT_NEAR(before.bolt / (force - pressed * share), 1, exact);
+  EXPECT_NEAR(before.joint / (force + pressed * (1 - share)), 1, exact);
+  const auto under = stateWith(options + tightened + "-bolt_under_pressure on ");
+  EXPECT_NEAR(under.bolt / force, 1, exact);
+  EXPECT_NEAR(under.joint / (force + pressed), 1, exact);
+  const std::string failure = test::errorOf([&] { stateWith(options + tightened); });
+  EXPECT_TRUE(test::contains(failure, "the step that tightens the bolts has no solution"))
+      << failure;
+  EXPECT_TRUE(test::contains(failure, "give -bolt_under_pressure on")) << failure;
+}
+
 TEST(Bolts, ShorteningIsTheOtherWayToSayIt) {
   // In series: the force shortens both springs.
   const double shortening = force * (1 / boltStiffness + 1 / sleeveStiffness);
@@ -213,6 +245,8 @@ Physical Surface("section") = {c[0], d[0]};
 
 TEST(Bolts, FaultsAreNamed) {
   const std::vector<std::pair<std::string, std::string>> faults{
+      {"-bolt_b_shortening 1 -bolt_under_pressure on",
+       "option -bolt_under_pressure needs -bolt_<name>_force"},
       {"", "option -bolt_b_section: give either -bolt_b_force or -bolt_b_shortening"},
       {"-bolt_b_force 1 -bolt_b_shortening 1",
        "option -bolt_b_section: give either -bolt_b_force or -bolt_b_shortening"},
