@@ -70,7 +70,7 @@ struct Settings {
   std::vector<EquationSettings> equations;             ///< sorted by name
   std::vector<BoltSettings> bolts;                     ///< sorted by name
   bool boltsUnderPressure = false;  ///< the loads that the sweep scales act in the first step
-  std::map<std::string, std::string> imageOf;          ///< [group] the group whose image it is
+  std::map<std::string, std::string> imageOf;  ///< [group] the group whose image it is
 
   /// Reads the options. Throws Error for options that need others, for a reference node that
   /// nothing uses or that does not exist, for weights that do not fit the groups, and for an
