@@ -7,6 +7,7 @@
 #include "run/analysis/checks.hpp"
 #include "run/analysis/matrix_flutter.hpp"
 #include "run/analysis/mesh_flutter.hpp"
+#include "run/analysis/tightening.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -48,6 +49,7 @@ Analysis analyse(MPI_Comm comm, const Settings& settings,
   std::optional<audit::Audit> audit;
   if (settings.mesh && settings.mesh->audit)
     audit = auditModel(model, settings.mesh->model, " (audit.md)");
+  if (settings.mesh) tightenBolts(model, settings.mesh->model.constraints);
   checkpoint::Checkpoint checkpoint =
       openCheckpoint(comm, checkpointFolder, model, settings.checkpoint);
   expectPoints(sweep.points().size());

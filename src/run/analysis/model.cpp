@@ -7,7 +7,6 @@
 #include "model/elasticity/element.hpp"
 #include "model/mesh/read.hpp"
 #include "model/ties/ties.hpp"
-#include "run/analysis/tightening.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -75,7 +74,6 @@ Model buildModel(MPI_Comm comm, const ModelSettings& settings) {
   model.bodies = assembleBodies(*model.mesh, settings);
   model.contact = buildContact(*model.mesh, model.bodies, std::move(ties), settings.contact);
   contact::requireMotion(model.contact);
-  tightenBolts(model, settings.constraints);
   return model;
 }
 

@@ -28,7 +28,8 @@ struct Model {
 };
 
 /// Collective. Reads the mesh, moves the nodes of ties that ask for it, and assembles the bodies
-/// and their contact. Throws Error as the stages document it, and if nothing slides or sticks.
+/// and their contact, with bolts that are not tightened yet. Throws Error as the stages document it,
+/// and if nothing slides or sticks.
 Model buildModel(MPI_Comm comm, const ModelSettings& settings);
 
 /// Collective. Audits a model of a mesh and prints a line with the number of findings. `place` says

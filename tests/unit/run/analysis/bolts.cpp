@@ -101,6 +101,14 @@ Physical Surface("rider_high") = {top};
 Physical Volume("rider") = {volume};
 )";
 
+/// Collective. Returns the model of the options in force with tightened bolts.
+analysis::Model tightenedModel() {
+  const auto settings = analysis::ModelSettings::given();
+  auto model = analysis::buildModel(PETSC_COMM_WORLD, settings);
+  analysis::tightenBolts(model, settings.constraints);
+  return model;
+}
+
 /// The state of the assembly under an external force that draws the plates apart.
 struct State {
   double bolt = 0;   ///< tension, N
@@ -111,7 +119,7 @@ struct State {
 /// Collective. Returns the state with these options.
 State stateWith(const std::string& options) {
   test::setOptions(assembly() + options);
-  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const auto model = tightenedModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
   const auto solution = problem.solve({.friction = 0}, system);
@@ -148,7 +156,7 @@ TEST(Bolts, ForceAndThenSeparation) {
 // The row of the bolt is its tension, and the section adds nothing to the sum of all forces.
 TEST(Bolts, ForcesBalance) {
   test::setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(1e4));
-  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const auto model = tightenedModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
   const auto solution = problem.solve({.friction = 0}, system);
@@ -215,7 +223,7 @@ TEST(Bolts, ShorteningIsTheOtherWayToSayIt) {
 
 TEST(Bolts, PressureOfTheSweepDoesNotScaleThem) {
   test::setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(3000));
-  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const auto model = tightenedModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
   for (const double pressure : {0.0, 2.0}) {
@@ -227,7 +235,7 @@ TEST(Bolts, PressureOfTheSweepDoesNotScaleThem) {
 TEST(Bolts, FrequenciesAreThoseOfTheUncutBody) {
   const auto lambda = [](const std::string& options) {
     test::setOptions(options + "-modes_count 4");
-    const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+    const auto model = tightenedModel();
     const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
     return modes::compute(system, modes::Settings::given()).lambda;
   };
@@ -249,7 +257,7 @@ struct Pair {
 Pair pairWith(const std::string& options) {
   test::setOptions("-mesh_file " + test::writeFile("bolts.geo", geometry + geometryAt(9, "a_")) +
                    optionsOf("") + optionsOf("a_") + options + "-modes_count 8");
-  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const auto model = tightenedModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const contact::CoupledSystem bonded(model.bodies, model.contact, model.bonded());
   const auto solution = problem.solve({.friction = 0}, bonded);
@@ -302,8 +310,7 @@ Physical Surface("section") = {c[0], d[0]};
   const auto message = [&](const std::string& section) {
     test::setOptions("-mesh_file " + file + test::material("bolt", "1e9", "0.3", "1000") +
                      "-constraint_low_clamped xyz -bolt_b_force 1 -bolt_b_section " + section);
-    return test::errorOf(
-        [] { analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given()); });
+    return test::errorOf([] { tightenedModel(); });
   };
   EXPECT_NE(message("notch").find("option -bolt_b_section notch: the section does not cut through "
                                   "its body: cells on both sides of it share the node at"),
@@ -333,7 +340,7 @@ TEST(Bolts, FaultsAreNamed) {
   for (const auto& [options, message] : faults) {
     const std::string found = test::errorOf([&, &text = options] {
       test::setOptions(assembly() + text);
-      analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+      tightenedModel();
     });
     EXPECT_NE(found.find(message), std::string::npos) << options << "\n  " << found;
   }
