@@ -328,7 +328,7 @@ TEST(CommandLine, DryRunSaysWhatARunWouldDo) {
   expect(dry("-options_file options/layer.yaml -mesh_set nx=12,ny=4 -flutter_friction 0,0.2 "
              "-flutter_speed 1,2,3",
              program),
-         {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)", "bottom (12 nodes)",
+         {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)", "bottom (12 nodes, clamped xy)",
           "plate (12 nodes on a rigid obstacle)",
           "6 points: 2 frictions x 3 speeds x 1 pressures x 1 dampings; 6 steady states",
           "unknowns     84", "GB on all ranks", "\naudit ", "\n# Audit of the model\n",

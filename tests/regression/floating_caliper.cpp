@@ -92,6 +92,39 @@ TEST(FloatingCaliper, JointsAreTheSameOnAllRanks) {
   expectSameOnAllRanks(joints, jointed.fromGeometry(), 120, 12);
 }
 
+// The audit comes before the bolts are tightened, the first solution; a dry run solves nothing.
+TEST(FloatingCaliper, AuditComesFirst) {
+  const std::string options = jointed.fromGeometry();
+  const ProgramRun whole = runProgram("floating_caliper_joints/order", 1,
+                                      options + " -modes_count 5 -report_fields off", 120),
+                   dry = runProgram("floating_caliper_joints/dry", 1, options + " -dry_run", 120);
+  ASSERT_EQ(whole.exitCode, 0) << whole.error;
+  ASSERT_EQ(dry.exitCode, 0) << dry.error;
+  const auto audit = whole.out.find("\naudit "), factor = whole.out.find("\nfactor "),
+             bolts = whole.out.find("\nbolts ");
+  ASSERT_NE(bolts, std::string::npos) << whole.out;
+  EXPECT_LT(audit, factor) << whole.out;
+  EXPECT_LT(factor, bolts) << whole.out;
+  EXPECT_NE(dry.out.find("\naudit "), std::string::npos) << dry.out;
+  EXPECT_EQ(dry.out.find("is 1.3"), std::string::npos) << dry.out;
+  for (const char* line :
+       {"\nsupports     bracket_bolts (96 nodes, clamped xyz)\n",
+        "piston_bottom (64 faces, pressure_pa 1e+06)\n",
+        "hub (kind rigid, reference hub, groups hub_seat, 40 nodes)\n",
+        "hub (from hub, to the ground, stiffness 5e+08,5e+08,5e+08,1e+06,1e+06,1e+06, damping "
+        "0,0,0)",
+        "\nbolts        pin_leading (section pin_leading_section, force_n 10000), "})
+    EXPECT_NE(dry.out.find(line), std::string::npos) << line << "\n" << dry.out;
+  const auto summary = nlohmann::json::parse(contentOf(whole.folder / "summary.json"));
+  EXPECT_EQ(summary.at("couplings").size(), 5u);
+  EXPECT_EQ(summary.at("couplings").at("hub").at("nodes"), 40);
+  EXPECT_EQ(summary.at("references").size(), 5u);
+  EXPECT_EQ(summary.at("bolts").at("pin_trailing").at("force_n"), 1e4);
+  EXPECT_EQ(summary.at("bushings").at("hub").at("stiffness").at(3), 1e6);
+  EXPECT_EQ(summary.at("loads").at("bore_bottom").at("pressure_pa"), 1e6);
+  EXPECT_EQ(summary.at("supports").at("bracket_bolts").at("clamped"), "xyz");
+}
+
 /// The force and the moment of a row of reactions.csv.
 using Reaction = std::array<double, 6>;
 
