@@ -342,7 +342,9 @@ std::vector<mesh::SectionRequest> boltSections(const Settings& settings) {
 std::string clampedName(const std::string& group) { return clampedOption.dashed(group); }
 std::string displacementName(const std::string& group) { return displacementOption.dashed(group); }
 std::string clampedRotationName(const std::string& group) { return rotationOption.dashed(group); }
+std::string angleName(const std::string& group) { return angleOption.dashed(group); }
 std::string clampFrameName(const std::string& group) { return frameOption.dashed(group); }
+std::string pinnedName(const std::string& coupling) { return pinnedOption.dashed(coupling); }
 std::string couplingNodesName(const std::string& coupling) { return nodesOption.dashed(coupling); }
 std::string couplingFrameName(const std::string& coupling) {
   return couplingFrameOption.dashed(coupling);

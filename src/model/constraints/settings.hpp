@@ -89,9 +89,11 @@ std::vector<mesh::SectionRequest> boltSections(const Settings& settings);
 std::string clampedName(const std::string& group);
 std::string displacementName(const std::string& group);
 std::string clampedRotationName(const std::string& group);
+std::string angleName(const std::string& group);
 std::string clampFrameName(const std::string& group);
 std::string couplingNodesName(const std::string& coupling);
 std::string couplingFrameName(const std::string& coupling);
+std::string pinnedName(const std::string& coupling);
 std::string equationName(const std::string& equation);
 std::string boltsUnderPressureName();
 

@@ -41,6 +41,7 @@ std::map<std::string, FrameSettings> framesGiven() {
                     .second = xyOption.vector(name),
                     .firstOption = "-" + (cylindrical ? axisOption : xOption).fullName(name),
                     .secondOption = "-" + xyOption.fullName(name)};
+    if (originOption.given(name)) frames[name].originOption = "-" + originOption.fullName(name);
   }
   return frames;
 }

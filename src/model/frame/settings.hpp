@@ -16,6 +16,7 @@ struct FrameSettings {
   VectorValue first = {};   ///< direction of x or, if cylindrical, of the axis
   VectorValue second = {};  ///< another direction in the plane of x and y, if rectangular
   std::string firstOption, secondOption;  ///< with their dash, for messages
+  std::string originOption = {};          ///< the same; empty if the origin is not given
 };
 
 /// Returns the frames of the options, [name]. Throws Error for a frame without its directions, and

@@ -7,6 +7,7 @@
 #include "model/elasticity/element.hpp"
 #include "model/mesh/read.hpp"
 #include "model/ties/ties.hpp"
+#include "run/analysis/idle_options.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -70,6 +71,7 @@ contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& 
 Model buildModel(MPI_Comm comm, const ModelSettings& settings) {
   Model model;
   model.mesh = std::make_unique<mesh::Mesh>(readMesh(comm, settings));
+  warnOfIdleOptions(*model.mesh, settings);
   auto ties = findTies(*model.mesh, settings);  // may move nodes, so before elements
   model.bodies = assembleBodies(*model.mesh, settings);
   model.contact = buildContact(*model.mesh, model.bodies, std::move(ties), settings.contact);

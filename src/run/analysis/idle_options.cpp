@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "run/analysis/idle_options.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "base/session/stages.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+void warn(const mesh::Mesh& mesh, const std::string& option, const std::string& why) {
+  printWarning(mesh.comm, "option " + option + " was not used: " + why);
+}
+
+/// Returns the names of the frames that options refer to.
+std::set<std::string> usedFrames(const ModelSettings& settings) {
+  const auto& attachments = settings.elasticity.attachments;
+  std::set<std::string> used;
+  for (const auto& [group, clamp] : settings.constraints.clamps) used.insert(clamp.frame);
+  for (const auto& coupling : settings.constraints.couplings) used.insert(coupling.frame);
+  for (const auto& bushing : attachments.bushings) used.insert(bushing.frame);
+  for (const auto& mass : attachments.masses) used.insert(mass.frame);
+  for (const auto& force : attachments.forces) used.insert(force.frame);
+  return used;
+}
+
+void warnOfFrames(const mesh::Mesh& mesh, const ModelSettings& settings) {
+  const auto used = usedFrames(settings);
+  for (const auto& [name, frame] : settings.constraints.frames) {
+    if (!used.contains(name))
+      warn(mesh, frame.firstOption, "no other option refers to the frame '" + name + "'");
+    else if (!frame.cylindrical && !frame.originOption.empty())
+      warn(mesh, frame.originOption, "the axes of a rectangular frame are the same everywhere");
+  }
+  for (const auto& mass : settings.elasticity.attachments.masses)
+    if (!mass.frame.empty() && !mass.hasInertia && !mass.hasOffset)
+      warn(mesh, attachments::massFrameName(mass.group), "the mass has no inertia and no offset");
+}
+
+void warnOfCouplings(const mesh::Mesh& mesh, const constraints::Settings& settings) {
+  const std::string all = std::string("xyz").substr(0, mesh.dimension);
+  for (const auto& coupling : settings.couplings) {
+    if (coupling.pinned && std::ranges::none_of(coupling.groups, [&](const auto& group) {
+          return mesh.reference(group) != nullptr;
+        }))
+      warn(mesh, constraints::pinnedName(coupling.name),
+           "none of the coupled nodes is a reference node, so none has a rotation");
+    if (!coupling.frame.empty() && std::ranges::all_of(all, [&](char letter) {
+          return coupling.components.find(letter) != std::string::npos;
+        }))
+      warn(mesh, constraints::couplingFrameName(coupling.name), "all components are coupled");
+  }
+}
+
+}  // namespace
+
+void warnOfIdleOptions(const mesh::Mesh& mesh, const ModelSettings& settings) {
+  warnOfFrames(mesh, settings);
+  warnOfCouplings(mesh, settings.constraints);
+}
+
+}  // namespace squeal::analysis
