@@ -130,17 +130,25 @@ void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& 
 
 void dryRun(MPI_Comm comm, const Settings& settings) {
   const sweep::Sweep sweep = sweep::grid(settings.sweep);
-  const Model model = checkedModel(comm, settings, sweep);
-  if (!model.mesh) {
+  if (!settings.mesh) {
     checkMatrices(comm, settings, sweep);
   } else {
+    const Model model = buildModel(comm, settings.mesh->model);
+    std::string audit;
+    if (settings.mesh->audit)
+      audit = "\n" + audit::markdown(auditModel(model, settings.mesh->model, ""));
+    try {
+      checkModel(model, settings, sweep);
+    } catch (const Error&) {
+      printLine(comm, audit);
+      throw;
+    }
     printMesh(*model.mesh, settings.mesh->model);
     printContact(model.contact, comm);
     printSweep(comm, sweep, true);
     const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
     printMemory(comm, settings, system.k0());
-    if (settings.mesh->audit)
-      printLine(comm, "\n" + audit::markdown(auditModel(model, settings.mesh->model, "")));
+    if (settings.mesh->audit) printLine(comm, audit);
   }
   printLine(comm,
             "dry run: no fault found in options and files; nothing was solved or written, so "

@@ -105,6 +105,7 @@ Physical Volume("rider") = {volume};
 analysis::Model tightenedModel() {
   const auto settings = analysis::ModelSettings::given();
   auto model = analysis::buildModel(PETSC_COMM_WORLD, settings);
+  analysis::requireSupports(model);
   analysis::tightenBolts(model, settings.constraints);
   return model;
 }
