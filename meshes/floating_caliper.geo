@@ -11,6 +11,7 @@ DefineConstant[
   quarter = {3, Name "quarter", Min 2, Max 20, Step 1},                   // edges along a quarter of pins and holes
   vanes = {30, Name "vanes", Min 3, Max 60, Step 1},                      // between the two friction rings of the disc
   bolts = {5, Name "bolts", Min 0, Max 6, Step 1},                        // holes of wheel bolts in the hat
+  bolted = {0, Name "bolted", Choices {0, 1}},                            // 1: guide pins with a collar, a neck and a thread
   h_disc = {0.024, Name "h_disc", Min 0.018, Max 0.030},                  // thickness of the disc
   h_cheek = {0.008, Name "h_cheek", Min 0.005, Max 0.0085},               // of each of its friction rings
   h_lining = {0.010, Name "h_lining", Min 0.003, Max 0.012},              // of a lining
@@ -60,11 +61,17 @@ x_ear_top = 0.128;
 y_ear = 0.070;                  // ends of the ears, on the abutments
 c_ear = 0.002;                  // chamfer between these sides, which would share nodes without it
 y_tip = 0.061;                  // from here to y_ear the ears lie on the rails
-// Piston, caliper, pins.
+// Piston, caliper, pins. A bolted pin has a collar on the bracket, a neck with the section of the bolt, and a thread.
 x_piston = 0.114;
 x_pin = 0.110;
 y_pin = 0.086;
 r_pin = 0.006;
+r_collar = 0.010;
+r_neck = 0.0045;
+// The towers of the bracket on both sides of the disc, which hold abutments and rails; the pins go through the inboard ones.
+z_tower = z_face + 0.004;
+h_tower = z_plate + 0.006 - z_tower;
+z_thread = -z_tower - h_tower / 2;  // from here on a bolted pin is screwed into the bracket
 
 // In: volumes body[], box corners x0 … z1. Out: picked[], the surfaces on the boundary of the body that lie in the box, grown by e.
 // Places of surfaces are known, numbers of surfaces after booleans are not; only those of one body are asked for, since the
@@ -389,28 +396,51 @@ Call Grid;
 Physical Surface("caliper_hole_trailing") = picked[];
 Physical Volume("caliper") = caliper[];
 
-// Guide pins: the shank sits in the bracket, the guide in the caliper; each is a volume of its own within the pin.
+// Guide pins: the shank sits in the bracket, the guide in the caliper; each is a volume of its own within the pin. The shank of a
+// bolted pin is its thread. The collar lies on the bracket, around the hole.
 z_step = -z_plate - 0.008;
 For end In {-1 : 1 : 2}
   pin = StrChoice(end < 0, "leading", "trailing");
   x = x_pin; y = end * y_pin; radius = r_pin; turn = 45 / quarter;
-  z_low = z_step; height = -z_face - 0.003 - z_step;
+  z_shank = bolted ? z_thread : z_step;
+  z_low = z_shank; height = -z_face - 0.003 - z_shank;
   Call Rod;
   shank = rod;
   z_low = z_end; height = z_step - z_end;
   Call Rod;
-  guide = rod;
-  body[] = BooleanFragments{ Volume{shank}; Delete; }{ Volume{guide}; Delete; };
+  guide[] = {rod};
+  If (bolted)
+    z_low = z_step; height = -z_tower - h_tower - z_step;
+    Call Rod;
+    guide[] += {rod};
+    radius = r_collar;
+    Call Rod;
+    guide[] += {rod};
+    radius = r_neck; z_low = -z_tower - h_tower; height = h_tower / 4;
+    Call Rod;
+    guide[] += {rod};
+    z_low = z_thread - height;
+    Call Rod;
+    guide[] += {rod};
+    radius = r_pin;
+  EndIf
+  body[] = BooleanFragments{ Volume{shank}; Delete; }{ Volume{guide[]}; Delete; };
   MeshSize{ PointsOf{ Volume{body[]}; } } = size_pin;
   x0 = x_pin - r_pin; x1 = x_pin + r_pin; y0 = end * y_pin - r_pin; y1 = end * y_pin + r_pin;
   // The flat ends, which these boxes hold too, are left out.
   z0 = -z_face - 0.003; z1 = z0;
   Call Pick;
   bottom[] = picked[];
-  z0 = z_step;
+  If (bolted)
+    z0 = z_thread; z1 = z0;
+    Call Pick;
+    bottom[] += picked[];
+    z1 = -z_face - 0.003;
+  EndIf
+  z0 = z_shank;
   Call Pick;
   picked[] -= bottom[];
-  n_arc = quarter; n_axis = quarter + 2;
+  n_arc = quarter; n_axis = bolted ? quarter : quarter + 2;
   Call Grid;
   Physical Surface(StrCat("pin_", pin, "_shank")) = picked[];
   z0 = z_end; z1 = z0;
@@ -422,13 +452,29 @@ For end In {-1 : 1 : 2}
   n_axis = 2 * quarter + 1;
   Call Grid;
   Physical Surface(StrCat("pin_", pin, "_guide")) = picked[];
+  If (bolted)
+    // The ring of the collar, without the neck, whose root has a box of its own.
+    z0 = -z_tower - h_tower; z1 = z0;
+    x0 = x_pin - r_pin; x1 = x_pin + r_pin; y0 = end * y_pin - r_pin; y1 = end * y_pin + r_pin;
+    Call Pick;
+    bottom[] = picked[];
+    x0 = x_pin - r_collar; x1 = x_pin + r_collar; y0 = end * y_pin - r_collar; y1 = end * y_pin + r_collar;
+    Call Pick;
+    picked[] -= bottom[];
+    Physical Surface(StrCat("pin_", pin, "_collar")) = picked[];
+    z0 = z_thread - h_tower / 4; z1 = z0;
+    x0 = x_pin - r_neck; x1 = x_pin + r_neck; y0 = end * y_pin - r_neck; y1 = end * y_pin + r_neck;
+    picked[] = Surface In BoundingBox{x0 - e, y0 - e, z0 - e, x1 + e, y1 + e, z1 + e};
+    If (#picked[] != 1)
+      Error("the neck of a guide pin has no section: these dimensions do not go together");
+    EndIf
+    Physical Surface(StrCat("pin_", pin, "_section")) = picked[];
+  EndIf
   Physical Volume(StrCat("pin_", pin)) = body[];
 EndFor
 
 // Bracket: a bar inboard with the bolts to the knuckle; at either end a tower, an arm over the rim of the disc and a tower outboard;
 // on each tower an abutment for the end of an ear and a rail below it.
-z_tower = z_face + 0.004;
-h_tower = z_plate + 0.006 - z_tower;
 y_tower = y_ear + 0.004;
 y_end = 0.098;
 x_foot = 0.052;
@@ -458,8 +504,15 @@ whole[] = BooleanUnion{ Volume{bracket}; Delete; }{ Volume{tools[]}; Delete; };
 tools[] = {};
 For end In {-1 : 1 : 2}
   y = end * y_pin; x = x_pin; radius = r_pin; turn = 0; z_low = -z_tower - 2 * h_tower; height = 2 * h_tower + z_tower;
+  If (bolted)
+    z_low = z_thread; height = -z_thread;
+    Call Rod;
+    tools[] += {rod};
+    z_low = -z_tower - 2 * h_tower; height = z_thread - z_low;
+  EndIf
   Call Rod;
   tools[] += {rod};
+  z_low = -z_tower - 2 * h_tower; height = 2 * h_tower + z_tower;
   y = end * 0.060; x = x_foot + 0.011;
   Call Rod;
   tools[] += {rod};
@@ -472,9 +525,17 @@ For end In {-1 : 1 : 2}
   pin = StrChoice(end < 0, "leading", "trailing");
   z0 = -z_tower - h_tower; z1 = -z_tower;
   x0 = x_pin - r_pin; x1 = x_pin + r_pin; y0 = end * y_pin - r_pin; y1 = end * y_pin + r_pin;
-  Call Pick;
   n_arc = quarter; n_axis = quarter + 1;
+  If (bolted)
+    n_axis = quarter - 1;
+    z1 = z_thread;
+    Call Pick;
+    Call Grid;
+    z0 = z_thread; z1 = -z_tower;
+  EndIf
+  Call Pick;
   Call Grid;
+  z0 = -z_tower - h_tower;
   Physical Surface(StrCat("bracket_hole_", pin)) = picked[];
   x0 = x_foot + 0.005; x1 = x_foot + 0.017; y0 = end * 0.060 - 0.006; y1 = end * 0.060 + 0.006;
   Call Pick;
@@ -494,6 +555,11 @@ For end In {-1 : 1 : 2}
   EndFor
 EndFor
 Physical Surface("bracket_bolts") = mounting[];
+If (bolted)
+  x0 = x_foot; x1 = x_arm_top; y0 = -y_end; y1 = y_end; z0 = -z_tower - h_tower; z1 = z0;
+  Call Pick;
+  Physical Surface("bracket_seat") = picked[];
+EndIf
 Physical Volume("bracket") = bracket[];
 
 Mesh.MinimumCirclePoints = 12;

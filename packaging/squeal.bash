@@ -14,10 +14,10 @@ _squeal() {
       return
       ;;
     -checkpoint | -resume | -quiet | -dry_run | -audit | -elasticity_prestress | \
-    -load_centrifugal | -motion_convective | -steady_full | -steady_uniqueness | \
-    -modes_sturm | -flutter_direct_confirm | -flutter_sensitivities | \
-    -flutter_track | -flutter_critical | -flutter_friction_damping | \
-    -regime_cycle | -report_fields)
+    -bolt_under_pressure | -load_centrifugal | -motion_convective | -steady_full \
+    | -steady_uniqueness | -modes_sturm | -flutter_direct_confirm | \
+    -flutter_sensitivities | -flutter_track | -flutter_critical | \
+    -flutter_friction_damping | -regime_cycle | -report_fields)
       _squeal_words "on off"
       return
       ;;
@@ -70,22 +70,23 @@ _squeal() {
     -checkpoint_interval -resume -quiet -log_json -progress -audit
     -mesh_straighten -mesh_file -mesh_scale -mesh_set -mesh_size -mesh_order
     -elasticity_mass -elasticity_incompatible_modes -elasticity_prestress
-    -elasticity_plane -load_centrifugal -load_gravity -motion_convective
-    -friction_law -friction_static_ratio -friction_decay_speed
-    -friction_table_speed -friction_table_factor -steady_full -steady_path
-    -steady_uniqueness -steady_uniqueness_dense -steady_uniqueness_pmatrix
-    -modes_count -modes_solver -modes_block_size -modes_tolerance -modes_sturm
-    -flutter_direct_count -flutter_direct_band -flutter_direct_limit
-    -flutter_direct_confirm -flutter_method -flutter_modal_damping -flutter_band
-    -flutter_band_damping -flutter_accuracy -flutter_unstable_tolerance
-    -flutter_shapes -flutter_shapes_below -flutter_basis -flutter_tolerance
-    -flutter_rounds -flutter_growth -flutter_sensitivities -flutter_track
-    -flutter_critical -flutter_critical_tolerance -flutter_track_halvings
-    -flutter_friction -flutter_speed -flutter_pressure -flutter_damping
-    -flutter_friction_damping -flutter_released -regime_friction -regime_time
-    -regime_step -regime_start_factor -regime_starts -regime_boundary
-    -regime_cycle -regime_cycle_steps -regime_cycle_tolerance
-    -regime_cycle_range -regime_cycle_motions -regime_cycles_kept -regime_frames
+    -elasticity_plane -bolt_under_pressure -load_centrifugal -load_gravity
+    -motion_convective -friction_law -friction_static_ratio
+    -friction_decay_speed -friction_table_speed -friction_table_factor
+    -steady_full -steady_path -steady_uniqueness -steady_uniqueness_dense
+    -steady_uniqueness_pmatrix -modes_count -modes_solver -modes_block_size
+    -modes_tolerance -modes_sturm -flutter_direct_count -flutter_direct_band
+    -flutter_direct_limit -flutter_direct_confirm -flutter_method
+    -flutter_modal_damping -flutter_band -flutter_band_damping -flutter_accuracy
+    -flutter_unstable_tolerance -flutter_shapes -flutter_shapes_below
+    -flutter_basis -flutter_tolerance -flutter_rounds -flutter_growth
+    -flutter_sensitivities -flutter_track -flutter_critical
+    -flutter_critical_tolerance -flutter_track_halvings -flutter_friction
+    -flutter_speed -flutter_pressure -flutter_damping -flutter_friction_damping
+    -flutter_released -regime_friction -regime_time -regime_step
+    -regime_start_factor -regime_starts -regime_boundary -regime_cycle
+    -regime_cycle_steps -regime_cycle_tolerance -regime_cycle_range
+    -regime_cycle_motions -regime_cycles_kept -regime_frames
     -regime_air_impedance -regime_spectrum_points -report_matrices
     -report_matrices_format -report_dir -report_fields -report_modes
     -report_animated -report_pieces -report_frames"

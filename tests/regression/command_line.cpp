@@ -328,12 +328,27 @@ TEST(CommandLine, DryRunSaysWhatARunWouldDo) {
   expect(dry("-options_file options/layer.yaml -mesh_set nx=12,ny=4 -flutter_friction 0,0.2 "
              "-flutter_speed 1,2,3",
              program),
-         {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)", "bottom (12 nodes)",
-          "plate (12 nodes on a rigid obstacle)",
+         {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)",
+          "bottom (12 nodes, clamped xy)", "plate (12 nodes on a rigid obstacle)",
           "6 points: 2 frictions x 3 speeds x 1 pressures x 1 dampings; 6 steady states",
           "unknowns     84", "GB on all ranks", "\naudit ", "\n# Audit of the model\n",
           "\nNo finding.\n", "| layer | 48 | 3 | (1.5, -0.5, 0) | 2.5 |"});
   EXPECT_EQ(dry("-options_file options/layer.yaml -audit off").find("audit"), std::string::npos);
+  // A loose body: the audit comes before the error, which points to it.
+  EXPECT_EQ(shell(place, onOneRank +
+                             " -mesh_file '" SQUEAL_SOURCE_DIR
+                             "/meshes/beam.geo' -material_beam_young 1e9 "
+                             "-material_beam_poisson 0.3 -material_beam_density 1 -modes_count 4 "
+                             "-dry_run >'" +
+                             (place / "out").string() + "' 2>'" + (place / "err").string() + "'"),
+            1);
+  EXPECT_NE(contentOf(place / "out").find("| beam | none | loose |"), std::string::npos)
+      << contentOf(place / "out");
+  EXPECT_NE(contentOf(place / "err")
+                .find("the audit, which -dry_run prints, lists the supports of "
+                      "each part"),
+            std::string::npos)
+      << contentOf(place / "err");
   expect(dry("-options_file options/external.yaml"),
          {"mass: 2 rows, 2 entries, with s^2", "friction: 2 rows, 1 entries, with s^0, friction^1",
           "unknowns     2,"});

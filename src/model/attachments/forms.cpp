@@ -152,28 +152,37 @@ void requireInertia(const std::vector<double>& moments, const std::string& group
                   inertiaName(group).c_str(), moments[0], moments[1], moments[2]));
 }
 
-/// Adds the rotary inertia of the mass of a reference node.
-void addInertia(const mesh::Mesh& mesh, const MassSettings& mass, const PointNode& node,
-                const Matrix3& axes, std::vector<Form>& forms) {
+/// Returns the rotary inertia of the mass of a reference node in global axes; in the plane Jzz.
+Matrix3 inertiaOf(const mesh::Mesh& mesh, const MassSettings& mass, const Matrix3& axes) {
+  if (!mass.hasInertia) return {};
   if (mesh.dimension == 2) {
     const double j = mass.inertia.size() == 6 ? mass.inertia[2] : mass.inertia[0];
     if (mass.inertia.size() != 6 && mass.inertia.size() != 1)
       throw Error("option " + inertiaName(mass.group) + ": in the plane must be one number, Jzz");
     if (j < 0) throw Error("option " + inertiaName(mass.group) + ": Jzz must not be negative");
-    if (j > 0)
-      forms.push_back({.kind = "mass",
-                       .name = mass.group,
-                       .mass = j,
-                       .terms = {{node.rotation, {1, 0, 0}, false}}});
-    return;
+    Matrix3 inertia{};
+    inertia[2][2] = j;
+    return inertia;
   }
   if (mass.inertia.size() != 6)
     throw Error(formatted("option %s: %zu numbers; must be six, Jxx,Jyy,Jzz,Jxy,Jxz,Jyz",
                           inertiaName(mass.group).c_str(), mass.inertia.size()));
-  const Matrix3 global = inertiaTensor(mass.inertia, axes);
+  return inertiaTensor(mass.inertia, axes);
+}
+
+/// Adds the rotary inertia of a mass.
+void addInertia(const PointMass& mass, int dimension, std::vector<Form>& forms) {
+  if (dimension == 2) {
+    if (const double j = mass.inertia[2][2]; j > 0)
+      forms.push_back({.kind = "mass",
+                       .name = mass.group,
+                       .mass = j,
+                       .terms = {{mass.node.rotation, {1, 0, 0}, false}}});
+    return;
+  }
   linalg::DenseMatrix tensor(3, 3);
   for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b) tensor(a, b) = global[a][b];
+    for (int b = 0; b < 3; ++b) tensor(a, b) = mass.inertia[a][b];
   const auto moments = linalg::symmetricEigen(tensor);
   requireInertia(moments, mass.group);
   for (int k = 0; k < 3; ++k)
@@ -182,45 +191,34 @@ void addInertia(const mesh::Mesh& mesh, const MassSettings& mass, const PointNod
           {.kind = "mass",
            .name = mass.group,
            .mass = moments[k],
-           .terms = {{node.rotation, {tensor(0, k), tensor(1, k), tensor(2, k)}, false}}});
+           .terms = {{mass.node.rotation, {tensor(0, k), tensor(1, k), tensor(2, k)}, false}}});
 }
 
-/// Adds the mass of each node, with the centre of mass at the end of `arm`.
-void addMass(const PointNode& node, double mass, const Point& arm, const std::string& group,
-             int dimension, std::vector<Form>& forms) {
-  for (int d = 0; d < dimension; ++d) {
-    const Point e = mesh::axis(d);
-    Form form{.kind = "mass", .name = group, .mass = mass, .accelerated = e};
-    addTranslation(form, node, e, arm, 1, dimension);
-    forms.push_back(std::move(form));
-  }
-}
-
-void addMasses(const mesh::Mesh& mesh, const MassSettings& mass, const Settings& settings,
-               std::vector<Form>& forms) {
-  if (mesh.reference(mass.group)) {
-    const PointNode node = mesh::pointNode(mesh, mass.group, "");
+/// Adds the masses of a group or a reference node.
+void addMasses(const mesh::Mesh& mesh, const MassSettings& given, const Settings& settings,
+               std::vector<PointMass>& masses) {
+  if (mesh.reference(given.group)) {
+    const PointNode node = mesh::pointNode(mesh, given.group, "");
     const Matrix3 axes =
-        frame::named(settings.frames, mass.frame, massFrameName(mass.group), mesh.dimension)
+        frame::named(settings.frames, given.frame, massFrameName(given.group), mesh.dimension)
             .axesAt(node.position);
-    const Point local = mass.offset.in(mesh.dimension);
-    const Point arm = mesh::along(axes, local);
-    addMass(node, mass.total, arm, mass.group, mesh.dimension, forms);
-    if (mass.hasInertia) addInertia(mesh, mass, node, axes, forms);
+    const Point local = given.offset.in(mesh.dimension);
+    masses.push_back({given.group, node, given.total, mesh::along(axes, local),
+                      inertiaOf(mesh, given, axes), given.hasInertia});
     return;
   }
-  if (mass.hasInertia || mass.hasOffset)
+  if (given.hasInertia || given.hasOffset)
     throw Error("option " +
-                (mass.hasInertia ? inertiaName(mass.group) : "-mass_" + mass.group + "_offset") +
-                ": '" + mass.group +
+                (given.hasInertia ? inertiaName(given.group) : "-mass_" + given.group + "_offset") +
+                ": '" + given.group +
                 "' is not a reference node; only these have a rotation. Make one with -reference_" +
-                mass.group + "_position");
+                given.group + "_position");
   std::vector<PointNode> own;
-  for (PetscInt node : mesh.nodeGroups.at(mass.group))
+  for (PetscInt node : mesh.nodeGroups.at(given.group))
     own.push_back({mesh.firstNode + node, -1, mesh.coordinates[node]});
   const auto all = concatenated(mesh.comm, own);
   for (const auto& node : all)
-    addMass(node, mass.total / all.size(), {}, mass.group, mesh.dimension, forms);
+    masses.push_back({given.group, node, given.total / all.size(), {}, {}, false});
 }
 
 /// Adds the moment on the reference node of a group.
@@ -259,9 +257,23 @@ std::vector<Form> linksOf(const mesh::Mesh& mesh, const Settings& settings) {
   return forms;
 }
 
+std::vector<PointMass> pointMasses(const mesh::Mesh& mesh, const Settings& settings) {
+  std::vector<PointMass> masses;
+  for (const auto& given : settings.masses) addMasses(mesh, given, settings, masses);
+  return masses;
+}
+
 std::vector<Form> massesOf(const mesh::Mesh& mesh, const Settings& settings) {
   std::vector<Form> forms;
-  for (const auto& mass : settings.masses) addMasses(mesh, mass, settings, forms);
+  for (const auto& mass : pointMasses(mesh, settings)) {
+    for (int d = 0; d < mesh.dimension; ++d) {
+      const Point e = mesh::axis(d);
+      Form form{.kind = "mass", .name = mass.group, .mass = mass.mass, .accelerated = e};
+      addTranslation(form, mass.node, e, mass.arm, 1, mesh.dimension);
+      forms.push_back(std::move(form));
+    }
+    if (mass.hasInertia) addInertia(mass, mesh.dimension, forms);
+  }
   return forms;
 }
 

@@ -6,6 +6,7 @@
 
 #include "model/attachments/settings.hpp"
 #include "model/mesh/mesh.hpp"
+#include "model/mesh/point_node.hpp"
 #include "model/mesh/vector.hpp"
 
 namespace squeal::attachments {
@@ -42,8 +43,23 @@ std::vector<Form> linksOf(const mesh::Mesh& mesh, const Settings& settings);
 /// `axes` are those of the six numbers, by rows.
 mesh::Matrix3 inertiaTensor(const std::vector<double>& j, const mesh::Matrix3& axes);
 
-/// Collective. Returns the point masses, the same on all ranks. Throws Error for an inertia or an
-/// offset at a group of nodes, and for an inertia that no mass has.
+/// A mass at a node.
+struct PointMass {
+  std::string group;      ///< of the option
+  mesh::PointNode node;   ///< without rotation if it is a node of a group
+  double mass;            ///< kg
+  Point arm;              ///< from the node to the centre of mass, m
+  mesh::Matrix3 inertia;  ///< about the centre, in global axes, kg·m²; in the plane only [2][2]
+  bool hasInertia;
+  Point centre() const { return mesh::plus(node.position, arm); }
+};
+
+/// Collective. Returns the masses, the same on all ranks. Throws Error for an inertia or an offset
+/// at a group of nodes, and for an inertia of a wrong length.
+std::vector<PointMass> pointMasses(const mesh::Mesh& mesh, const Settings& settings);
+
+/// Collective. Returns the point masses as forms, the same on all ranks. Throws Error for an
+/// inertia or an offset at a group of nodes, and for an inertia that no mass has.
 std::vector<Form> massesOf(const mesh::Mesh& mesh, const Settings& settings);
 
 /// A force or a moment on an owned node.

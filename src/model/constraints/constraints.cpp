@@ -38,6 +38,30 @@ void warnOfFreeComponents(MPI_Comm comm, const std::string& group, const std::st
                              " does not hold it");
 }
 
+/// Collective. Warns of angles of rotations that are not held, and of turns that are too large for
+/// linear kinematics: θ × r instead of the turned arm, in the plane (0, θ) instead of (1 − cos θ,
+/// sin θ) times r.
+void warnOfAngles(MPI_Comm comm, const std::string& group, const ClampSettings& clamp) {
+  constexpr double small = 0.05;  // rad; the error is half of it
+  Point held = clamp.angle.in(3);
+  for (const char letter : std::string("xyz"))
+    if (double& angle = held[letter - 'x'];
+        angle != 0 && clamp.rotations.find(letter) == std::string::npos) {
+      printWarning(comm, "option " + angleName(group) + ": the angle about " + letter +
+                             " was not used, since " + clampedRotationName(group) + " " +
+                             clamp.rotations + " does not hold it");
+      angle = 0;
+    }
+  const double turn = mesh::length(held);
+  if (turn <= small) return;
+  const double error =
+      std::hypot(1 - std::cos(turn), turn - std::sin(turn)) / std::abs(2 * std::sin(turn / 2));
+  printWarning(comm, "warning: option " + angleName(group) +
+                         formatted(": rotations are linear, so a turn of %.3g rad gives the nodes "
+                                   "that follow it displacements with a relative error of %.2g",
+                                   turn, error));
+}
+
 /// A direction that a group holds at a node.
 struct Held {
   Point direction;
@@ -109,7 +133,10 @@ void Supports::add(const std::string& group, const ClampSettings& clamp, std::st
   found_.groups.push_back(group);
   const Frame frame =
       frame::named(settings_.frames, clamp.frame, clampFrameName(group), dimension_);
-  if (!clamp.rotations.empty()) addRotations(group, clamp, frame, failure);
+  if (!clamp.rotations.empty()) {
+    warnOfAngles(mesh_.comm, group, clamp);
+    addRotations(group, clamp, frame, failure);
+  }
   if (clamp.components.empty()) return;
   const auto values = clamp.displacement.in(dimension_);
   requireComponents(group, clamp.components, dimension_);

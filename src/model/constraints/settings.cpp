@@ -72,6 +72,10 @@ const RealListOption boltAxisOption("bolt", "bolt_<name>_axis", "0,0,1", "", any
                                     "direction of the bolt, for the sign of its normal; default: "
                                     "the normal of a face of the section");
 
+const FlagOption underPressureOption("bolt", "bolt_under_pressure", false,
+                                     "pressures and other loads that the sweep scales act in the "
+                                     "first step, for brakes whose parts are loose without them");
+
 std::vector<mesh::ReferenceRequest> referencesGiven() {
   std::set<std::string> names;
   for (const Option* option : std::vector<const Option*>{&positionOption, &centreOption})
@@ -289,6 +293,9 @@ std::vector<BoltSettings> boltsGiven() {
     if (boltAxisOption.given(name)) bolt.axis = boltAxisOption.vector(name);
     bolts.push_back(std::move(bolt));
   }
+  if (underPressureOption.given() &&
+      std::ranges::none_of(bolts, [](const auto& bolt) { return bolt.force.has_value(); }))
+    throw Error("option " + underPressureOption.dashed() + " needs -bolt_<name>_force");
   return bolts;
 }
 
@@ -302,6 +309,7 @@ Settings Settings::given() {
   settings.couplings = couplingsGiven(settings);
   settings.equations = equationsGiven(settings);
   settings.bolts = boltsGiven();
+  settings.boltsUnderPressure = underPressureOption.get();
   for (const auto& image : imageOption.subjects()) settings.imageOf[image] = imageOption.get(image);
   return settings;
 }
@@ -340,11 +348,14 @@ std::vector<mesh::SectionRequest> boltSections(const Settings& settings) {
 std::string clampedName(const std::string& group) { return clampedOption.dashed(group); }
 std::string displacementName(const std::string& group) { return displacementOption.dashed(group); }
 std::string clampedRotationName(const std::string& group) { return rotationOption.dashed(group); }
+std::string angleName(const std::string& group) { return angleOption.dashed(group); }
 std::string clampFrameName(const std::string& group) { return frameOption.dashed(group); }
+std::string pinnedName(const std::string& coupling) { return pinnedOption.dashed(coupling); }
 std::string couplingNodesName(const std::string& coupling) { return nodesOption.dashed(coupling); }
 std::string couplingFrameName(const std::string& coupling) {
   return couplingFrameOption.dashed(coupling);
 }
 std::string equationName(const std::string& equation) { return equationOption.dashed(equation); }
+std::string boltsUnderPressureName() { return underPressureOption.dashed(); }
 
 }  // namespace squeal::constraints

@@ -69,7 +69,8 @@ struct Settings {
   std::vector<CouplingSettings> couplings;             ///< sorted by name
   std::vector<EquationSettings> equations;             ///< sorted by name
   std::vector<BoltSettings> bolts;                     ///< sorted by name
-  std::map<std::string, std::string> imageOf;          ///< [group] the group whose image it is
+  bool boltsUnderPressure = false;  ///< the loads that the sweep scales act in the first step
+  std::map<std::string, std::string> imageOf;  ///< [group] the group whose image it is
 
   /// Reads the options. Throws Error for options that need others, for a reference node that
   /// nothing uses or that does not exist, for weights that do not fit the groups, and for an
@@ -88,9 +89,12 @@ std::vector<mesh::SectionRequest> boltSections(const Settings& settings);
 std::string clampedName(const std::string& group);
 std::string displacementName(const std::string& group);
 std::string clampedRotationName(const std::string& group);
+std::string angleName(const std::string& group);
 std::string clampFrameName(const std::string& group);
 std::string couplingNodesName(const std::string& coupling);
 std::string couplingFrameName(const std::string& coupling);
+std::string pinnedName(const std::string& coupling);
 std::string equationName(const std::string& equation);
+std::string boltsUnderPressureName();
 
 }  // namespace squeal::constraints

@@ -13,8 +13,16 @@ namespace squeal::contact {
 /// of ties::findTies(). Adds the stiffness of compliant layers to `bodies`. The result borrows
 /// `mesh`. Throws Error for surfaces that do not meet, a
 /// wrong constraint, a moving pad, a held component that is not tangential at a contact node, and
-/// an obstacle face that is not flat. Also throws Error for a rigid-body mode with closed contact;
-/// the message names body and motion.
+/// an obstacle face that is not flat.
+Contact assemble(const mesh::Mesh& mesh, elasticity::Bodies& bodies, interfaces::Interfaces ties,
+                 const Settings& settings);
+
+/// Collective. Throws Error for a rigid-body mode with closed contact, naming body and motion, and
+/// for an hourglass mode that nothing holds.
+void requireSupports(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                     const Contact& contact);
+
+/// Collective. Does both.
 Contact build(const mesh::Mesh& mesh, elasticity::Bodies& bodies, interfaces::Interfaces ties,
               const Settings& settings);
 

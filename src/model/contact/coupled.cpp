@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "base/system/error.hpp"
 #include "base/system/mpi.hpp"
+#include "base/system/text.hpp"
 
 namespace squeal::contact {
 
@@ -49,6 +51,20 @@ PetscInt countOpen(MPI_Comm comm, const Mask& closed) {
   return mpi::sum(comm, PetscInt(std::ranges::count(closed, 0)));
 }
 
+/// Throws Error if nothing can move.
+void requireUnknowns(const Contact& contact, const Transformation& transformation) {
+  if (transformation.columns > 0) return;
+  std::vector<std::string> holding;
+  const auto& all = contact.interfaces;
+  for (const auto& group : all.constraints.groups) holding.push_back("constraint '" + group + "'");
+  for (const auto& coupling : all.couplings) holding.push_back(coupling.label());
+  for (const auto& interface : all.options) holding.push_back(interface.label());
+  throw Error(formatted("no displacement is unknown: all %" PetscInt_FMT
+                        " nodes are held, or follow nodes that are (",
+                        contact.mesh->totalNodes) +
+              joined(holding) + "); free some of them");
+}
+
 Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
                        const ActiveSet& set, Mat prestress) {
   ActiveSet free{set.closed, {}};  // open nodes are also free along the surface
@@ -57,6 +73,7 @@ Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
     free.released[i] = free.released[i] || set.released[i];
   Projections result;
   result.transformation = contact.transformation(free);
+  requireUnknowns(contact, result.transformation);
   OwnedMat stressed;
   if (prestress) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stressed.out()));

@@ -11,6 +11,7 @@
 #include "model/attachments/forms.hpp"
 #include "model/elasticity/assembly.hpp"
 #include "model/elasticity/carried_axes.hpp"
+#include "model/elasticity/carried_masses.hpp"
 #include "model/elasticity/convection.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/ground.hpp"
@@ -173,11 +174,25 @@ void attach(const mesh::Mesh& mesh, const std::vector<attachments::Form>& masses
   addMatrix(bodies.mass, formMatrix(mesh, masses, &Form::mass));
 }
 
+/// Collective. Adds the terms of point masses that move with a body.
+void carry(const mesh::Mesh& mesh, Bodies& bodies) {
+  const auto& settings = bodies.settings;
+  const auto carried = carriedMasses(mesh, settings, bodies.motions);
+  if (settings.centrifugal && !carried.empty())
+    addCentrifugal(mesh, carried, bodies.motions, bodies.centrifugal);
+  if (!settings.convective) return;
+  const OwnedMat spin = gyroscopicOf(mesh, carried, bodies.motions);
+  if (!spin) return;
+  check(MatAXPY(bodies.gyroscopic, 1, spin, DIFFERENT_NONZERO_PATTERN));
+  check(MatSetOption(bodies.gyroscopic, MAT_SYMMETRIC, PETSC_FALSE));
+}
+
 /// Collective. Sets the loads.
 void assembleLoads(const mesh::Mesh& mesh, const std::vector<attachments::Form>& masses,
                    Bodies& bodies) {
   const LoadInput input{mesh, bodies.materials, bodies.settings};
   bodies.centrifugal = centrifugalForces(input, bodies.motions);
+  carry(mesh, bodies);
   auto [hydraulic, constant] = surfaceLoads(input, masses);
   if (bodies.settings.bodyForces) check(VecAXPY(constant, 1, bodyForces(input, {})));
   bodies.load = std::move(hydraulic);

@@ -155,6 +155,7 @@ Settings Settings::given() {
   settings.motions = motionsGiven();
   readBodyForces(settings);
   settings.attachments = attachments::Settings::given();
+  settings.couplings = constraints::Settings::given().couplings;
   settings.ground = groundGiven();
   return settings;
 }

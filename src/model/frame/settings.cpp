@@ -52,6 +52,7 @@ std::map<std::string, FrameSettings> framesGiven() {
                     .firstOption = "-" + (cylindrical ? axisOption : xOption).fullName(name),
                     .secondOption = "-" + xyOption.fullName(name),
                     .turnAxisOption = turnAxisOption.dashed(name)};
+    if (originOption.given(name)) frames[name].originOption = "-" + originOption.fullName(name);
   }
   return frames;
 }

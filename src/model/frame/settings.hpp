@@ -19,6 +19,7 @@ struct FrameSettings {
   double turn = 0;          ///< angle by which these axes are turned about one of them, rad
   int turnAxis = 2;         ///< 0, 1, 2: about their x, y, z
   std::string firstOption, secondOption, turnAxisOption;  ///< with their dash, for messages
+  std::string originOption = {};  ///< the same; empty if the origin is not given
 };
 
 /// Returns the frames of the options, [name]. Throws Error for a frame without its directions, and

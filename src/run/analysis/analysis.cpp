@@ -7,6 +7,7 @@
 #include "run/analysis/checks.hpp"
 #include "run/analysis/matrix_flutter.hpp"
 #include "run/analysis/mesh_flutter.hpp"
+#include "run/analysis/tightening.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -34,20 +35,17 @@ const pencil::ComplexModes* Analysis::pointAt(const sweep::Parameters& at) const
   return nullptr;
 }
 
-Model checkedModel(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep) {
-  if (!settings.mesh) return {};
-  Model model = buildModel(comm, settings.mesh->model);
-  checkModel(model, settings, sweep);
-  return model;
-}
-
 Analysis analyse(MPI_Comm comm, const Settings& settings,
                  const std::filesystem::path& checkpointFolder, int reportedModes) {
   const sweep::Sweep sweep = sweep::grid(settings.sweep);
-  Model model = checkedModel(comm, settings, sweep);
+  Model model = settings.mesh ? buildModel(comm, settings.mesh->model) : Model{};
   std::optional<audit::Audit> audit;
   if (settings.mesh && settings.mesh->audit)
     audit = auditModel(model, settings.mesh->model, " (audit.md)");
+  if (settings.mesh) {
+    checkModel(model, settings, sweep);
+    tightenBolts(model, settings.mesh->model.constraints);
+  }
   checkpoint::Checkpoint checkpoint =
       openCheckpoint(comm, checkpointFolder, model, settings.checkpoint);
   expectPoints(sweep.points().size());

@@ -38,10 +38,6 @@ struct Analysis {
   const pencil::ComplexModes* pointAt(const sweep::Parameters& at) const;
 };
 
-/// Collective. Returns the model of a mesh, checked against the sweep; an empty one for matrices
-/// from files. Throws Error as buildModel() and checkModel() do.
-Model checkedModel(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep);
-
 /// Collective. Runs all stages that the settings request and returns their results; if the run is
 /// asked to stop, those obtained so far. Checkpoints are written to `checkpointFolder`; if it is
 /// empty, none is written. `reportedModes` is the number of free modes whose shapes are reported.

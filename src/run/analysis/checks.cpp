@@ -85,6 +85,7 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms,
 }
 
 void checkModel(const Model& model, const Settings& settings, const sweep::Sweep& sweep) {
+  requireSupports(model);
   if (settings.regime.enabled())
     regime::requireSupported(settings.regime, model.bodies, model.contact);
   requireFiniteSweep(model.bodies, model.contact, sweep);

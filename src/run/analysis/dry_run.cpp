@@ -15,6 +15,7 @@
 #include "model/mesh/mesh.hpp"
 #include "run/analysis/analysis.hpp"
 #include "run/analysis/checks.hpp"
+#include "run/analysis/inventory.hpp"
 #include "run/analysis/matrix_flutter.hpp"
 
 namespace squeal::analysis {
@@ -28,25 +29,13 @@ void printList(MPI_Comm comm, const char* head, const std::vector<std::string>& 
   printLine(comm, formatted("%-12s %s", head, items.empty() ? "none" : joined(items).c_str()));
 }
 
-void printMesh(const mesh::Mesh& mesh, const elasticity::Settings& settings,
-               std::vector<std::string> held) {
-  std::vector<std::string> bodies, sections, nodes, loads;
+void printMesh(const mesh::Mesh& mesh, const ModelSettings& settings) {
+  std::vector<std::string> bodies, sections;
   for (int b = 0; b < std::ssize(mesh.bodies); ++b) {
     double cells = 0;
     for (const auto& block : mesh.cells)
       cells += std::count(block.body.begin(), block.body.end(), b);
     bodies.push_back(counted(mesh.bodies[b], mpi::sum(mesh.comm, cells), "cells"));
-  }
-  for (const auto& [group, ground] : settings.ground) held.push_back(group);
-  for (const auto& [name, members] : mesh.nodeGroups)
-    if (std::ranges::find(held, name) != held.end())
-      nodes.push_back(counted(name, mpi::sum(mesh.comm, members.size()), "nodes"));
-  for (int i = 0; i < std::ssize(mesh.surfaces); ++i) {
-    if (!settings.pressure.contains(mesh.surfaces[i])) continue;
-    double faces = 0;
-    for (const auto& block : mesh.faces)
-      faces += std::count(block.surface.begin(), block.surface.end(), i);
-    loads.push_back(counted(mesh.surfaces[i], mpi::sum(mesh.comm, faces), "faces"));
   }
   for (int m = 0; m < std::ssize(mesh.materialGroups); ++m) {
     if (!mesh.materialGroups[m].isSection) continue;
@@ -57,8 +46,15 @@ void printMesh(const mesh::Mesh& mesh, const elasticity::Settings& settings,
   }
   printList(mesh.comm, "bodies", bodies);
   if (!sections.empty()) printList(mesh.comm, "sections", sections);
-  printList(mesh.comm, "held", nodes);
-  printList(mesh.comm, "loads", loads);
+  const auto lists = inventory(mesh, settings);
+  for (const char* kind : {"supports", "loads"})
+    if (std::ranges::find(lists, kind, &ItemList::kind) == lists.end())
+      printList(mesh.comm, kind, {});
+  for (const auto& [kind, items] : lists) {
+    std::vector<std::string> lines;
+    for (const auto& item : items) lines.push_back(text(item));
+    printList(mesh.comm, kind.c_str(), lines);
+  }
 }
 
 void printContact(const contact::Contact& contact, MPI_Comm comm) {
@@ -142,17 +138,25 @@ void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& 
 
 void dryRun(MPI_Comm comm, const Settings& settings) {
   const sweep::Sweep sweep = sweep::grid(settings.sweep);
-  const Model model = checkedModel(comm, settings, sweep);
-  if (!model.mesh) {
+  if (!settings.mesh) {
     checkMatrices(comm, settings, sweep);
   } else {
-    printMesh(*model.mesh, model.bodies.settings, model.contact.interfaces.constraints.groups);
+    const Model model = buildModel(comm, settings.mesh->model);
+    std::string audit;
+    if (settings.mesh->audit)
+      audit = "\n" + audit::markdown(auditModel(model, settings.mesh->model, ""));
+    try {
+      checkModel(model, settings, sweep);
+    } catch (const Error&) {
+      printLine(comm, audit);
+      throw;
+    }
+    printMesh(*model.mesh, settings.mesh->model);
     printContact(model.contact, comm);
     printSweep(comm, sweep, true);
     const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
     printMemory(comm, settings, system.k0());
-    if (settings.mesh->audit)
-      printLine(comm, "\n" + audit::markdown(auditModel(model, settings.mesh->model, "")));
+    if (settings.mesh->audit) printLine(comm, audit);
   }
   printLine(comm,
             "dry run: no fault found in options and files; nothing was solved or written, so "

@@ -7,7 +7,7 @@
 #include "model/elasticity/element.hpp"
 #include "model/mesh/read.hpp"
 #include "model/ties/ties.hpp"
-#include "run/analysis/tightening.hpp"
+#include "run/analysis/idle_options.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -57,7 +57,7 @@ interfaces::Interfaces findTies(mesh::Mesh& mesh, const ModelSettings& settings)
 contact::Contact buildContact(const mesh::Mesh& mesh, elasticity::Bodies& bodies,
                               interfaces::Interfaces ties, const contact::Settings& settings) {
   Stage stage(mesh.comm, "contact");
-  contact::Contact contact = contact::build(mesh, bodies, std::move(ties), settings);
+  contact::Contact contact = contact::assemble(mesh, bodies, std::move(ties), settings);
   stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces",
                          contact.interfaces.totalNodes, contact.interfaces.names.size()));
   for (int i = 0; i < std::ssize(contact.interfaces.names); ++i)
@@ -70,15 +70,22 @@ contact::Contact buildContact(const mesh::Mesh& mesh, elasticity::Bodies& bodies
 
 Model buildModel(MPI_Comm comm, const ModelSettings& settings) {
   Model model;
-  for (const auto& name : settings.idleFrames)
-    printWarning(comm, "warning: frame '" + name + "' is not used: no option …_frame names it");
   model.mesh = std::make_unique<mesh::Mesh>(readMesh(comm, settings));
+  warnOfIdleOptions(*model.mesh, settings);
   auto ties = findTies(*model.mesh, settings);  // may move nodes, so before elements
   model.bodies = assembleBodies(*model.mesh, settings);
   model.contact = buildContact(*model.mesh, model.bodies, std::move(ties), settings.contact);
-  contact::requireMotion(model.contact);
-  tightenBolts(model, settings.constraints.bolts);
   return model;
+}
+
+void requireSupports(const Model& model) {
+  try {
+    contact::requireSupports(*model.mesh, model.bodies, model.contact);
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) +
+                "; the audit, which -dry_run prints, lists the supports of each part");
+  }
+  contact::requireMotion(model.contact);
 }
 
 audit::Audit auditModel(const Model& model, const ModelSettings& settings,

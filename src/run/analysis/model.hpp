@@ -28,8 +28,13 @@ struct Model {
 };
 
 /// Collective. Reads the mesh, moves the nodes of ties that ask for it, and assembles the bodies
-/// and their contact. Throws Error as the stages document it, and if nothing slides or sticks.
+/// and their contact, with bolts that are not tightened yet. Throws Error as the stages document
+/// it.
 Model buildModel(MPI_Comm comm, const ModelSettings& settings);
+
+/// Collective. Throws Error if a body is loose, pointing to the audit, and if nothing slides or
+/// sticks.
+void requireSupports(const Model& model);
 
 /// Collective. Audits a model of a mesh and prints a line with the number of findings. `place` says
 /// in the log where the findings are.

@@ -9,6 +9,7 @@
 #include "base/system/text.hpp"
 #include "model/contact/build.hpp"
 #include "model/contact/coupled.hpp"
+#include "steady/condensed/condensed_problem.hpp"
 #include "steady/steady/nodal_forces.hpp"
 
 namespace squeal::analysis {
@@ -43,9 +44,21 @@ std::vector<double> openingsOf(const mesh::Mesh& mesh, Vec displacement) {
   return openings;
 }
 
+/// Collective. Returns the state in which the bolts have their tensions, which are loads of the
+/// model, without swept friction. A small speed gives interfaces with their own coefficient of
+/// friction a direction to slide.
+steady::Solution tightened(const Model& model, bool withPressure) {
+  const steady::Problem problem(*model.mesh, model.bodies, model.contact);
+  const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
+  const sweep::Parameters at{.friction = 0, .speed = 1e-6, .pressure = withPressure ? 1.0 : 0.0};
+  if (!withPressure) return problem.solve(at, system);
+  return condensed::CondensedProblem(problem, system).solveWithPivots(at);
+}
+
 }  // namespace
 
-void tightenBolts(Model& model, const std::vector<constraints::BoltSettings>& bolts) {
+void tightenBolts(Model& model, const constraints::Settings& settings) {
+  const auto& bolts = settings.bolts;
   if (std::ranges::none_of(bolts, [](const auto& bolt) { return bolt.force.has_value(); })) return;
   const mesh::Mesh& mesh = *model.mesh;
   Stage stage(mesh.comm, "bolts");
@@ -55,17 +68,14 @@ void tightenBolts(Model& model, const std::vector<constraints::BoltSettings>& bo
   if (constant) check(VecCopy(constant, model.bodies.constantLoad));
   check(VecAXPY(model.bodies.constantLoad, 1, load));
   check(VecAXPY(model.bodies.load, 1, load));
-  std::vector<double> openings;
-  {
-    const steady::Problem problem(mesh, model.bodies, model.contact);
-    const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
-    // A small speed gives interfaces with their own coefficient of friction a direction to slide.
-    const steady::Solution solution =
-        problem.solve({.friction = 0, .speed = 1e-6, .pressure = 0}, system);
-    if (!solution.converged)
-      throw Error("the step that tightens the bolts has no solution: " + solution.reason);
-    openings = openingsOf(mesh, solution.displacement);
-  }
+  const steady::Solution solution = tightened(model, settings.boltsUnderPressure);
+  if (!solution.converged)
+    throw Error("the step that tightens the bolts has no solution: " + solution.reason +
+                (settings.boltsUnderPressure ? ""
+                                             : "; if only the pressures press some parts on "
+                                               "others, give " +
+                                                   constraints::boltsUnderPressureName() + " on"));
+  const auto openings = openingsOf(mesh, solution.displacement);
   check(VecAXPY(model.bodies.load, -1, load));
   model.bodies.constantLoad = std::move(constant);
   contact::lockBolts(model.contact, model.bodies, openings);

@@ -111,20 +111,62 @@ std::map<Key, std::set<int>> interfacesOfFaces(const Subject& model) {
   return found;
 }
 
+/// The groups of the faces of this rank.
+class Groups {
+ public:
+  /// Collective.
+  explicit Groups(const mesh::Mesh& mesh) : names_(mesh.surfaces) {
+    for (const auto& block : mesh.faces)
+      for (std::size_t f = 0; f < block.surface.size(); ++f)
+        surfaces_[keyOf(block.nodesOf(f), block.type)].insert(block.surface[f]);
+    for (const auto& [name, nodes] : mesh.nodeGroups) {
+      if (mesh.reference(name) || std::ranges::find(mesh.surfaces, name) != mesh.surfaces.end())
+        continue;
+      std::vector<PetscInt> global;
+      for (const PetscInt node : nodes) global.push_back(mesh.firstNode + node);
+      names_.push_back(name);
+      marks_.push_back(marked(mesh, global));
+    }
+  }
+  std::vector<int> of(const elasticity::BoundaryFace& face) const {
+    std::vector<int> found;
+    if (const auto named = surfaces_.find(keyOf(face.nodes, face.type)); named != surfaces_.end())
+      found.assign(named->second.begin(), named->second.end());
+    const int surfaces = int(names_.size() - marks_.size());
+    for (int i = 0; i < std::ssize(marks_); ++i)
+      if (std::ranges::all_of(face.nodes, [&](PetscInt node) { return marks_[i][node]; }))
+        found.push_back(surfaces + i);
+    return found;
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
+  std::map<Key, std::set<int>> surfaces_;
+  std::vector<Marks> marks_;  // [group of nodes]
+};
+
 /// Collective. Returns the labels of all ranks, ascending.
 std::vector<FaceLabel> gathered(MPI_Comm comm, const std::set<FaceLabel>& own) {
-  std::vector<int> numbers;  // of each label the body, the number of interfaces, and these
+  std::vector<int> numbers;  // of each label the body, and both lists behind their lengths
   for (const auto& label : own) {
     numbers.push_back(label.body);
-    numbers.push_back(int(label.interfaces.size()));
-    numbers.insert(numbers.end(), label.interfaces.begin(), label.interfaces.end());
+    for (const auto* list : {&label.interfaces, &label.groups}) {
+      numbers.push_back(int(list->size()));
+      numbers.insert(numbers.end(), list->begin(), list->end());
+    }
   }
   const auto all = concatenated(comm, numbers);
   std::set<FaceLabel> labels;
   for (auto at = all.begin(); at != all.end();) {
-    const int body = *at++, count = *at++;
-    labels.insert({body, {at, at + count}});
-    at += count;
+    FaceLabel label;
+    label.body = *at++;
+    for (auto* list : {&label.interfaces, &label.groups}) {
+      const int count = *at++;
+      list->assign(at, at + count);
+      at += count;
+    }
+    labels.insert(std::move(label));
   }
   return {labels.begin(), labels.end()};
 }
@@ -144,6 +186,7 @@ LabelledFaces labelledFaces(const Subject& model) {
   for (int c = 0; c < std::ssize(all.couplings); ++c)
     touching.push_back(marked(mesh, coupledNodesOf(model, c)));
   const auto named = interfacesOfFaces(model);
+  const Groups groups(mesh);
   std::vector<FaceLabel> own;
   for (const auto& face : boundary) {
     const Key key = keyOf(face.nodes, face.type);
@@ -152,10 +195,11 @@ LabelledFaces labelledFaces(const Subject& model) {
     for (int i = 0; i < std::ssize(touching); ++i)
       if (std::ranges::all_of(face.nodes, [&](PetscInt node) { return touching[i][node]; }))
         interfaces.insert(i);
-    own.push_back({face.body, {interfaces.begin(), interfaces.end()}});
+    own.push_back({face.body, {interfaces.begin(), interfaces.end()}, groups.of(face)});
   }
   LabelledFaces result;
   result.labels = gathered(mesh.comm, {own.begin(), own.end()});
+  result.groups = groups.names();
   for (std::size_t f = 0; f < boundary.size(); ++f) {
     const auto& given = boundary[f];
     auto& face = result.faces.emplace_back();

@@ -2,6 +2,7 @@
 #include "run/audit/near_faces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -101,6 +102,7 @@ using Pair = std::pair<int, int>;
 struct Found {
   std::map<Pair, Facing> facing;
   std::map<Pair, std::set<PetscInt>> nodes;  // global nodes of the first body
+  std::map<Pair, std::set<int>> groups;      // of the facing faces of the first body
 };
 
 /// Returns true if two sorted lists have a common entry.
@@ -125,8 +127,9 @@ class Comparison {
   void compare(std::size_t f) {
     const auto& face = all_.faces[f];
     const auto& label = all_.labels[face.body];
-    std::map<int, double> gaps;  // [body] the smallest one
-    std::set<int> joined;        // bodies that an interface joins here
+    std::map<int, double> gaps;           // [body] the smallest one
+    std::map<int, std::set<int>> groups;  // [body] of the faces there
+    std::set<int> joined;                 // bodies that an interface joins here
     for (const std::size_t m : near_.ofSlave[f]) {
       const auto& other = all_.labels[near_.masters[m].body];
       compareNodes(f, near_.masters[m], other.body);
@@ -137,9 +140,14 @@ class Comparison {
       if (intersect(label.interfaces, other.interfaces)) joined.insert(other.body);
       const auto [at, isNew] = gaps.try_emplace(other.body, *gap);
       if (std::abs(*gap) < std::abs(at->second)) at->second = *gap;
+      groups[other.body].insert(other.groups.begin(), other.groups.end());
     }
     for (const auto& [body, gap] : gaps)
-      if (!joined.contains(body)) add(found_.facing[{label.body, body}], flat_[f], gap);
+      if (!joined.contains(body)) {
+        add(found_.facing[{label.body, body}], flat_[f], gap);
+        found_.groups[{label.body, body}].insert(label.groups.begin(), label.groups.end());
+        found_.groups[{body, label.body}].insert(groups[body].begin(), groups[body].end());
+      }
   }
   static void add(Facing& facing, const Flat& face, double gap) {
     ++facing.faces, facing.area += face.area;
@@ -186,6 +194,18 @@ std::map<Pair, Facing> summed(MPI_Comm comm, const std::map<Pair, Facing>& own) 
   return all;
 }
 
+/// Collective. Returns the groups of all ranks.
+std::map<Pair, std::set<int>> unitedGroups(MPI_Comm comm,
+                                           const std::map<Pair, std::set<int>>& own) {
+  std::vector<std::array<int, 3>> entries;
+  for (const auto& [pair, groups] : own)
+    for (const int group : groups) entries.push_back({pair.first, pair.second, group});
+  std::map<Pair, std::set<int>> all;
+  for (const auto& [body, other, group] : concatenated(comm, entries))
+    all[{body, other}].insert(group);
+  return all;
+}
+
 /// The nodes of one body that coincide with others, of all ranks.
 struct Coincident {
   PetscInt nodes = 0;
@@ -225,9 +245,32 @@ std::map<Pair, Coincident> coincidentNodes(const mesh::Mesh& mesh,
   return all;
 }
 
+/// The names of the groups to which facing faces belong.
+class GroupNames {
+ public:
+  /// Collective.
+  GroupNames(const mesh::Mesh& mesh, const LabelledFaces& all, const Found& found)
+      : mesh_(mesh), names_(all.groups), groups_(unitedGroups(mesh.comm, found.groups)) {}
+  /// Returns the groups of the faces of the first body.
+  std::string text(const Pair& pair) const {
+    std::vector<std::string> list;
+    if (const auto found = groups_.find(pair); found != groups_.end())
+      for (const int group : found->second) list.push_back("'" + names_[group] + "'");
+    const std::string body = "those of '" + mesh_.bodies[pair.first] + "' ";
+    if (list.empty()) return body + "are in no group that an option names";
+    return body + "are in " + joined(list, " and ");
+  }
+
+ private:
+  const mesh::Mesh& mesh_;
+  const std::vector<std::string>& names_;
+  std::map<Pair, std::set<int>> groups_;
+};
+
 /// Returns a finding on one pair of bodies, from the side with more area, or on two parts of a
 /// body.
-Finding facingFinding(const mesh::Mesh& mesh, const Pair& pair, const Facing& facing) {
+Finding facingFinding(const mesh::Mesh& mesh, const Pair& pair, const Facing& facing,
+                      const GroupNames& groups) {
   const bool touches = facing.relative <= touching;
   const std::string one = "'" + mesh.bodies[pair.first] + "'",
                     other = "'" + mesh.bodies[pair.second] + "'";
@@ -241,7 +284,9 @@ Finding facingFinding(const mesh::Mesh& mesh, const Pair& pair, const Facing& fa
       (pair.first == pair.second ? "a part of body " : "body ") + one + " " + what +
           " without an interface: " + counted(facing.faces, "face") + " of " + one +
           formatted(", %.4g %s%s, the first at %s", facing.area, mesh.dimension == 2 ? "m" : "m2",
-                    distance.c_str(), interfaces::text(facing.first).c_str()),
+                    distance.c_str(), interfaces::text(facing.first).c_str()) +
+          "; " + groups.text(pair) +
+          (pair.first == pair.second ? "" : "; " + groups.text({pair.second, pair.first})),
       "if the parts touch there, name these faces in a contact, -contact_<interface>_pad and "
       "_disc, or in a tie, -tie_<name>_slave and _master"};
 }
@@ -274,6 +319,7 @@ Findings nearFindings(const Subject& model) {
   const Found found = Comparison(all, flat, near).run();
   const auto facing = summed(mesh.comm, found.facing);
   const auto nodes = coincidentNodes(mesh, found.nodes);
+  const GroupNames groups(mesh, all, found);
   Findings findings;
   for (const auto& [pair, here] : facing) {
     if (pair.first == pair.second && nodes.contains(pair)) continue;  // the nodes show it better
@@ -284,7 +330,7 @@ Findings nearFindings(const Subject& model) {
     const bool isSmaller = std::abs(here.area - opposite) > 1e-6 * here.area
                                ? here.area < opposite
                                : opposite > 0 && pair.first > pair.second;
-    if (!isSmaller) findings.push_back(facingFinding(mesh, pair, here));
+    if (!isSmaller) findings.push_back(facingFinding(mesh, pair, here, groups));
   }
   for (const auto& [pair, here] : nodes) {
     const Pair reversed{pair.second, pair.first};

@@ -12,6 +12,7 @@
 #include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
+#include "run/analysis/inventory.hpp"
 #include "run/report/report.hpp"
 #include "run/report/table_shapes.hpp"
 #include "run/report/verdict.hpp"
@@ -281,6 +282,17 @@ Json verdictEntry(const RunVerdict& verdict) {
       {"critical_friction", verdict.criticalFriction ? Json(*verdict.criticalFriction) : Json()}};
 }
 
+/// Adds the supports, loads and joints.
+void addInventory(const analysis::Analysis& analysis, Json& entry) {
+  for (const auto& [kind, items] :
+       analysis::inventory(*analysis.model.mesh, analysis.settings.mesh->model))
+    for (const auto& item : items) {
+      Json& found = entry[kind][item.name] = Json::object();
+      for (const auto& [name, fact] : item.facts)
+        found[name] = std::visit([](const auto& value) { return Json(value); }, fact);
+    }
+}
+
 /// Returns the beginning of the summary: the run and its problem.
 Json runEntry(const analysis::Analysis& analysis) {
   const auto& options = resolvedOptions();
@@ -293,7 +305,10 @@ Json runEntry(const analysis::Analysis& analysis) {
   entry["complete"] = !analysis.interrupted();
   entry["resumed"] = analysis.checkpoint.resumed();
   entry["verdict"] = verdictEntry(runVerdict(analysis));
-  if (analysis.model.mesh) entry.update(meshEntry(*analysis.model.mesh, analysis.model.contact));
+  if (analysis.model.mesh) {
+    entry.update(meshEntry(*analysis.model.mesh, analysis.model.contact));
+    addInventory(analysis, entry);
+  }
   entry["method"] =
       analysis.settings.pencil.method == pencil::Method::direct ? "direct" : "reduced";
   entry["dofs"] =

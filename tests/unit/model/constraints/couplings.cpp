@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/system/text.hpp"
 #include "eigen/modes/modes.hpp"
 #include "model/contact/coupled.hpp"
 #include "support/harness/messages.hpp"
@@ -212,6 +213,22 @@ TEST(Couplings, FaultsAreNamed) {
   for (const auto& [options, message] : faults)
     EXPECT_NE(messageOf(options).find(message), std::string::npos)
         << options << "\n  " << messageOf(options);
+}
+
+TEST(Couplings, NothingToSolveForIsNamed) {
+  for (const auto& [options, holding] : std::vector<std::pair<std::string, std::string>>{
+           {"-reference_r_position 0,0,0 -coupling_c_reference r -coupling_c_nodes beam "
+            "-constraint_r_clamped xyz -constraint_r_clamped_rotation xyz ",
+            "constraint 'r', coupling 'c'"},
+           {"-constraint_beam_clamped xyz ", "constraint 'beam'"}}) {
+    test::setOptions(box + options);
+    const auto model = test::buildModel();
+    EXPECT_EQ(test::errorOf([&] { contact::CoupledSystem(model.bodies, model.contact, {}); }),
+              formatted("no displacement is unknown: all %" PetscInt_FMT
+                        " nodes are held, or follow nodes that are (",
+                        model.mesh->totalNodes) +
+                  holding + "); free some of them");
+  }
 }
 
 TEST(Couplings, NodesWithPeriodicImagesAreRefused) {

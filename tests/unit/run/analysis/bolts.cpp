@@ -19,7 +19,7 @@ namespace {
 /// Bars of length 1 along z with Poisson's ratio 0, so that they are springs: the bolt with the
 /// area 1, cut by `section` at its middle, and the sleeve with the area 2, of two halves that touch
 /// there.
-const char* const geometry = R"(
+const char* const column = R"(
 Geometry.AutoCoherence = 0;  // the halves of the sleeve touch, they are not joined
 Macro Column  // x0, w, z0, h -> s (bottom), top, volume
   p = newp;
@@ -33,40 +33,81 @@ Macro Column  // x0, w, z0, h -> s (bottom), top, volume
   e[] = Extrude{0, 0, h}{ Surface{s}; Layers{2}; Recombine; };
   top = e[0]; volume = e[1];
 Return
-x0 = 0; w = 1; z0 = 0; h = 0.5; Call Column;
+)";
+
+/// @ begins the names of the assembly.
+const char* const columns = R"(
+x0 = X; w = 1; z0 = 0; h = 0.5; Call Column;
 bottom = s; middle = top; lower = volume;
 e[] = Extrude{0, 0, 0.5}{ Surface{middle}; Layers{2}; Recombine; };
-Physical Surface("bolt_low") = {bottom};
-Physical Surface("bolt_high") = {e[0]};
-Physical Surface("section") = {middle};
-Physical Volume("bolt") = {lower, e[1]};
-x0 = 3; w = 2; z0 = 0; h = 0.5; Call Column;
-Physical Surface("sleeve_low") = {s};
-Physical Surface("joint_low") = {top};
-Physical Volume("sleeve_a") = {volume};
+Physical Surface("@bolt_low") = {bottom};
+Physical Surface("@bolt_high") = {e[0]};
+Physical Surface("@section") = {middle};
+Physical Volume("@bolt") = {lower, e[1]};
+x0 = X + 3; w = 2; z0 = 0; h = 0.5; Call Column;
+Physical Surface("@sleeve_low") = {s};
+Physical Surface("@joint_low") = {top};
+Physical Volume("@sleeve_a") = {volume};
 z0 = 0.5; Call Column;
-Physical Surface("joint_high") = {s};
-Physical Surface("sleeve_high") = {top};
-Physical Volume("sleeve_b") = {volume};
+Physical Surface("@joint_high") = {s};
+Physical Surface("@sleeve_high") = {top};
+Physical Volume("@sleeve_b") = {volume};
 )";
 
 constexpr double boltStiffness = 2e9, sleeveStiffness = 4e9, force = 3e4;
 
-/// Collective. Returns the options of the assembly. The plates are reference nodes: `low` is held,
-/// `high` moves along z.
-std::string assembly() {
-  std::string options = "-mesh_file " + test::writeFile("bolt.geo", geometry);
+/// Returns the text with a beginning of all names in place of @.
+std::string named(std::string text, const std::string& beginning) {
+  for (std::size_t at = 0; (at = text.find('@', at)) != std::string::npos; at += beginning.size())
+    text.replace(at, 1, beginning);
+  return text;
+}
+
+/// Returns the geometry of an assembly at X, with this beginning of names.
+std::string geometryAt(int x, const std::string& beginning) {
+  return formatted("X = %d;", x) + named(columns, beginning);
+}
+
+const std::string geometry = column + geometryAt(0, "");
+
+/// Returns the options of an assembly. The plates are reference nodes: `low` is held, `high` moves
+/// along z.
+std::string optionsOf(const std::string& beginning) {
+  std::string options;
   for (const std::string body : {"bolt", "sleeve_a", "sleeve_b"})
-    options += test::material(body, "2e9", "0", "1000");
-  return options +
-         "-reference_low_position 1,0.5,0 -coupling_low_reference low "
-         "-coupling_low_nodes bolt_low,sleeve_low -constraint_low_clamped xyz "
-         "-constraint_low_clamped_rotation xyz "
-         "-reference_high_position 1,0.5,1 -coupling_high_reference high "
-         "-coupling_high_nodes bolt_high,sleeve_high -constraint_high_clamped xy "
-         "-constraint_high_clamped_rotation xyz "
-         "-contact_joint_pad joint_high -contact_joint_disc joint_low "
-         "-contact_joint_role frictionless -bolt_b_section section ";
+    options += test::material(beginning + body, "2e9", "0", "1000");
+  return options + named(
+                       "-reference_@low_position 1,0.5,0 -coupling_@low_reference @low "
+                       "-coupling_@low_nodes @bolt_low,@sleeve_low -constraint_@low_clamped xyz "
+                       "-constraint_@low_clamped_rotation xyz "
+                       "-reference_@high_position 1,0.5,1 -coupling_@high_reference @high "
+                       "-coupling_@high_nodes @bolt_high,@sleeve_high "
+                       "-constraint_@high_clamped xy -constraint_@high_clamped_rotation xyz "
+                       "-contact_@joint_pad @joint_high -contact_@joint_disc @joint_low "
+                       "-contact_@joint_role frictionless -bolt_@b_section @section ",
+                       beginning);
+}
+
+/// Collective. Returns the options of one assembly with its mesh.
+std::string assembly() {
+  return "-mesh_file " + test::writeFile("bolt.geo", geometry) + optionsOf("");
+}
+
+/// A column on the sleeve that only its contact holds along z.
+const char* const rider = R"(
+x0 = 3; w = 2; z0 = 1; h = 0.5; Call Column;
+Physical Surface("rider_low") = {s};
+Physical Surface("rider_high") = {top};
+Physical Volume("rider") = {volume};
+)";
+
+/// Collective. Returns the model of the options in force with tightened bolts.
+analysis::Model tightenedModel() {
+  const auto settings = analysis::ModelSettings::given();
+  auto model = analysis::buildModel(PETSC_COMM_WORLD, settings);
+  analysis::requireSupports(model);
+  analysis::tightenBolts(model, settings.constraints);
+  return model;
 }
 
 /// The state of the assembly under an external force that draws the plates apart.
@@ -79,7 +120,7 @@ struct State {
 /// Collective. Returns the state with these options.
 State stateWith(const std::string& options) {
   test::setOptions(assembly() + options);
-  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const auto model = tightenedModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
   const auto solution = problem.solve({.friction = 0}, system);
@@ -116,7 +157,7 @@ TEST(Bolts, ForceAndThenSeparation) {
 // The row of the bolt is its tension, and the section adds nothing to the sum of all forces.
 TEST(Bolts, ForcesBalance) {
   test::setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(1e4));
-  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const auto model = tightenedModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
   const auto solution = problem.solve({.friction = 0}, system);
@@ -146,6 +187,30 @@ TEST(Bolts, ForcesBalance) {
   EXPECT_EQ(found, 2);
 }
 
+// The rider presses the plates together, and the bolt gives way to the sleeve, unless the pressure
+// acts while the bolt is tightened. Without pressure the rider is loose.
+TEST(Bolts, PartsThatOnlyPressureHolds) {
+  const std::string file = test::writeFile("rider.geo", geometry + rider);
+  const double pressure = 5e3, area = 2, pressed = pressure * area,
+               share = boltStiffness / (boltStiffness + sleeveStiffness);
+  const std::string options = formatted("-load_rider_high_pressure %.17g ", pressure) +
+                              "-mesh_file " + file + test::material("rider", "2e9", "0", "1000") +
+                              "-constraint_rider_high_clamped xy -contact_rider_pad rider_low "
+                              "-contact_rider_disc sleeve_high -contact_rider_role frictionless ";
+  const std::string tightened = formatted("-bolt_b_force %.17g ", force);
+  const double shortening = force * (1 / boltStiffness + 1 / sleeveStiffness);
+  const auto before = stateWith(options + formatted("-bolt_b_shortening %.17g ", shortening));
+  EXPECT_NEAR(before.bolt / (force - pressed * share), 1, exact);
+  EXPECT_NEAR(before.joint / (force + pressed * (1 - share)), 1, exact);
+  const auto under = stateWith(options + tightened + "-bolt_under_pressure on ");
+  EXPECT_NEAR(under.bolt / force, 1, exact);
+  EXPECT_NEAR(under.joint / (force + pressed), 1, exact);
+  const std::string failure = test::errorOf([&] { stateWith(options + tightened); });
+  EXPECT_TRUE(test::contains(failure, "the step that tightens the bolts has no solution"))
+      << failure;
+  EXPECT_TRUE(test::contains(failure, "give -bolt_under_pressure on")) << failure;
+}
+
 TEST(Bolts, ShorteningIsTheOtherWayToSayIt) {
   // In series: the force shortens both springs.
   const double shortening = force * (1 / boltStiffness + 1 / sleeveStiffness);
@@ -159,7 +224,7 @@ TEST(Bolts, ShorteningIsTheOtherWayToSayIt) {
 
 TEST(Bolts, PressureOfTheSweepDoesNotScaleThem) {
   test::setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(3000));
-  const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+  const auto model = tightenedModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
   for (const double pressure : {0.0, 2.0}) {
@@ -171,7 +236,7 @@ TEST(Bolts, PressureOfTheSweepDoesNotScaleThem) {
 TEST(Bolts, FrequenciesAreThoseOfTheUncutBody) {
   const auto lambda = [](const std::string& options) {
     test::setOptions(options + "-modes_count 4");
-    const auto model = analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+    const auto model = tightenedModel();
     const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
     return modes::compute(system, modes::Settings::given()).lambda;
   };
@@ -180,6 +245,52 @@ TEST(Bolts, FrequenciesAreThoseOfTheUncutBody) {
   whole.resize(whole.find("-bolt_b_section"));
   const auto uncut = lambda(whole);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(cut[i] / uncut[i], 1, 1e-9) << i;
+}
+
+/// The tensions of two bolts and the eigenvalues of the modes.
+struct Pair {
+  std::vector<double> tensions;
+  std::vector<double> lambda;
+};
+
+/// Collective. Returns the state of two assemblies apart from each other, with the bolts `b` and
+/// `a_b`.
+Pair pairWith(const std::string& options) {
+  test::setOptions("-mesh_file " + test::writeFile("bolts.geo", geometry + geometryAt(9, "a_")) +
+                   optionsOf("") + optionsOf("a_") + options + "-modes_count 8");
+  const auto model = tightenedModel();
+  const steady::Problem problem(*model.mesh, model.bodies, model.contact);
+  const contact::CoupledSystem bonded(model.bodies, model.contact, model.bonded());
+  const auto solution = problem.solve({.friction = 0}, bonded);
+  const contact::CoupledSystem system(model.bodies, model.contact, steady::activeSet(solution));
+  return {analysis::boltForces(model, solution),
+          modes::compute(system, modes::Settings::given()).lambda};
+}
+
+// A bolt whose length is given is tightened before the others. In a second state a load of the
+// sweep pulls one assembly apart, so that the frequencies depend on the contact.
+TEST(Bolts, OrderOfTwoIndependentOnes) {
+  const double shortening = force * (1 / boltStiffness + 1 / sleeveStiffness);
+  const auto force1 = formatted("-bolt_b_force %.17g ", force),
+             force2 = formatted("-bolt_a_b_force %.17g ", force),
+             length1 = formatted("-bolt_b_shortening %.17g ", shortening),
+             length2 = formatted("-bolt_a_b_shortening %.17g ", shortening);
+  const std::string apart = formatted("-load_a_high_force 0,0,%.17g ", 10 * force);
+  const auto together = pairWith(force1 + force2);
+  for (const double tension : together.tensions) EXPECT_NEAR(tension / force, 1, exact);
+  const auto whole = pairWith(length1 + length2);
+  const auto opened = pairWith(length1 + length2 + apart);
+  EXPECT_NEAR(opened.tensions[0] / (10 * force), 1, exact);  // a_b, by name
+  EXPECT_LT(opened.lambda[0], 0.99 * whole.lambda[0]);
+  for (const auto& order : {force1 + force2, length1 + force2, force1 + length2}) {
+    const auto found = pairWith(order), pulled = pairWith(order + apart);
+    for (int i = 0; i < 8; ++i) {
+      EXPECT_NEAR(found.lambda[i] / whole.lambda[i], 1, 1e-9) << order << i;
+      EXPECT_NEAR(pulled.lambda[i] / opened.lambda[i], 1, 1e-9) << order << i;
+    }
+    EXPECT_NEAR(found.tensions[0] / force, 1, exact);
+    EXPECT_NEAR(found.tensions[1] / force, 1, exact);
+  }
 }
 
 TEST(Bolts, SectionMustCutThroughItsBody) {
@@ -200,8 +311,7 @@ Physical Surface("section") = {c[0], d[0]};
   const auto message = [&](const std::string& section) {
     test::setOptions("-mesh_file " + file + test::material("bolt", "1e9", "0.3", "1000") +
                      "-constraint_low_clamped xyz -bolt_b_force 1 -bolt_b_section " + section);
-    return test::errorOf(
-        [] { analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given()); });
+    return test::errorOf([] { tightenedModel(); });
   };
   EXPECT_NE(message("notch").find("option -bolt_b_section notch: the section does not cut through "
                                   "its body: cells on both sides of it share the node at"),
@@ -213,6 +323,8 @@ Physical Surface("section") = {c[0], d[0]};
 
 TEST(Bolts, FaultsAreNamed) {
   const std::vector<std::pair<std::string, std::string>> faults{
+      {"-bolt_b_shortening 1 -bolt_under_pressure on",
+       "option -bolt_under_pressure needs -bolt_<name>_force"},
       {"", "option -bolt_b_section: give either -bolt_b_force or -bolt_b_shortening"},
       {"-bolt_b_force 1 -bolt_b_shortening 1",
        "option -bolt_b_section: give either -bolt_b_force or -bolt_b_shortening"},
@@ -229,7 +341,7 @@ TEST(Bolts, FaultsAreNamed) {
   for (const auto& [options, message] : faults) {
     const std::string found = test::errorOf([&, &text = options] {
       test::setOptions(assembly() + text);
-      analysis::buildModel(PETSC_COMM_WORLD, analysis::ModelSettings::given());
+      tightenedModel();
     });
     EXPECT_NE(found.find(message), std::string::npos) << options << "\n  " << found;
   }

@@ -160,7 +160,8 @@ TEST(NearFaces, BodiesThatTouchWithoutAnInterface) {
     EXPECT_EQ(
         missingIn(test::audited(options), 1,
                   {"faces without an interface (warning)", "touches body", "without an interface",
-                   ", 0.01 m2, the first at (0.0", ", 0.025, 0)", "-contact_<interface>_pad"}),
+                   ", 0.01 m2, the first at (0.0", ", 0.025, 0); those of '",
+                   "' are in no group that an option names", "-contact_<interface>_pad"}),
         "");
     EXPECT_EQ(missingIn(test::audited(options + contact), 0, {}), "");
     EXPECT_EQ(
@@ -182,7 +183,15 @@ TEST(NearFaces, CoupledBodies) {
   const auto options = blocks("audit_coupled.msh", 0) + "-reference_r_position 0.05,0.05,0 ";
   const std::string one = "-coupling_c_reference r -coupling_c_nodes ";
   EXPECT_EQ(missingIn(test::audited(options + one + "disc_high,pad_low"), 0, {}), "");
-  EXPECT_EQ(missingIn(test::audited(options + one + "disc_high"), 1, {"touches body 'pad'"}), "");
+  EXPECT_EQ(missingIn(test::audited(options + one + "disc_high"), 1,
+                      {"touches body 'pad'",
+                       "; those of 'disc' are in 'disc_high'; those of 'pad' are in no group that "
+                       "an option names"}),
+            "");
+  // A pressure names a surface group.
+  EXPECT_EQ(missingIn(test::audited(options + one + "disc_high -load_pad_low_pressure 1e-6"), 1,
+                      {"those of 'disc' are in 'disc_high'; those of 'pad' are in 'pad_low'"}),
+            "");
 }
 
 // Two solids of one group whose meshes do not match.
