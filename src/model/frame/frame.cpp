@@ -36,15 +36,6 @@ Matrix3 turnOf(const FrameSettings& settings, int dimension) {
   return turn;
 }
 
-/// Returns the product of matrices.
-Matrix3 product(const Matrix3& a, const Matrix3& b) {
-  Matrix3 c{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t k = 0; k < 3; ++k) c[i][j] += a[i][k] * b[k][j];
-  return c;
-}
-
 }  // namespace
 
 Frame::Frame(const FrameSettings& settings, int dimension)
@@ -75,7 +66,7 @@ Frame::Frame(const FrameSettings& settings, int dimension)
 }
 
 Matrix3 Frame::axesAt(const Point& x) const {
-  if (!cylindrical_) return product(turn_, axes_);
+  if (!cylindrical_) return mesh::product(turn_, axes_);
   const Point r = mesh::minus(x, origin_), radial = mesh::tangential(r, axes_[2]);
   if (length(radial) <= parallel * length(r))
     throw Error(
@@ -83,7 +74,7 @@ Matrix3 Frame::axesAt(const Point& x) const {
                   "direction is not defined",
                   name_.c_str(), x[0], x[1], x[2]));
   const Point e = unit(radial);
-  return product(turn_, {e, cross(axes_[2], e), axes_[2]});
+  return mesh::product(turn_, {e, cross(axes_[2], e), axes_[2]});
 }
 
 Frame named(const std::map<std::string, FrameSettings>& frames, const std::string& name,

@@ -76,6 +76,25 @@ Law lawOf(const BodySettings& body, const Settings& settings, int dimension) {
   return {inPlane(turned, planeStress), {}};
 }
 
+/// Returns the axes of a material; empty if it is isotropic.
+std::function<Axes(const Point&)> axesOf(const BodySettings& body, const Settings& settings,
+                                         int dimension) {
+  if (!body.anisotropy) return {};
+  const Anisotropy& given = *body.anisotropy;
+  if (const auto* name = std::get_if<FrameName>(&given.axes)) {
+    const auto frame = frame::named(settings.frames, name->name, given.axesOption, dimension);
+    if (!frame.isCylindrical()) return [axes = frame.axesAt({})](const Point&) { return axes; };
+    return [frame](const Point& x) {
+      const Axes axes = cylindricalAxes(x, frame.origin(), frame.axis());
+      return mesh::product(frame.turn(), axes);
+    };
+  }
+  if (const auto* axis = std::get_if<CylinderAxis>(&given.axes))
+    return
+        [axis = *axis](const Point& x) { return cylindricalAxes(x, axis.origin, axis.direction); };
+  return [axes = std::get<Axes>(given.axes)](const Point&) { return axes; };
+}
+
 double poissonRatio(const BodySettings& body, int dimension, bool planeStress) {
   if (dimension == 2 && planeStress) return 0;
   if (!body.anisotropy) return body.poisson;
@@ -103,7 +122,8 @@ std::vector<Material> materialsOf(const mesh::Mesh& mesh, const Settings& settin
                          .massDamping = body.massDamping,
                          .stiffnessDamping = body.stiffnessDamping,
                          .reducedIntegration = body.reducedIntegration,
-                         .poisson = poissonRatio(body, mesh.dimension, settings.planeStress)});
+                         .poisson = poissonRatio(body, mesh.dimension, settings.planeStress),
+                         .axes = axesOf(body, settings, mesh.dimension)});
   }
   return materials;
 }

@@ -19,6 +19,7 @@ struct Material {
   /// Poisson's ratio; for an anisotropic body, that of the mean bulk and shear moduli. Zero in
   /// plane stress, where the thickness is free to change.
   double poisson;
+  std::function<Axes(const Point&)> axes = {};  ///< at each point; empty if it is isotropic
 };
 
 /// Not collective. Returns the materials in the order of `mesh.materialGroups`. Throws Error for

@@ -53,6 +53,14 @@ inline Point along(const Matrix3& axes, const Point& components) {
   for (std::size_t k = 0; k < 3; ++k) sum = plus(sum, axes[k], components[k]);
   return sum;
 }
+/// Returns the product a b.
+inline Matrix3 product(const Matrix3& a, const Matrix3& b) {
+  Matrix3 c{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k) c[i][j] += a[i][k] * b[k][j];
+  return c;
+}
 inline double determinant(const Matrix3& j) {
   return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
          j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +

@@ -82,11 +82,15 @@ struct Piece {
   bool hasSections = false;                     // a body is made up of sections
   std::vector<int> material;                    // [cell], if there are sections
   std::vector<std::vector<float>> fields;       // [field][node][component]
+  std::vector<std::vector<float>> cellFields;   // [field][cell][component]
 };
 
 /// Returns the part of this rank, without reference nodes and layer nodes, which are in no cell.
-Piece ownPiece(const mesh::Mesh& mesh, const std::vector<Field>& fields, int rank) {
+Piece ownPiece(const mesh::Mesh& mesh, const std::vector<Field>& fields,
+               const std::vector<Field>& cellFields, int rank) {
   Piece piece;
+  for (const auto& field : cellFields)
+    piece.cellFields.emplace_back(field.values.begin(), field.values.end());
   piece.hasSections = mesh.hasSections();
   std::vector<PetscInt> number(mesh.localNodes(), -1);  // in the piece
   piece.fields.resize(fields.size());
@@ -151,7 +155,8 @@ void gatherOnFirst(MPI_Comm comm, Piece& piece) {
   for (auto* list : {&piece.nodeTag, &piece.nodes}) gatherOnFirst(comm, *list);
   for (auto* list : {&piece.nodePart, &piece.type, &piece.body, &piece.rank, &piece.material})
     gatherOnFirst(comm, *list);
-  for (auto& field : piece.fields) gatherOnFirst(comm, field);
+  for (auto* fields : {&piece.fields, &piece.cellFields})
+    for (auto& field : *fields) gatherOnFirst(comm, field);
 }
 
 template <class Array, class Value>
@@ -165,7 +170,8 @@ vtkNew<Array> filledArray(const std::string& name, int components,
   return array;
 }
 
-vtkNew<vtkUnstructuredGrid> gridOf(const Piece& piece, const std::vector<Field>& fields) {
+vtkNew<vtkUnstructuredGrid> gridOf(const Piece& piece, const std::vector<Field>& fields,
+                                   const std::vector<Field>& cellFields) {
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -193,6 +199,9 @@ vtkNew<vtkUnstructuredGrid> gridOf(const Piece& piece, const std::vector<Field>&
   grid->GetCellData()->AddArray(filledArray<vtkIntArray>("rank", 1, piece.rank));
   if (piece.hasSections)
     grid->GetCellData()->AddArray(filledArray<vtkIntArray>("material", 1, piece.material));
+  for (std::size_t i = 0; i < cellFields.size(); ++i)
+    grid->GetCellData()->AddArray(filledArray<vtkFloatArray>(
+        cellFields[i].name, cellFields[i].components, piece.cellFields[i]));
   return grid;
 }
 
@@ -207,8 +216,15 @@ void makeFolder(MPI_Comm comm, const fs::path& folder, const std::string& head) 
   });
 }
 
-void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
+void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields,
+                     const std::vector<Field>& cellFields) {
   std::string message;
+  std::size_t cells = 0;
+  for (const auto& block : mesh.cells) cells += block.tag.size();
+  for (const auto& field : cellFields)
+    if (field.values.size() != field.components * cells)
+      message = formatted("field %s: %zu values of %d components do not fit %zu cells",
+                          field.name.c_str(), field.values.size(), field.components, cells);
   for (const auto& block : mesh.cells)
     if (!cellsByGmshType().contains(block.type))
       message = formatted("no VTK cell for cells of gmsh type %d", block.type);
@@ -269,8 +285,8 @@ std::string arrayTag(const std::string& type, const std::string& name, int compo
 /// Returns the text of the file that lists the pieces. VTK's own writer truncates the stem at its
 /// last dot: steady_0.2 and steady_0.4 would both use, and overwrite, the pieces of steady_0.
 template <class Path>
-std::string summaryText(const std::vector<Field>& fields, bool hasSections, const fs::path& folder,
-                        const Path& path, int pieces) {
+std::string summaryText(const std::vector<Field>& fields, const std::string& cellArrays,
+                        const fs::path& folder, const Path& path, int pieces) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
       "header_type=\"UInt64\">\n"
@@ -279,7 +295,7 @@ std::string summaryText(const std::vector<Field>& fields, bool hasSections, cons
   for (const auto& field : fields) text += arrayTag("Float32", field.name, field.components);
   text += "    </PPointData>\n    <PCellData>\n" + arrayTag("Int32", "body", 1) +
           arrayTag("Int32", "rank", 1);
-  if (hasSections) text += arrayTag("Int32", "material", 1);
+  text += cellArrays;
   text +=
       "    </PCellData>\n    <PPoints>\n" + arrayTag("Float64", "Points", 3) + "    </PPoints>\n";
   for (int i = 0; i < pieces; ++i)
@@ -291,12 +307,12 @@ std::string summaryText(const std::vector<Field>& fields, bool hasSections, cons
 }  // namespace
 
 void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Field>& pointFields,
-              const std::string& option, int mostPieces) {
+              const std::string& option, int mostPieces, const std::vector<Field>& cellFields) {
   const std::string head = "option " + option + ": ";
   int rank = 0, size = 1;
   check(MPI_Comm_rank(mesh.comm, &rank));
   check(MPI_Comm_size(mesh.comm, &size));
-  requireWritable(mesh, pointFields);
+  requireWritable(mesh, pointFields, cellFields);
 
   const auto path = [&stem](int index) {
     return stem / (stem.filename().string() + "_" + std::to_string(index) + ".vtu");
@@ -304,7 +320,7 @@ void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Fi
   // Neighbouring ranks share a file, which the first rank writes.
   const int pieces = std::min(size, mostPieces),
             index = static_cast<std::int64_t>(rank) * pieces / size;
-  Piece piece = ownPiece(mesh, pointFields, rank);
+  Piece piece = ownPiece(mesh, pointFields, cellFields, rank);
   MPI_Comm sharing = MPI_COMM_NULL;
   check(MPI_Comm_split(mesh.comm, index, rank, &sharing));
   gatherOnFirst(sharing, piece);
@@ -315,11 +331,14 @@ void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Fi
   // not replace_extension(): the dot of a stem such as steady_0.4 does not start an extension
   const fs::path summary = stem.string() + ".pvtu";
   makeFolder(mesh.comm, stem, head);
-  const std::string failure = place == 0 ? writePiece(gridOf(piece, pointFields), path(index)) : "";
+  const std::string failure =
+      place == 0 ? writePiece(gridOf(piece, pointFields, cellFields), path(index)) : "";
   failTogether(mesh.comm, failure.empty() ? "" : head + failure);
+  std::string cellArrays = mesh.hasSections() ? arrayTag("Int32", "material", 1) : "";
+  for (const auto& field : cellFields)
+    cellArrays += arrayTag("Float32", field.name, field.components);
   onFirstRank(mesh.comm, head, [&] {
-    output::writeFile(summary,
-                      summaryText(pointFields, mesh.hasSections(), stem.filename(), path, pieces));
+    output::writeFile(summary, summaryText(pointFields, cellArrays, stem.filename(), path, pieces));
   });
 }
 

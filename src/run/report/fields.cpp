@@ -10,6 +10,7 @@
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "model/mesh/mesh.hpp"
+#include "model/mesh/vector.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/fieldfile/hdf5.hpp"
 #include "run/fieldfile/vtu.hpp"
@@ -132,6 +133,26 @@ void writePath(const analysis::Analysis& analysis, Hdf5File& file) {
                       joined(analysis.model.contact.interfaces.names));
 }
 
+/// Collective. Writes the axes of materials at the centres of their cells, zero where a material is
+/// isotropic, if any is not.
+void writeAxes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+               const Settings& settings, const std::filesystem::path& stem) {
+  const auto isIsotropic = [](const auto& material) { return !material.axes; };
+  if (std::ranges::all_of(materials, isIsotropic)) return;
+  std::vector<Field> fields{{"axis_1", 3, {}}, {"axis_2", 3, {}}, {"axis_3", 3, {}}};
+  for (const auto& block : mesh.cells)
+    for (std::size_t e = 0; e < block.tag.size(); ++e) {
+      mesh::Point centre{};
+      for (const PetscInt node : block.nodesOf(e))
+        centre = mesh::plus(centre, mesh.coordinates[node], 1.0 / block.nodesPerCell);
+      const auto& axesAt = materials[block.material[e]].axes;
+      const auto axes = axesAt ? axesAt(centre) : material::Axes{};
+      for (std::size_t k = 0; k < 3; ++k)
+        fields[k].values.insert(fields[k].values.end(), axes[k].begin(), axes[k].end());
+    }
+  fieldfile::writeVtu(mesh, stem, {}, folderOption, settings.pieces, fields);
+}
+
 }  // namespace
 
 void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
@@ -144,6 +165,7 @@ void writeFields(const analysis::Analysis& analysis, const Settings& settings,
   const auto& mesh = *analysis.model.mesh;
   const auto vtk = folder / "vtk";
   const Ghosts ghosts(mesh);
+  writeAxes(mesh, analysis.model.bodies.materials, settings, vtk / "materials");
   std::vector<std::pair<double, std::filesystem::path>> steadyFiles;
   for (const auto& solution : analysis.steady.solutions) {
     if (!solution.converged) continue;

@@ -77,6 +77,7 @@ bool ResultNames::isField(const std::vector<std::string>& parts) const {
   const std::string stem = parts.size() > 1 || !parts[0].ends_with(".pvtu")
                                ? parts[0]
                                : parts[0].substr(0, parts[0].size() - 5);
+  if (stem == "materials") return isGrid(stem, parts);
   for (const char* begin : {"steady_friction_", "modes_from_friction_", "complex_modes_friction_"})
     if (const auto point = between(stem, begin, ""); point && points_.contains(*point))
       return isGrid(stem, parts);

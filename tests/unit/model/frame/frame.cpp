@@ -80,6 +80,28 @@ TEST(Frame, TurnsTheAxesOfMaterials) {
             1e-6);
 }
 
+// The axes that files show are those of the law.
+TEST(Frame, AxesOfMaterialsAreThoseOfTheirLaws) {
+  const auto law = material::orthotropic({3, 1.3, 0.8, 0.35, 0.42, 0.27, 0.9, 0.7, 0.5});
+  const Point x{0.3, -0.7, 0.4};
+  for (const std::string axes :
+       {"", "-material_body_orientation 1,0.5,0.2,-0.3,1,0.4",
+        "-material_body_cylindrical 0.1,0.2,0,1,2,3",
+        "-material_body_frame f -frame_f_x 1,0.5,0.2 -frame_f_turn 20 -frame_f_turn_about x",
+        "-material_body_frame f -frame_f_axis 1,0.5,0.2 -frame_f_turn 20 -frame_f_turn_about x"}) {
+    const auto built = test::buildBodies(
+        "-mesh_file meshes/patch_3d.geo -material_body_density 1 "
+        "-material_body_engineering_constants " +
+        std::string(exact::orthotropic::constants) + " " + axes);
+    const auto& material = built.bodies.materials.at(0);
+    material::Hooke storage;
+    const auto &found = material.law.at(x, storage),
+               expected = material::rotated(law, material.axes(x));
+    for (std::size_t i = 0; i < 36; ++i)
+      EXPECT_NEAR(found.matrix[i], expected.matrix[i], 1e-14) << axes << i;
+  }
+}
+
 TEST(Frame, RefusesWrongTurns) {
   const auto expect = [](const std::string& options, const std::string& part, int dimension) {
     const auto message = test::errorOf([&] { frameOf(options, dimension); });

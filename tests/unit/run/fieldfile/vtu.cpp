@@ -104,6 +104,24 @@ TEST(Vtu, HoldsTheMaterialsOfSections) {
   EXPECT_FALSE(readVtu(folder.path / "bodies.pvtu")->GetCellData()->GetArray("material"));
 }
 
+TEST(Vtu, HoldsFieldsOfCells) {
+  const Folder folder;
+  const Mesh mesh = bar();
+  Field field{"axis", 3, {}};
+  for (const auto& block : mesh.cells)
+    for (const PetscInt tag : block.tag)
+      for (int c = 0; c < 3; ++c) field.values.push_back(tag + 0.25 * c);
+  writeVtu(mesh, folder.path / "cells", {}, option, 8, {field});
+  const auto grid = readVtu(folder.path / "cells.pvtu");
+  auto* found = grid->GetCellData()->GetArray("axis");
+  ASSERT_TRUE(found);
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(found->GetComponent(i, c), 1000 + i + 0.25 * c);
+  field.values.pop_back();
+  EXPECT_TRUE(contains(
+      errorOf([&] { writeVtu(mesh, folder.path / "few", {}, option, 8, {field}); }), "field axis"));
+}
+
 // Names that differ after the last dot only must not share the files of their pieces.
 TEST(Vtu, KeepsFilesOfASweepApart) {
   const Folder folder;
