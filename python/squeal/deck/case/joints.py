@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Equations, rigid bodies, couplings, springs, dashpots and masses of a case."""
+import numpy as np
+
+from squeal.deck.case.groups import NODES
+from squeal.deck.case.roles import elements_in
+from squeal.deck.journal import TRANSLATED, Fault, Missing
+
+COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
+
+
+def add_joints(model, roles, case, journal):
+    """A fault of one joint does not keep the others from being translated."""
+    places = Numbered()
+    for translate, joints in (
+        (_equation, model.equations),
+        (_mean, model.means),
+        (_rigid, model.rigid),
+        (_joint, model.joints),
+        (_mass, model.masses),
+    ):
+        for joint in joints:
+            try:
+                translate(joint, model, roles, case, places)
+                journal.mark(joint.source, TRANSLATED)
+            except Fault as fault:
+                journal.refuse_fault(joint.source, fault)
+    for number in roles.used:
+        position = model.nodes.at([number])[0]
+        case.set(("reference", roles.references[number], "position"), position)
+
+
+class Numbered:
+    """Names with the line of their card, and a number if a card gives several."""
+
+    def __init__(self):
+        self.counts = {}
+
+    def name(self, kind, source):
+        stem = f"{kind}_{source.line}"
+        count = self.counts[stem] = self.counts.get(stem, 0) + 1
+        return stem if count == 1 else f"{stem}_{count}"
+
+
+def set_equation(case, name, terms, source):
+    """Sets an equation of terms (name, component, coefficient), whose sum is zero."""
+    sign = -1.0 if terms[0][2] < 0 else 1.0
+    text = ""
+    for place, component, coefficient in terms:
+        value = sign * float(coefficient)
+        joint = "" if not text else (" - " if value < 0 else " + ")
+        factor = "" if abs(value) == 1 else f"{abs(value)!r}*"
+        text += f"{joint}{factor}{place}:{COMPONENTS[component]}"
+    case.set(("equation", name), f"{text} = 0", source)
+
+
+def _equation(equation, model, roles, case, places):
+    terms = roles.global_terms(equation.terms)
+    set_equation(case, places.name("line", equation.source), terms, equation.source)
+
+
+def _mean(mean, model, roles, case, places):
+    """u_R = Σ w u / Σ w for each component."""
+    weights = mean.weights / mean.weights.sum()
+    for component in range(3):
+        terms = [(roles.name(mean.reference), component, 1.0)]
+        for number, weight in zip(mean.nodes.tolist(), weights):
+            roles.place(number, component)
+            terms.append((roles.name(number), component, -weight))
+        set_equation(case, places.name("line", mean.source), terms, mean.source)
+
+
+def _rigid(rigid, model, roles, case, places):
+    name = roles.references[rigid.reference]
+    inside = [number for number in rigid.nodes.tolist() if roles.in_cells(number)]
+    others = [
+        roles.references[number]
+        for number in rigid.nodes.tolist()
+        if number in roles.references and number != rigid.reference and number not in inside
+    ]
+    if not inside and not others:
+        raise Missing("none of its nodes belongs to an element that is translated")
+    sets = model.node_sets if rigid.label in model.node_sets else model.element_sets
+    nodes = [case.group(NODES, inside, sets.spelled[rigid.label])] if inside else []
+    case.set(("reference", name, "position"), model.nodes.at([rigid.reference])[0], rigid.source)
+    case.set(("coupling", name, "reference"), name, rigid.source)
+    case.set(("coupling", name, "nodes"), ",".join(nodes + others), rigid.source)
+
+
+def _joint(joint, model, roles, case, places):
+    for number, nodes in elements_in(model, joint.label):
+        for node in nodes:
+            roles.place(node, 0)
+        if joint.kind == "ground":
+            _ground(joint, number, nodes[0], model, roles, case)
+            continue
+        path = ("spring", f"element_{number}")
+        case.set((*path, "from"), roles.name(nodes[0]), joint.source)
+        case.set((*path, "to"), roles.name(nodes[1]), joint.source)
+        for key, value in (("stiffness", joint.stiffness), ("damping", joint.damping)):
+            if value:
+                case.set((*path, key), value, joint.source)
+
+
+def _ground(joint, number, node, model, roles, case):
+    if node in model.frames:
+        raise Fault("a spring to the ground at a node with *TRANSFORM is not supported")
+    path = ("bushing", f"element_{number}")
+    case.set((*path, "from"), roles.name(node), joint.source)
+    for key, value in (("stiffness", joint.stiffness), ("damping", joint.damping)):
+        if value:
+            values = np.zeros(3)
+            values[joint.component] = value
+            case.set((*path, key), values, joint.source)
+
+
+def _mass(mass, model, roles, case, places):
+    for number, nodes in elements_in(model, mass.label):
+        roles.place(nodes[0], 0)
+        case.set(("mass", roles.name(nodes[0]), "total"), mass.mass, mass.source)

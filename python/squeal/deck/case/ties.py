@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Ties of a case: of two surfaces, or of nodes and a surface.
+
+Nodes are tied one by one, as CalculiX does: each follows its foot on the master face. These are
+equations in the case, whose ties need faces on both sides.
+"""
+import numpy as np
+
+from squeal.deck.case.groups import FACES
+from squeal.deck.case.joints import set_equation
+from squeal.deck.case.projection import Surface
+from squeal.deck.journal import TRANSLATED, Fault
+
+TOLERANCE = 0.025  # of the typical size of a master face
+
+
+def add_ties(model, roles, case, journal, faces):
+    """Returns for import.md the rows (name, tied, free) of ties of nodes. Moves their nodes onto
+    the master if the deck adjusts them; to be called before coordinates are used."""
+    counted = []
+    for tie in model.ties:
+        try:
+            slave, master = model.surfaces[tie.slave], model.surfaces[tie.master]
+            if slave.nodes is None:
+                _tie_of_faces(tie, slave, master, case, journal, faces)
+            else:
+                counted.append(_tie_of_nodes(tie, slave, master, model, roles, case, faces))
+                journal.remark(tie.source, "{1} nodes tied, {2} free".format(*counted[-1]))
+            for source in (tie.source, slave.source, master.source):
+                journal.mark(source, TRANSLATED)
+        except Fault as fault:
+            journal.refuse_fault(tie.source, fault)
+    return counted
+
+
+def _tie_of_faces(tie, slave, master, case, journal, faces):
+    path = ("tie", tie.name)
+    for key, surface in (("slave", slave), ("master", master)):
+        rows = list(zip(surface.elements.tolist(), surface.faces.tolist()))
+        for row in rows:
+            faces.require(*row)
+        case.set((*path, key), case.group(FACES, rows, surface.name), tie.source)
+    if tie.tolerance is not None:
+        case.set((*path, "tolerance"), tie.tolerance, tie.source)
+    if not tie.adjust:
+        case.set((*path, "adjust"), False, tie.source)
+    journal.choose(
+        f"{tie.source}: the faces are tied by a mortar method, not node by node as in CalculiX"
+    )
+
+
+def _tie_of_nodes(tie, slave, master, model, roles, case, faces):
+    nodes = [faces.nodes(*row) for row in zip(master.elements.tolist(), master.faces.tolist())]
+    if not nodes:
+        raise Fault("the master surface has no faces")
+    surface = Surface([model.nodes.at(one) for one in nodes])
+    bound = TOLERANCE * surface.size if tie.tolerance is None else tie.tolerance
+    tied = 0
+    for number in slave.nodes.tolist():
+        roles.place(number, 0)
+        foot = surface.foot(model.nodes.at([number])[0])
+        if foot is None or foot[3] > bound:
+            continue
+        face, weights, place, _ = foot
+        if number in nodes[face]:
+            continue
+        tied += 1
+        if tie.adjust:
+            model.nodes.move(number, place)
+        _follow(tie, number, nodes[face], weights, roles, case)
+    return tie.name, tied, len(slave.nodes) - tied
+
+
+def _follow(tie, number, nodes, weights, roles, case):
+    """u = Σ N u of the nodes of the face, in global axes."""
+    kept = np.abs(weights) > 1e-12
+    for component, axis in enumerate("xyz"):
+        terms = [(roles.name(number), component, 1.0)]
+        for master, weight in zip(nodes[kept].tolist(), weights[kept]):
+            terms.append((roles.name(master), component, -weight))
+        set_equation(case, f"{tie.name}_{number}_{axis}", terms, tie.source)

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Translates a model into a case."""
+import numpy as np
+
+from squeal.deck.case.bodies import add_bodies
+from squeal.deck.case.checks import check_mesh
+from squeal.deck.case.faces import Faces
+from squeal.deck.case.groups import Case
+from squeal.deck.case.joints import add_joints
+from squeal.deck.case.roles import Roles
+from squeal.deck.case.state import add_forces, add_pressures, add_supports
+from squeal.deck.case.ties import add_ties
+
+
+def translate(model, journal):
+    """Returns the case of a model, or None without a complete mesh. Refuses in the journal what the
+    program does not have."""
+    if not check_mesh(model, journal):
+        return None
+    case = Case()
+    case.set(("mesh", "file"), "mesh.msh")
+    faces = Faces(model)
+    add_bodies(model, case, journal)
+    roles = Roles(model, case, journal)
+    case.ties = add_ties(model, roles, case, journal, faces)
+    add_joints(model, roles, case, journal)
+    add_supports(model, roles, case, journal)
+    add_forces(model, roles, case, journal)
+    add_pressures(model, case, journal, faces)
+    case.nodes = roles.cell_nodes
+    _name_idle_nodes(model, roles, journal)
+    if model.prestress:
+        case.set(("elasticity", "prestress"), True, model.frequency)
+    if model.frequency is None:
+        journal.choose("the deck asks for no frequencies; the case has one, the least number")
+    case.set(("modes", "count"), model.frequencies or 1, model.frequency)
+    case.set(("flutter", "friction"), 0.0)
+    return case
+
+
+def _name_idle_nodes(model, roles, journal):
+    others = np.setdiff1d(model.nodes.numbers, roles.cell_nodes)
+    idle = [number for number in others.tolist() if not roles.is_used(number)]
+    if idle:
+        journal.choose(
+            f"nodes left out, since no solid element or joint has them: {len(idle)}, such as node"
+            f" {idle[0]}"
+        )

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Translates a deck into the folder of a case: mesh.msh, case.yaml and import.md."""
+import argparse
+from pathlib import Path
+
+from squeal.deck.case.faces import Faces
+from squeal.deck.case.translate import translate
+from squeal.deck.inp.dialect import CALCULIX
+from squeal.deck.inp.reader import read_model
+from squeal.deck.journal import DeckError, Journal
+from squeal.deck.output.account import write_account
+from squeal.deck.output.msh import write_mesh
+from squeal.deck.output.options import MARK, write_options
+
+DIALECTS = {"calculix": CALCULIX}
+FILES = ("mesh.msh", "case.yaml", "import.md")
+
+
+def import_deck(deck, folder, dialect="calculix", ignored=()):
+    """Writes the case of a deck into a folder, and returns its journal. If the deck is refused,
+    writes only import.md and raises DeckError."""
+    folder = Path(folder)
+    _prepare(folder)
+    journal = Journal(ignored)
+    model = read_model(deck, DIALECTS[dialect], journal)
+    case = translate(model, journal)
+    try:
+        write_account(
+            folder / "import.md",
+            *(model, None if journal.refusals else case, journal, DIALECTS[dialect]),
+        )
+        journal.require_translatable(str(deck))
+        for name in journal.unmet():
+            raise DeckError(f"--ignore {name}: {deck} has nothing of this name that is refused")
+        write_mesh(folder / "mesh.msh", model, case, Faces(model))
+        write_options(folder / "case.yaml", case, model.title, DIALECTS[dialect])
+    except OSError as error:
+        raise DeckError(f"{error.filename or folder}: {error.strerror}") from None
+    return journal
+
+
+def _prepare(folder):
+    """Makes the folder, and removes the files of an earlier import. Raises DeckError if a case is
+    there that was not imported."""
+    case = folder / "case.yaml"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if case.exists() and not case.read_text(encoding="utf-8", errors="replace").startswith(
+            MARK
+        ):
+            raise DeckError(f"{case} was not made by squeal-import; choose another folder")
+        if not case.exists() and (folder / "mesh.msh").exists():
+            raise DeckError(f"{folder} has a mesh.msh of another origin; choose another folder")
+        for name in FILES:
+            (folder / name).unlink(missing_ok=True)
+    except OSError as error:
+        raise DeckError(f"{error.filename or folder}: {error.strerror}") from None
+
+
+def main(words):
+    parser = argparse.ArgumentParser(prog="squeal-import", description=__doc__)
+    parser.add_argument("deck", metavar="DECK", help="deck of CalculiX (.inp)")
+    parser.add_argument(
+        *("-o", "--output"),
+        metavar="FOLDER",
+        help="folder of the case; default: the name of the deck, in the working folder",
+    )
+    parser.add_argument(
+        *("--dialect",), choices=sorted(DIALECTS), default="calculix", help="program of the deck"
+    )
+    parser.add_argument(
+        *("--ignore",),
+        metavar="NAME",
+        action="append",
+        default=[],
+        help="card, parameter or type of element to leave out although it changes the physics",
+    )
+    given = parser.parse_args(words)
+    folder = Path(given.output or Path(given.deck).stem)
+    journal = import_deck(given.deck, folder, given.dialect, given.ignore)
+    print(f"{folder / 'case.yaml'}: the case; {folder / 'import.md'}: the account of the deck")
+    for choice in journal.choices:
+        print(f"  {choice}")
