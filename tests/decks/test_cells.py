@@ -40,8 +40,8 @@ TETRAHEDRON = (
 )
 # The program integrates curved cells with so many points that polynomials of the degree of their
 # volume are exact; moments have a higher degree, and their error grows with the curvature. Nodes in
-# each other's place change them by more than 1e-2, or turn the cell inside out. C3D20R has the nodes
-# of C3D20, and a single element of it has hourglass modes.
+# each other's place change them by more than 1e-2, or turn the cell inside out. C3D20R has the
+# nodes of C3D20, and a single element of it has hourglass modes.
 TYPES = {
     "C3D4": (TETRAHEDRON, False, 1e-11),
     "C3D10": (TETRAHEDRON, True, 2e-4),

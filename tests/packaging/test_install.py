@@ -19,7 +19,7 @@ CMAKE, BUILD = (
     else ("cmake", repository / "build")
 )
 CASES = sorted(path.stem for path in (repository / "options").glob("*.yaml"))
-COMMANDS = {"squeal", "squeal-run", "squeal-report", "squeal-plot", "squeal-merge"}
+COMMANDS = {"squeal", "squeal-run", "squeal-report", "squeal-plot", "squeal-merge", "squeal-import"}
 SMALL = [
     "-mesh_set",
     "nx=12,ny=4",
@@ -54,7 +54,7 @@ class Installation(unittest.TestCase):
         )
         # Whoever may write there leaves no bytecode. The folder holds no results, which the
         # commands find when they have loaded all.
-        for command in ("squeal-report", "squeal-plot", "squeal-merge"):
+        for command in ("squeal-report", "squeal-plot", "squeal-merge", "squeal-import"):
             subprocess.run(
                 [first / "bin" / command, first],
                 check=False,

@@ -313,5 +313,26 @@ class Account(unittest.TestCase):
             self.assertRaisesRegex(DeckError, "was not made by", import_deck, deck, case)
 
 
+class Manual(unittest.TestCase):
+    def test_the_example_of_the_page(self):
+        """docs/decks.md shows the case of its deck, and the error of one that is changed."""
+        page = (repository / "docs/decks.md").read_text()
+        blocks = re.findall(r"^```\w*\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+        deck, case, choices, error = blocks
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bracket.inp"
+            path.write_text(deck)
+            journal = import_deck(path, Path(folder) / "bracket")
+            self.assertEqual((Path(folder) / "bracket/case.yaml").read_text(), case)
+            self.assertEqual("\n".join(journal.choices) + "\n", choices)
+            deck = re.sub(r"\*RIGID BODY.*", "*MPC\nBEAM, 21, 22", deck)
+            path.write_text(deck.replace("*CLOAD", "*CLOAD, AMPLITUDE=RAMP"))
+            with self.assertRaises(DeckError) as raised:
+                import_deck(path, Path(folder) / "bracket")
+        # The page has the command's name and no path.
+        shown = str(raised.exception).replace(f"{folder}/", "squeal-import: ", 1)
+        self.assertEqual(shown + "\n", error)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -20,10 +20,10 @@ def import_deck(deck, folder, dialect="calculix", ignored=()):
     """Writes the case of a deck into a folder, and returns its journal. If the deck is refused,
     writes only import.md and raises DeckError."""
     folder = Path(folder)
-    _prepare(folder)
     journal = Journal(ignored)
     model = read_model(deck, DIALECTS[dialect], journal)
     case = translate(model, journal)
+    _prepare(folder)
     try:
         write_account(
             folder / "import.md",

@@ -5,6 +5,14 @@ from dataclasses import dataclass
 from squeal.deck.journal import Fault
 
 TABLE = {}
+PARAMETERS = {
+    "AMPLITUDE": "amplitudes are not supported",
+    "USER": "user routines are not supported",
+    "SUBMODEL": "submodels are not supported",
+    "FIXED": "values that earlier steps have reached are not supported",
+    "COMPOSITE": "layered sections are not supported",
+    "NONLINEAR": "nonlinear springs are not supported",
+}
 
 
 @dataclass(frozen=True)
@@ -56,7 +64,8 @@ def settle(card, handler, journal):
                     f" {card.dialect.name} does not know short words"
                 )
         else:
-            journal.refuse(card.source, "this parameter is not supported", written)
+            reason = PARAMETERS.get(written, "this parameter is not supported")
+            journal.refuse(card.source, reason, written)
             continue
         if name in settled:
             raise Fault(f"{name} is given twice")
