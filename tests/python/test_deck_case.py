@@ -158,6 +158,16 @@ class State(unittest.TestCase):
             self.assertEqual(one.options["load"][face]["pressure"], pressure)
             self.assertEqual(sorted(one.groups[face][0]), [5, 6, 7, 8])
 
+    def test_pressure_between_two_elements(self):
+        second = "*NODE\n11, 0., 0., 2.\n12, 1., 0., 2.\n13, 1., 1., 2.\n14, 0., 1., 2.\n"
+        second += "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n2, 5, 6, 7, 8, 11, 12, 13, 14\n"
+        for load, number in (("1, P2", "2 of element 1"), ("2, P1", "1 of element 2")):
+            (row,) = refused(cube(second, f"*DLOAD\n2, P2, 5.\n{load}, 5.\n"))
+            self.assertIn(f"face {number} lies between two elements", row)
+        self.assertEqual(len(Imported(cube(second, "*DLOAD\n2, P2, 5.\n")).groups["pressed"]), 1)
+        (row,) = refused(cube(second, "*DLOAD\n2, P7, 5.\n"))
+        self.assertIn("'P7' is not a face", row)
+
     def test_transformed_axes(self):
         axes = "*TRANSFORM, NSET=TOP, TYPE=C\n0., 0., 0., 0., 0., 1.\n"
         one = Imported(cube(axes, "*CLOAD\n7, 2, 3.\n*BOUNDARY\n6, 1\n"))

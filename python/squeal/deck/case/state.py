@@ -138,18 +138,18 @@ def _load(case, name, frame, values, key, components, count):
 
 
 def add_pressures(model, case, journal, faces):
-    """`faces`: the object that checks faces of elements."""
+    """`faces`: the object that looks faces of elements up."""
     buckets = {}
     for (element, face), value in model.state.pressures.items():
+        buckets.setdefault((value.value, value.label, value.source), []).append((element, face))
+    for (amount, label, source), rows in buckets.items():
         try:
-            faces.require(element, face)
+            faces.require_outer(rows)
         except Fault as fault:
-            journal.refuse_fault(value.source, fault)
-        else:
-            buckets.setdefault((value.value, value.label), []).append((element, face, value))
-    for (amount, label), rows in buckets.items():
+            journal.refuse_fault(source, fault)
+            continue
         name = model.element_sets.spelled.get(label, "pressed")
         if label in model.surfaces:
             name = model.surfaces[label].name
-        group = case.group(FACES, [row[:2] for row in rows], name)
-        case.set(("load", group, "pressure"), amount, rows[0][2].source)
+        group = case.group(FACES, rows, name)
+        case.set(("load", group, "pressure"), amount, source)

@@ -36,9 +36,8 @@ def add_ties(model, roles, case, journal, faces):
 def _tie_of_faces(tie, slave, master, case, journal, faces):
     path = ("tie", tie.name)
     for key, surface in (("slave", slave), ("master", master)):
-        rows = list(zip(surface.elements.tolist(), surface.faces.tolist()))
-        for row in rows:
-            faces.require(*row)
+        rows = np.column_stack([surface.elements, surface.faces])
+        faces.tables(rows)
         case.set((*path, key), case.group(FACES, rows, surface.name), tie.source)
     if tie.tolerance is not None:
         case.set((*path, "tolerance"), tie.tolerance, tie.source)
@@ -50,7 +49,7 @@ def _tie_of_faces(tie, slave, master, case, journal, faces):
 
 
 def _tie_of_nodes(tie, slave, master, model, roles, case, faces):
-    nodes = [faces.nodes(*row) for row in zip(master.elements.tolist(), master.faces.tolist())]
+    nodes = faces.nodes(np.column_stack([master.elements, master.faces]))
     if not nodes:
         raise Fault("the master surface has no faces")
     surface = Surface([model.nodes.at(one) for one in nodes])

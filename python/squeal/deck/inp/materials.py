@@ -51,8 +51,8 @@ def elastic(card, reader):
         raise Fault(f"TYPE={kind} has {count} constants and a temperature on {lines} lines")
     if one.law:
         raise Fault(f"material '{one.name}' has two laws")
-    one.law, one.elastic = law, card.source
     one.constants = tuple(real(field, rows[0][0]) for field in fields[:count])
+    one.law, one.elastic = law, card.source
     if len(rows) > lines:
         reader.journal.choose(
             f"{card.source}: the constants of the first temperature are used, of"

@@ -55,12 +55,14 @@ def _points(case):
 
 def _faces(case, faces):
     for names, rows in _partition(case.groups[FACES]):
-        by_size = {}
-        for element, face in rows.tolist():
-            nodes = faces.nodes(element, face)
-            by_size.setdefault(len(nodes), []).append(nodes)
+        tables = [table for _, table in faces.tables(rows)]
         yield FACES, names, [
-            (FACE_TYPES[size], None, np.array(table)) for size, table in by_size.items()
+            (
+                FACE_TYPES[size],
+                None,
+                np.concatenate([one for one in tables if one.shape[1] == size]),
+            )
+            for size in sorted({table.shape[1] for table in tables})
         ]
 
 
