@@ -20,11 +20,10 @@ from squeal.deck.journal import Journal
 class Comparison:
     """Runs both programs in a folder of their own."""
 
-    def __init__(self, program, deck, folder, full=True, ignored=()):
+    def __init__(self, program, text, folder, ignored=()):
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
-        text = ccx.comparable(ccx.deck_text(deck), full)
-        self.path = self.folder / f"{deck}.inp"
+        self.path = self.folder / "deck.inp"
         self.path.write_text(text, encoding="latin-1")
         self.reference = ccx.Reference(text, self.folder / "ccx")
         import_deck(self.path, self.folder / "case", ignored=ignored)
@@ -39,7 +38,7 @@ class Comparison:
             check=False,
         )
         if run.returncode:
-            raise AssertionError(f"{deck}: {run.stdout}{run.stderr}")
+            raise AssertionError(f"{self.folder.name}: {run.stdout}{run.stderr}")
         self.text = text
 
     def displacements(self):
@@ -99,10 +98,10 @@ class Comparison:
 
     def _nodal_reactions(self, supports):
         """Returns the reactions of the nodes of each support in global axes, one row each."""
-        loads = {}
-        if self.model.state.pressures or self.model.state.body_loads:
-            held = np.concatenate([self.case.groups[NODES][name] for name in supports])
-            text = ccx.held_elsewhere(self.text, held.tolist())
+        held = {one for name in supports for one in self.case.groups[NODES][name].tolist()}
+        state, loads = self.model.state, {}
+        if state.pressures or state.body_loads or set(state.forces) & set(state.supports):
+            text = ccx.held_elsewhere(self.text, held)
             loads = ccx.Reference(text, self.folder / "ccx_loads").forces
         found = {}
         for name, options in supports.items():

@@ -19,9 +19,9 @@ class Faces:
         blocks, at = self.model.find_elements(rows[:, 0])
         found = []
         for number in np.unique(blocks):
-            block = self.model.blocks[number]
             on = np.flatnonzero(blocks == number)
-            if number < 0 or block.shape is None:
+            block = self.model.blocks[number] if number >= 0 else None
+            if block is None or block.shape is None:
                 raise Missing(f"element {rows[on[0], 0]} is not a solid element")
             wrong = on[(rows[on, 1] < 0) | (rows[on, 1] >= len(block.shape.faces))]
             if len(wrong):

@@ -25,6 +25,11 @@ def add_joints(model, roles, case, journal):
                 journal.mark(joint.source, TRANSLATED)
             except Fault as fault:
                 journal.refuse_fault(joint.source, fault)
+    if model.static and model.frequency and any(one.kind == "line" for one in model.joints):
+        journal.choose(
+            "SPRINGA keeps its direction; CalculiX turns it with the displacements of the static"
+            " step before it computes frequencies"
+        )
     for number in roles.used:
         position = model.nodes.at([number])[0]
         case.set(("reference", roles.references[number], "position"), position)

@@ -30,6 +30,10 @@ def translate(model, journal):
     case.nodes = roles.cell_nodes
     _name_idle_nodes(model, roles, journal)
     if model.prestress:
+        journal.choose(
+            f"{model.frequency}: the stress of the static step changes the stiffness; CalculiX also"
+            " includes its change of shape"
+        )
         case.set(("elasticity", "prestress"), True, model.frequency)
     if model.frequency is None:
         journal.choose("the deck asks for no frequencies; the case has one, the least number")
