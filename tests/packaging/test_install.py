@@ -232,6 +232,22 @@ class Installation(unittest.TestCase):
         self.assertTrue((own / "results/belt/report.html").exists())
         self.assertEqual([path.name for path in self.work.iterdir()], ["results"])
 
+    def test_a_deck_runs(self):
+        page = (repository / "docs/decks.md").read_text()
+        (self.home / "decks").mkdir(mode=0o777)
+        (self.home / "decks").chmod(0o777)
+        deck = self.home / "decks/bracket.inp"
+        deck.write_text(page.split("```")[1].lstrip())
+        self.call("squeal-run", "../decks/bracket.inp", "-report_fields", "off", NP="1")
+        folder = self.home / "decks/bracket"
+        self.assertLessEqual({"mesh.msh", "case.yaml", "import.md"}, below(folder))
+        modes = (folder / "results/case/modes.csv").read_text().splitlines()
+        # docs/decks.md names these frequencies.
+        self.assertEqual([round(float(row.split(",")[2])) for row in modes[1:]], [1362, 2623, 9049])
+        deck.write_text("*SHELL SECTION\n")
+        printed = self.call("squeal-run", "../decks/bracket.inp", status=1)
+        self.assertIn("bracket.inp:1: *SHELL SECTION: shells are not supported", printed)
+
     def test_refusals(self):
         printed = self.call("squeal-run", "nosuch", status=1)
         self.assertIn("squeal-run: there is no case 'nosuch'", printed)

@@ -267,6 +267,22 @@ class Joints(unittest.TestCase):
         self.assertEqual(options["bushing"]["element_32"], ground)
         self.assertEqual(options["mass"]["reference_20"]["total"], 0.5)
 
+    def test_joints_that_would_replace_each_other(self):
+        cards = "*ELEMENT, TYPE=SPRINGA, ELSET=S\n30, 5, 6\n*SPRING, ELSET=S\n\n10.\n"
+        (row,) = refused(cube(cards + "*SPRING, ELSET=S\n\n20.\n"))
+        self.assertIn("-spring_element_30_stiffness would have the values 10.0 and 20.0", row)
+        masses = "*ELEMENT, TYPE=MASS, ELSET=M\n33, 7\n34, 7\n*MASS, ELSET=M\n0.5\n"
+        options = Imported(cube(masses)).options
+        self.assertEqual(options["mass"], {"node_7": {"total": 1.0}})
+
+    def test_ties_of_faces(self):
+        ties = "*SURFACE, NAME=UP\nCUBE, S2\n*SURFACE, NAME=DOWN\nCUBE, S1\n"
+        ties += "*TIE, NAME=A B, POSITION TOLERANCE=0.2, ADJUST=NO\nUP, DOWN\n"
+        ties += "*TIE, NAME=A B\nDOWN, UP\n"
+        options = Imported(cube(ties)).options
+        first = {"slave": "UP", "master": "DOWN", "tolerance": 0.2, "adjust": False}
+        self.assertEqual(options["tie"], {"A_B": first, "A_B_2": {"slave": "DOWN", "master": "UP"}})
+
     def test_nodes_tied_to_faces(self):
         """A node 0.01 above the top at (0.25, 0.5) follows it with the weights of the bilinear
         functions, 0.75 · 0.5 and so on, and is moved onto it; one at 0.2 stays free."""
@@ -305,6 +321,28 @@ class Account(unittest.TestCase):
         self.assertEqual(one.remarks("NODE PRINT")[0], "not used")
         self.assertEqual(one.remarks("CLOAD")[0], "translated")
         self.assertIn("| node set | TOP | 4 |", one.account)
+
+    def test_cards_that_nothing_refers_to(self):
+        more = "*MATERIAL, NAME=SPARE\n*ELASTIC\n1., 0.\n"
+        more += "*ORIENTATION, NAME=SPARE\n1., 0., 0., 0., 1., 0.\n"
+        more += "*TRANSFORM, NSET=TOP\n0., 1., 0., 1., 0., 0.\n"
+        text = cube(more)
+        one = Imported(text)
+        lines = text.splitlines()
+        idle = {
+            lines[source.line - 1]: "; ".join(entry.remarks)
+            for source, entry in one.journal.entries.items()
+            if entry.status == "not used"
+        }
+        self.assertEqual(
+            idle,
+            {
+                "*MATERIAL, NAME=SPARE": "no section uses this material",
+                "*ELASTIC": "no section uses this material",
+                "*ORIENTATION, NAME=SPARE": "no section uses this orientation",
+                "*TRANSFORM, NSET=TOP": "no support, force or equation has these axes",
+            },
+        )
 
     def test_names_of_ignore_that_meet_nothing(self):
         with self.assertRaisesRegex(DeckError, "--ignore PLASTIC: .* has nothing of this name"):

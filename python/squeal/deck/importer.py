@@ -13,7 +13,8 @@ from squeal.deck.output.msh import write_mesh
 from squeal.deck.output.options import MARK, write_options
 
 DIALECTS = {"calculix": CALCULIX}
-FILES = ("mesh.msh", "case.yaml", "import.md")
+PARTIAL = "mesh.msh.partial"  # the mesh gets its name when all is written
+FILES = ("mesh.msh", "case.yaml", "import.md", PARTIAL)
 
 
 def import_deck(deck, folder, dialect="calculix", ignored=()):
@@ -32,8 +33,9 @@ def import_deck(deck, folder, dialect="calculix", ignored=()):
         journal.require_translatable(str(deck))
         for name in journal.unmet():
             raise DeckError(f"--ignore {name}: {deck} has nothing of this name that is refused")
-        write_mesh(folder / "mesh.msh", model, case, Faces(model))
+        write_mesh(folder / PARTIAL, model, case, Faces(model))
         write_options(folder / "case.yaml", case, model.title, DIALECTS[dialect])
+        (folder / PARTIAL).rename(folder / "mesh.msh")
     except OSError as error:
         raise DeckError(f"{error.filename or folder}: {error.strerror}") from None
     return journal
@@ -79,5 +81,6 @@ def main(words):
     folder = Path(given.output or Path(given.deck).stem)
     journal = import_deck(given.deck, folder, given.dialect, given.ignore)
     print(f"{folder / 'case.yaml'}: the case; {folder / 'import.md'}: the account of the deck")
+    print(f"  cards: {journal.counted()}")
     for choice in journal.choices:
         print(f"  {choice}")

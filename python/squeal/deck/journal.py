@@ -129,6 +129,13 @@ class Journal:
             if not entry.status:
                 self.refuse(entry.source, "the reader did not account for this card")
 
+    def counted(self):
+        """Returns the numbers of cards by outcome, as words."""
+        counts = dict.fromkeys((USED, TRANSLATED, UNUSED, REFUSED), 0)
+        for entry in self.entries.values():
+            counts[entry.status] += bool(entry.source.card)
+        return ", ".join(f"{count} {status}" for status, count in counts.items() if count)
+
     def unmet(self):
         """Returns the names of --ignore that met nothing."""
         return [name for key, name in self.ignored.items() if key not in self.met]

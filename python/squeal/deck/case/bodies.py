@@ -7,6 +7,14 @@ from squeal.deck.journal import TRANSLATED, UNUSED
 from squeal.deck.model import EMPTY
 
 REDUCED = {"C3D20R"}
+# Cells that CalculiX integrates with fewer points, and the largest differences of results, measured
+# with a bar of 2 x 2 x 6 cells.
+COARSER = {
+    "C3D4": "its frequencies differ by up to 5 %",
+    "C3D6": "its displacements differ by 0.3 % and its frequencies by up to 11 %",
+    "C3D10": "its frequencies differ by up to 0.06 %",
+    "C3D15": "its displacements differ by 0.01 % and its frequencies by 0.07 %",
+}
 OPTION = {
     **{"engineering": "engineering_constants", "orthotropic": "orthotropic"},
     "anisotropic": "anisotropic",
@@ -143,6 +151,9 @@ def _element_options(model, case, journal, solids):
         case.set(("elasticity", "incompatible_modes"), "none", kinds["C3D8"])
     elif "C3D8I" in kinds:
         journal.choose("C3D8I: the incompatible modes are those of this program")
+    for kind, difference in COARSER.items():
+        if kind in kinds and (model.frequency or "displacements" in difference):
+            journal.choose(f"{kind}: CalculiX integrates with fewer points; {difference}")
     if REDUCED & set(kinds) and model.frequency:
         journal.choose(
             "C3D20R: the mass has full integration; CalculiX reduces it like the stiffness, which"

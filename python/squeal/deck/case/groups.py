@@ -4,6 +4,8 @@ import re
 
 import numpy as np
 
+from squeal.deck.journal import Fault
+
 NODES, FACES, CELLS = 0, 2, 3  # dimension of a group
 
 
@@ -17,12 +19,16 @@ class Case:
         self._names = {}
 
     def set(self, path, value, source=None):
-        """Sets an option: `path` is a prefix, a name and a key, or a prefix and a key."""
+        """Sets an option: `path` is a prefix, a name and a key, or a prefix and a key. Raises Fault
+        if it has another value already."""
         prefix, *name, key = path
         options = self.options.setdefault(prefix, {})
         for part in name:
             options = options.setdefault(part, {})
-        options[key] = (text_of(value), source)
+        text = text_of(value)
+        if key in options and options[key][0] != text:
+            raise Fault(f"-{'_'.join(path)} would have the values {options[key][0]} and {text}")
+        options[key] = (text, source)
 
     def group(self, dimension, members, wanted):
         """Returns the name of the group with these members; a new one is named like `wanted`."""
@@ -37,7 +43,7 @@ class Case:
     def free_name(self, wanted, dimension):
         """Returns a name that no group has; of a blank it makes an underscore."""
         taken = set().union(*self.groups.values())
-        name = re.sub(r"[^\w.+-]", "_", wanted) or "group"
+        name = clean(wanted)
         suffix = {NODES: "_nodes", FACES: "_faces", CELLS: "_body"}[dimension]
         if name in taken and name + suffix not in taken:
             name += suffix
@@ -46,6 +52,11 @@ class Case:
             free = f"{name}_{number}"
             number += 1
         return free
+
+
+def clean(name):
+    """Returns a name without the characters that options do not accept."""
+    return re.sub(r"[^\w.+-]", "_", name) or "group"
 
 
 def text_of(value):

@@ -2,7 +2,7 @@
 """Equations, rigid bodies, couplings, springs, dashpots and masses of a case."""
 import numpy as np
 
-from squeal.deck.case.groups import NODES
+from squeal.deck.case.groups import NODES, text_of
 from squeal.deck.case.roles import elements_in
 from squeal.deck.journal import TRANSLATED, Fault, Missing
 
@@ -36,10 +36,11 @@ def add_joints(model, roles, case, journal):
 
 
 class Numbered:
-    """Names with the line of their card, and a number if a card gives several."""
+    """Names with the line of their card, and a number if a card gives several; masses by node."""
 
     def __init__(self):
         self.counts = {}
+        self.masses = {}
 
     def name(self, kind, source):
         stem = f"{kind}_{source.line}"
@@ -122,4 +123,6 @@ def _ground(joint, number, node, model, roles, case):
 def _mass(mass, model, roles, case, places):
     for number, nodes in elements_in(model, mass.label):
         roles.place(nodes[0], 0)
-        case.set(("mass", roles.name(nodes[0]), "total"), mass.mass, mass.source)
+        places.masses[nodes[0]] = places.masses.get(nodes[0], 0.0) + mass.mass
+        options = case.options.setdefault("mass", {}).setdefault(roles.name(nodes[0]), {})
+        options["total"] = (text_of(places.masses[nodes[0]]), mass.source)

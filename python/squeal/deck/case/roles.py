@@ -7,7 +7,7 @@ nothing uses have no stiffness, and the case holds them.
 import numpy as np
 
 from squeal.deck.case.groups import NODES
-from squeal.deck.journal import Fault, Missing
+from squeal.deck.journal import TRANSLATED, Fault, Missing
 from squeal.deck.model import EMPTY
 
 
@@ -15,7 +15,7 @@ class Roles:
     """`used`: components of loose nodes that equations, springs or masses use."""
 
     def __init__(self, model, case, journal):
-        self.model, self.case = model, case
+        self.model, self.case, self.journal = model, case, journal
         cells = [block.nodes.ravel() for block in model.blocks if block.shape]
         self.cell_nodes = np.unique(np.concatenate([EMPTY, *cells]))
         self.references = {}  # node -> name of its reference node
@@ -100,6 +100,7 @@ class Roles:
             if at > 2 or frame is None:
                 parts = {at: coefficient}
             else:
+                self.journal.mark(frame.source, TRANSLATED)
                 axis = frame.axes_at(self.model.nodes.at([number])[0])[at]
                 parts = {one: coefficient * axis[one] for one in range(3)}
             for one, value in parts.items():

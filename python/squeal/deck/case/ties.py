@@ -6,7 +6,7 @@ equations in the case, whose ties need faces on both sides.
 """
 import numpy as np
 
-from squeal.deck.case.groups import FACES
+from squeal.deck.case.groups import FACES, clean
 from squeal.deck.case.joints import set_equation
 from squeal.deck.case.projection import Surface
 from squeal.deck.journal import TRANSLATED, Fault
@@ -34,7 +34,7 @@ def add_ties(model, roles, case, journal, faces):
 
 
 def _tie_of_faces(tie, slave, master, case, journal, faces):
-    path = ("tie", tie.name)
+    path = ("tie", clean(tie.name))
     for key, surface in (("slave", slave), ("master", master)):
         rows = np.column_stack([surface.elements, surface.faces])
         faces.tables(rows)
@@ -77,4 +77,4 @@ def _follow(tie, number, nodes, weights, roles, case):
         terms = [(roles.name(number), component, 1.0)]
         for master, weight in zip(nodes[kept].tolist(), weights[kept]):
             terms.append((roles.name(master), component, -weight))
-        set_equation(case, f"{tie.name}_{number}_{axis}", terms, tie.source)
+        set_equation(case, f"{clean(tie.name)}_{number}_{axis}", terms, tie.source)

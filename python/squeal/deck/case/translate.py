@@ -10,6 +10,7 @@ from squeal.deck.case.joints import add_joints
 from squeal.deck.case.roles import Roles
 from squeal.deck.case.state import add_forces, add_pressures, add_supports
 from squeal.deck.case.ties import add_ties
+from squeal.deck.journal import UNUSED, USED
 
 
 def translate(model, journal):
@@ -29,6 +30,7 @@ def translate(model, journal):
     add_pressures(model, case, journal, faces)
     case.nodes = roles.cell_nodes
     _name_idle_nodes(model, roles, journal)
+    _name_idle_cards(model, journal)
     if model.prestress:
         journal.choose(
             f"{model.frequency}: the stress of the static step changes the stiffness; CalculiX also"
@@ -50,3 +52,19 @@ def _name_idle_nodes(model, roles, journal):
             f"nodes left out, since no solid element or joint has them: {len(idle)}, such as node"
             f" {idle[0]}"
         )
+
+
+def _name_idle_cards(model, journal):
+    """Materials, orientations and axes that nothing in the case refers to."""
+    sections = model.sections
+    for key, material in model.materials.items():
+        if not any(section.material == key for section in sections):
+            for source in (material.source, material.elastic, material.density_source):
+                if source is not None:
+                    journal.mark(source, UNUSED, "no section uses this material")
+    for key, frame in model.orientations.items():
+        if not any(section.orientation == key for section in sections):
+            journal.mark(frame.source, UNUSED, "no section uses this orientation")
+    for frame in model.frames.values():
+        if journal.entries[frame.source].status == USED:
+            journal.mark(frame.source, UNUSED, "no support, force or equation has these axes")

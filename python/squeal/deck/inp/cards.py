@@ -42,6 +42,14 @@ class Card:
             raise Fault(f"{name}= is missing")
         return value
 
+    def key(self, name, default=None):
+        """Returns the key of a parameter's value. Raises Fault if it is empty, or missing without a
+        default."""
+        if default is not None and name not in self.parameters:
+            return default
+        self.require(name)
+        return key_of(self.parameters[name])
+
 
 def fields_of(text):
     """Returns the fields of a line of data; a comma at its end adds none."""

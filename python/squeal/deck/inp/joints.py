@@ -45,10 +45,10 @@ def rigid_body(card, reader):
     if ("NSET" in card.parameters) == ("ELSET" in card.parameters):
         raise Fault("either NSET= or ELSET= is needed")
     if "NSET" in card.parameters:
-        label = key_of(card.require("NSET"))
+        label = card.key("NSET")
         nodes = reader.model.node_sets.members(label)
     else:
-        label = key_of(card.require("ELSET"))
+        label = card.key("ELSET")
         nodes = reader.nodes_of_elements(reader.model.element_sets.members(label))
     if not len(nodes):
         raise Fault(f"the set '{label}' is empty")
@@ -65,7 +65,7 @@ def rigid_body(card, reader):
 @handles("DISTRIBUTING COUPLING", used=("ELSET",))
 def distributing_coupling(card, reader):
     """In CalculiX the displacement of the node of DCOUP3D is the weighted mean, without moments."""
-    elements = reader.model.element_sets.members(key_of(card.require("ELSET")))
+    elements = reader.model.element_sets.members(card.key("ELSET"))
     references = reader.nodes_of_elements(elements, "DCOUP3D")
     if len(references) != 1:
         raise Fault("ELSET= must contain one element of type DCOUP3D")
@@ -84,9 +84,9 @@ def distributing_coupling(card, reader):
 
 @handles("TIE", used=("NAME", "POSITION TOLERANCE", "ADJUST"))
 def tie(card, reader):
-    name = card.value("NAME") or f"tie_{len(reader.model.ties) + 1}"
+    stem = card.value("NAME") or "tie"
     tolerance = card.value("POSITION TOLERANCE")
-    adjust = key_of(card.value("ADJUST") or "YES")
+    adjust = card.key("ADJUST", "YES")
     if adjust not in ("YES", "NO"):
         raise Fault(f"ADJUST={adjust} is not supported", "ADJUST")
     for line, fields in card.rows():
@@ -99,6 +99,10 @@ def tie(card, reader):
         if reader.model.surfaces[master].nodes is not None:
             raise Fault(f"the master surface '{master}' has no faces", line=line)
         bound = real(tolerance) if tolerance is not None else None
+        taken = {one.name for one in reader.model.ties}
+        name, number = stem, 2
+        while name in taken:
+            name, number = f"{stem}_{number}", number + 1
         reader.model.ties.append(Tie(name, slave, master, bound, adjust == "YES", card.source))
 
 
@@ -113,7 +117,7 @@ def dashpot(card, reader):
 
 
 def _joint(card, reader, what):
-    label = key_of(card.require("ELSET"))
+    label = card.key("ELSET")
     kinds = reader.kinds_of(reader.model.element_sets.members(label))
     rows = list(card.rows())
     if kinds <= {"SPRINGA", "DASHPOTA"} and len(kinds) == 1:
@@ -143,7 +147,7 @@ def _joint(card, reader, what):
 
 @handles("MASS", used=("ELSET",), lines=1)
 def mass(card, reader):
-    label = key_of(card.require("ELSET"))
+    label = card.key("ELSET")
     if reader.kinds_of(reader.model.element_sets.members(label)) != {"MASS"}:
         raise Fault(f"the elements of '{label}' are not of type MASS")
     line, fields = next(card.rows(), (None, [""]))

@@ -2,7 +2,6 @@
 """Cards of materials, sections and axes."""
 import numpy as np
 
-from squeal.deck.inp.cards import key_of
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import UNUSED, Fault
 from squeal.deck.model import Frame, Material, Section
@@ -26,7 +25,7 @@ OTHER_LAWS = {
 @handles("MATERIAL", used=("NAME",), lines=0)
 def material(card, reader):
     name = card.require("NAME")
-    key = key_of(card.parameters["NAME"])
+    key = card.key("NAME")
     if key in reader.model.materials:
         raise Fault(f"material '{name}' is defined twice")
     reader.material = reader.model.materials[key] = Material(name, card.source)
@@ -41,7 +40,7 @@ def _material(reader):
 @handles("ELASTIC", used=("TYPE",))
 def elastic(card, reader):
     one = _material(reader)
-    kind = key_of(card.value("TYPE") or "ISO")
+    kind = card.key("TYPE", "ISO")
     if kind not in LAWS:
         raise Fault(f"TYPE={kind} is not supported")
     law, count, lines = LAWS[kind]
@@ -88,14 +87,13 @@ def other_law(card, reader):
 
 @handles("SOLID SECTION", used=("ELSET", "MATERIAL", "ORIENTATION"), lines=1)
 def solid_section(card, reader):
-    label = key_of(card.require("ELSET"))
-    orientation = card.value("ORIENTATION")
+    label = card.key("ELSET")
     reader.model.sections.append(
         Section(
             reader.model.element_sets.members(label),
             label,
-            key_of(card.require("MATERIAL")),
-            orientation and key_of(orientation),
+            card.key("MATERIAL"),
+            card.key("ORIENTATION", "") or None,
             card.source,
         )
     )
@@ -122,24 +120,24 @@ def _frame(card, name, cylindrical):
 
 @handles("ORIENTATION", used=("NAME", "SYSTEM"), idle=("DEFINITION",), lines=2)
 def orientation(card, reader):
-    system = key_of(card.value("SYSTEM") or "RECTANGULAR")
+    system = card.key("SYSTEM", "RECTANGULAR")
     if system not in ("RECTANGULAR", "CYLINDRICAL"):
         raise Fault(f"SYSTEM={system} is not supported")
-    if key_of(card.value("DEFINITION") or "COORDINATES") != "COORDINATES":
+    if card.key("DEFINITION", "COORDINATES") != "COORDINATES":
         raise Fault("only DEFINITION=COORDINATES is supported", "DEFINITION")
     name = card.require("NAME")
     frame, more = _frame(card, name, system == "CYLINDRICAL")
     if any(len(fields) > 1 and real(fields[1], line) != 0 for line, fields in more):
         raise Fault("an additional rotation is not supported", line=more[0][0])
-    reader.model.orientations[key_of(card.parameters["NAME"])] = frame
+    reader.model.orientations[card.key("NAME")] = frame
 
 
 @handles("TRANSFORM", used=("NSET", "TYPE"), lines=1)
 def transform(card, reader):
-    kind = key_of(card.value("TYPE") or "R")
+    kind = card.key("TYPE", "R")
     if kind not in ("R", "C"):
         raise Fault(f"TYPE={kind} is not supported")
-    label = key_of(card.require("NSET"))
+    label = card.key("NSET")
     number = 1 + len({frame.name for frame in reader.model.frames.values()})
     frame, _ = _frame(card, f"transform_{number}", kind == "C")
     for one in reader.model.node_sets.members(label):

@@ -62,7 +62,7 @@ def _slow_nodes(card, reader):
 
 @handles("ELEMENT", used=("TYPE", "ELSET"), phase=0)
 def element(card, reader):
-    kind = key_of(card.require("TYPE"))
+    kind = card.key("TYPE")
     if kind not in SOLIDS and kind not in DISCRETE:
         reason = ADVICE.get(kind, "elements of this type are not supported")
         count = sum(1 for _ in card.data)
@@ -73,7 +73,10 @@ def element(card, reader):
     shape = SOLIDS.get(kind)
     size = shape.size if shape else DISCRETE[kind]
     table = _records(card, size)
-    reader.model.blocks.append(Block(kind, shape, table[:, 0], table[:, 1:], card.source))
+    if len(table):
+        reader.model.blocks.append(Block(kind, shape, table[:, 0], table[:, 1:], card.source))
+    else:
+        reader.journal.mark(card.source, UNUSED, "there are no lines of data")
     _define(card, reader, "ELSET", reader.model.element_sets, table[:, 0])
 
 
@@ -165,7 +168,7 @@ def _define(card, reader, parameter, sets, numbers):
 @handles("SURFACE", used=("NAME", "TYPE"), phase=1)
 def surface(card, reader):
     name = card.require("NAME")
-    kind = key_of(card.value("TYPE") or "ELEMENT")
+    kind = card.key("TYPE", "ELEMENT")
     if kind not in ("ELEMENT", "NODE"):
         raise Fault(f"TYPE={kind} is not supported")
     parts, faces = [], []
@@ -178,7 +181,7 @@ def surface(card, reader):
         elements = reader.elements_of(fields[0], line)
         parts.append(elements)
         faces.append(np.full(len(elements), face_number(fields[1], "S", line)))
-    key = key_of(card.parameters["NAME"])
+    key = card.key("NAME")
     if key in reader.model.surfaces:
         raise Fault(f"surface '{name}' is defined twice")
     numbers = np.concatenate([EMPTY, *parts])
@@ -221,7 +224,7 @@ def generated_nodes(card, reader):
 
 @handles("INITIAL CONDITIONS", used=("TYPE",))
 def initial_conditions(card, reader):
-    if key_of(card.require("TYPE")) != "TEMPERATURE":
+    if card.key("TYPE") != "TEMPERATURE":
         raise Fault(f"TYPE={card.value('TYPE')} is not supported")
     reader.journal.mark(card.source, UNUSED, "no temperatures: a card that gives one is refused")
 

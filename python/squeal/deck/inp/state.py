@@ -18,7 +18,7 @@ SYMMETRIES = {
 
 def _clear_if_new(card, reader, *tables):
     """OP=NEW on the first card of a kind in a step removes what earlier steps have left."""
-    operation = key_of(card.value("OP") or "MOD")
+    operation = card.key("OP", "MOD")
     if operation not in ("MOD", "NEW"):
         raise Fault(f"OP={operation} is not supported")
     kind = "DLOAD" if card.keyword == "DSLOAD" else card.keyword

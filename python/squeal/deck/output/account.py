@@ -3,6 +3,7 @@
 import numpy as np
 
 from squeal.deck.case.groups import CELLS, FACES, NODES
+from squeal.deck.journal import Fault
 
 
 def write_account(path, model, case, journal, dialect):
@@ -20,11 +21,7 @@ def write_account(path, model, case, journal, dialect):
 
 
 def _outcome(journal, dialect):
-    counts = {}
-    for entry in journal.entries.values():
-        counts[entry.status] = counts.get(entry.status, 0) + 1
-    words = ", ".join(f"{count} {status}" for status, count in counts.items())
-    lines = [f"Read as a deck of {dialect.name}. Cards: {words}.", ""]
+    lines = [f"Read as a deck of {dialect.name}. Cards: {journal.counted()}.", ""]
     if journal.refusals:
         lines += ["The deck cannot be translated:", ""]
         lines += [f"- {refusal}" for refusal in journal.refusals]
@@ -68,7 +65,7 @@ def _sets(model):
         for key in sets:
             try:
                 members = sets.members(key)
-            except Exception as fault:  # refused where it is used
+            except Fault as fault:  # refused where it is used
                 lines.append(f"| {what} | {_cell(sets.spelled[key])} | {_cell(str(fault))} | |")
                 continue
             missing = int(np.sum(~exist(members))) if len(members) else 0
