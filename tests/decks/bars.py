@@ -2,20 +2,24 @@
 """Decks of a skewed bar, made here for cards that the decks of CalculiX's package do not have."""
 import numpy as np
 
-CELLS = (2, 2, 4)
+
+def _skewed(x, y, z):
+    return x + 0.05 * y * z, y - 0.04 * x * z, z + 0.1 * x - 0.1 * y * x
 
 
-def _points():
-    """Returns the numbers and places of the nodes of hexahedra with 20 nodes, and the elements."""
-    counts = [2 * count + 1 for count in CELLS]
+def grid(cells, size, place, first=1):
+    """Returns the numbers of the nodes of hexahedra with 20 nodes by their indices (two per cell),
+    their places, and the nodes of the elements. `size`: of the box before `place` maps its points;
+    `first`: number of the first node."""
+    counts = [2 * count + 1 for count in cells]
     number, places, elements = {}, [], []
     for k in range(counts[2]):
         for j in range(counts[1]):
             for i in range(counts[0]):
                 if (i % 2) + (j % 2) + (k % 2) <= 1:
-                    number[i, j, k] = len(number) + 1
-                    x, y, z = i / 4, j / 4, k / 2
-                    places.append((x + 0.05 * y * z, y - 0.04 * x * z, z + 0.1 * x - 0.1 * y * x))
+                    number[i, j, k] = first + len(number)
+                    part = [at / (2 * count) for at, count in zip((i, j, k), cells)]
+                    places.append(place(*(one * length for one, length in zip(part, size))))
     corners = [
         (0, 0, 0),
         (2, 0, 0),
@@ -30,11 +34,10 @@ def _points():
     local = corners + [
         tuple((np.array(corners[int(a)]) + np.array(corners[int(b)])) // 2) for a, b in edges
     ]
-    for k in range(CELLS[2]):
-        for j in range(CELLS[1]):
-            for i in range(CELLS[0]):
-                row = [number[2 * i + a, 2 * j + b, 2 * k + c] for a, b, c in local]
-                elements.append(row)
+    for k in range(cells[2]):
+        for j in range(cells[1]):
+            for i in range(cells[0]):
+                elements.append([number[2 * i + a, 2 * j + b, 2 * k + c] for a, b, c in local])
     return number, places, elements
 
 
@@ -43,28 +46,60 @@ def _lines(numbers, width=10):
     return [", ".join(words[at : at + width]) + "," for at in range(0, len(words), width)]
 
 
-def mesh(kind="C3D20"):
-    """Returns the cards of the mesh: node sets ROOT, TIP, INSIDE; element sets LOW, HIGH, ALL; the
-    surface CAP of the faces at the tip."""
-    number, places, elements = _points()
+def _cards(number, places, elements, first=1, kind="C3D20"):
+    """Returns the lines of nodes and elements; `first`: number of the first element."""
     lines = ["*NODE, NSET=NODES"]
-    lines += [f"{at}, {x!r}, {y!r}, {z!r}" for at, (x, y, z) in enumerate(places, 1)]
+    lines += [f"{at}, {x!r}, {y!r}, {z!r}" for at, (x, y, z) in zip(number.values(), places)]
     lines += [f"*ELEMENT, TYPE={kind}, ELSET=ALL"]
-    for at, row in enumerate(elements, 1):
+    for at, row in enumerate(elements, first):
         lines += _lines([at, *row])
-    last = 2 * CELLS[2]
-    for name, chosen in (
-        ("ROOT", lambda i, j, k: k == 0),
-        ("TIP", lambda i, j, k: k == last),
-        ("SIDE", lambda i, j, k: i == 0 and k > 0),
-    ):
-        lines += [f"*NSET, NSET={name}", *_lines(n for at, n in number.items() if chosen(*at))]
+    return lines
+
+
+def _set(name, number, chosen):
+    """Returns the lines of a set of the nodes whose indices are chosen."""
+    return [f"*NSET, NSET={name}", *_lines(one for at, one in number.items() if chosen(*at))]
+
+
+def mesh(kind="C3D20"):
+    """Returns the cards of the mesh: node sets ROOT, TIP, SIDE; element sets LOW, HIGH, END, ALL;
+    the surface CAP of the faces at the tip."""
+    number, places, elements = grid((2, 2, 4), (1, 1, 4), _skewed)
+    lines = _cards(number, places, elements, kind=kind)
+    lines += _set("ROOT", number, lambda i, j, k: k == 0)
+    lines += _set("TIP", number, lambda i, j, k: k == 8)
+    lines += _set("SIDE", number, lambda i, j, k: i == 0 and k > 0)
     half = len(elements) // 2
     lines += ["*ELSET, ELSET=LOW, GENERATE", f"1, {half}"]
     lines += ["*ELSET, ELSET=HIGH, GENERATE", f"{half + 1}, {2 * half}"]
     lines += ["*ELSET, ELSET=END, GENERATE", f"{2 * half - 3}, {2 * half}"]
     lines += ["*SURFACE, NAME=CAP", "END, S2"]
     return "\n".join(lines) + "\n"
+
+
+def tied(gap, words="", left=0.02):
+    """Returns the deck of two bars whose faces meet with different cells, curved like a saddle, with
+    a gap, a function of x and y. The nodes of the upper bar, which begins at x = left, are tied to
+    faces of the lower one."""
+
+    def saddle(x, y, z):
+        return x, y, z + 0.05 * (x - 0.4) ** 2 - 0.08 * x * y
+
+    number, places, elements = grid((2, 2, 2), (1, 1, 2), saddle)
+    lines = _cards(number, places, elements) + _set("ROOT", number, lambda i, j, k: k == 0)
+    lines += ["*SURFACE, NAME=LOWER", *(f"{at}, S2" for at in range(5, 9))]
+
+    def above(x, y, z):
+        x, y, z = saddle(left + 0.95 * x, 0.01 + 0.96 * y, z)
+        return x, y, z + 2 + gap(x, y)
+
+    number, places, elements = grid((3, 1, 1), (1, 1, 1), above, 501)
+    lines += _cards(number, places, elements, 101)
+    lines += _set("FEET", number, lambda i, j, k: k == 0)
+    lines += _set("TIP", number, lambda i, j, k: k == 2)
+    lines += ["*SURFACE, NAME=UPPER, TYPE=NODE", "FEET", f"*TIE, NAME=GLUE{words}", "UPPER, LOWER"]
+    step = f"*STEP\n*STATIC\n{PULL}*END STEP\n"
+    return "\n".join(lines) + "\n" + STEEL + SECTION + ROOT + step + FREQUENCY
 
 
 STEEL = """*MATERIAL, NAME=STEEL
@@ -139,4 +174,9 @@ DECKS = {
         "*DLOAD\nLOW, CENTRIF, 1.E6, 0., 0., 0., 0., 1., 0.\n"
         "HIGH, CENTRIF, 4.E6, 1., 0., 0., 0., 0.6, 0.8\n",
     ),
+    "tie of nodes to a saddle": tied(lambda x, y: 0.0),
+    "tie of nodes, some of them too far away": tied(lambda x, y: 0.001 + 0.002 * x + 0.001 * y),
+    "tie of nodes, not moved": tied(lambda x, y: 0.002, ", ADJUST=NO"),
+    "tie of nodes beyond the edge": tied(lambda x, y: 0.001, "", -0.0015),
+    "tie of nodes with a tolerance": tied(lambda x, y: 0.1, ", POSITION TOLERANCE=0.2"),
 }

@@ -284,9 +284,10 @@ class Joints(unittest.TestCase):
         self.assertEqual(options["tie"], {"A_B": first, "A_B_2": {"slave": "DOWN", "master": "UP"}})
 
     def test_nodes_tied_to_faces(self):
-        """A node 0.01 above the top at (0.25, 0.5) follows it with the weights of the bilinear
-        functions, 0.75 · 0.5 and so on, and is moved onto it; one at 0.2 stays free."""
-        brick = "*NODE\n41, 0.25, 0.5, 1.01\n42, 0.75, 0.5, 1.2\n"
+        """A node 0.005 above the top at (0.25, 0.5) follows it with the weights of the bilinear
+        functions, 0.75 · 0.5 and so on, and is moved onto it; one at 0.2 stays free. CalculiX's tolerance is here 0.0071.
+        """
+        brick = "*NODE\n41, 0.25, 0.5, 1.005\n42, 0.75, 0.5, 1.2\n"
         brick += "43, .75, 1.5, 1.2\n44, .25, 1.5, 1.2\n"
         brick += "*ELEMENT, TYPE=C3D4, ELSET=CUBE\n2, 41, 42, 43, 44\n"
         tie = "*SURFACE, NAME=UP\nCUBE1, S2\n*ELSET, ELSET=CUBE1\n1\n*NSET, NSET=N\n41, 42\n"
@@ -305,7 +306,7 @@ class Joints(unittest.TestCase):
         self.assertIn("| T | 1 | 1 |", one.account)
         one = Imported(cube(brick + tie.format(", ADJUST=NO, POSITION TOLERANCE=0.3"), ""))
         self.assertEqual(len(one.options["equation"]), 6)
-        self.assertEqual(one.coordinates[list(one.nodes).index(41)].tolist(), [0.25, 0.5, 1.01])
+        self.assertEqual(one.coordinates[list(one.nodes).index(41)].tolist(), [0.25, 0.5, 1.005])
 
 
 class Account(unittest.TestCase):

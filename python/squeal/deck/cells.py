@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Solid cells: gmsh's types, the order of their nodes, and their faces.
 
-The node order is that of Abaqus and CalculiX, with nodes counted from 0; FACES are in the order of
-their labels S1, S2, … and point outwards.
+The node order is that of Abaqus and CalculiX, with nodes counted from 0. Faces are in the order of
+their labels S1, S2, …; their nodes go around as seen from outside, from the first node of CalculiX.
 """
 from dataclasses import dataclass, field
 
-HEXAHEDRON = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
-TETRAHEDRON = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))
+HEXAHEDRON = ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+TETRAHEDRON = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
 WEDGE = ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
 HEXAHEDRON_EDGES = (
     *((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)),

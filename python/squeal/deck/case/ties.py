@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Ties of a case: of two surfaces, or of nodes and a surface.
 
-Nodes are tied one by one, as CalculiX does: each follows its foot on the master face. These are
-equations in the case, whose ties need faces on both sides.
+Nodes are tied one by one, as CalculiX does: each follows the nearest point of its master face.
+These are equations in the case, whose ties need faces on both sides. A node is tied if its distance
+from the plane of a triangle of a face is within POSITION TOLERANCE, and if it lies beside this
+triangle by no more than the default of that.
 """
 import numpy as np
 
 from squeal.deck.case.groups import FACES, clean
 from squeal.deck.case.joints import set_equation
-from squeal.deck.case.projection import Surface
+from squeal.deck.case.projection import Surface, project
 from squeal.deck.journal import TRANSLATED, Fault
 
-TOLERANCE = 0.025  # of the typical size of a master face
+TOLERANCE = 0.025  # of the typical size of the master faces; the measured one of CalculiX 2.20
 
 
 def add_ties(model, roles, case, journal, faces):
@@ -53,16 +55,17 @@ def _tie_of_nodes(tie, slave, master, model, roles, case, faces):
     if not nodes:
         raise Fault("the master surface has no faces")
     surface = Surface([model.nodes.at(one) for one in nodes])
-    bound = TOLERANCE * surface.size if tie.tolerance is None else tie.tolerance
+    beside = TOLERANCE * surface.size
+    bound = beside if tie.tolerance is None else tie.tolerance
     tied = 0
     for number in slave.nodes.tolist():
         roles.place(number, 0)
-        foot = surface.foot(model.nodes.at([number])[0])
-        if foot is None or foot[3] > bound:
+        point = model.nodes.at([number])[0]
+        found = surface.face_of(point, beside)
+        if found is None or found[1] > bound or number in nodes[found[0]]:
             continue
-        face, weights, place, _ = foot
-        if number in nodes[face]:
-            continue
+        face, _ = found
+        weights, place = project(point, surface.faces[face])
         tied += 1
         if tie.adjust:
             model.nodes.move(number, place)
