@@ -78,9 +78,9 @@ def mesh(kind="C3D20"):
 
 
 def tied(gap, words="", left=0.02):
-    """Returns the deck of two bars whose faces meet with different cells, curved like a saddle, with
-    a gap, a function of x and y. The nodes of the upper bar, which begins at x = left, are tied to
-    faces of the lower one."""
+    """Returns the deck of two bars whose faces meet with different cells, curved like a saddle,
+    with a gap, a function of x and y. The nodes of the upper bar, which begins at x = left, are
+    tied to faces of the lower one."""
 
     def saddle(x, y, z):
         return x, y, z + 0.05 * (x - 0.4) ** 2 - 0.08 * x * y
@@ -122,6 +122,7 @@ def deck(model, step="", sections=STEEL + SECTION, held=ROOT, after=FREQUENCY):
 LOOSE = "*NODE\n900, 0.3, 0.4, 5.\n901, 0.3, 0.4, 5.\n902, 2., 0.4, 3.\n903, 0.3, 0.4, 6.\n"
 TURNED = "*TRANSFORM, NSET=TIP, TYPE=R\n0.6, 0.8, 0., -0.8, 0.6, 0.\n"
 ROUND = "*TRANSFORM, NSET=SIDE, TYPE=C\n-3., 0., 0., -3., 0.1, 2.\n"
+COUPLING = LOOSE + "*COUPLING, REF NODE=900, SURFACE=CAP, CONSTRAINT NAME=JOINT{}\n"
 CONSTANTS = """*MATERIAL, NAME=WOOD
 *ELASTIC, TYPE=ENGINEERING CONSTANTS
 13000., 900., 600., 0.4, 0.35, 0.45, 800., 700.,
@@ -156,6 +157,28 @@ DECKS = {
         after="",
     ),
     "rigid tip, free": deck(LOOSE + "*RIGID BODY, NSET=TIP, REF NODE=900, ROT NODE=901\n"),
+    "coupling with a moment": deck(
+        COUPLING.format("") + "*KINEMATIC\n1, 3\n", "*CLOAD\n900, 1, 5.\n900, 5, 7.\n"
+    ),
+    "coupling of some components": deck(
+        COUPLING.format("") + "*KINEMATIC\n1\n3, 3\n",
+        "*CLOAD\n900, 1, 5.\n*BOUNDARY\n900, 4, 5\n900, 6, 6, 0.01\n",
+        after="",
+    ),
+    "coupling in turned axes": deck(
+        "*ORIENTATION, NAME=TURNED\n0.6, 0.8, 0., -0.8, 0.6, 0.\n"
+        + COUPLING.format(", ORIENTATION=TURNED")
+        + "*KINEMATIC\n1, 1\n",
+        "*CLOAD\n900, 1, 5.\nTIP, 2, 1.\n*BOUNDARY\n900, 2, 6\n",
+        after="",
+    ),
+    "coupling in cylindrical axes": deck(
+        "*ORIENTATION, NAME=ROUND, SYSTEM=CYLINDRICAL\n-1., 0., 0., -1., 0., 1.\n"
+        + COUPLING.format(", ORIENTATION=ROUND")
+        + "*KINEMATIC\n1, 2\n",
+        "*CLOAD\n900, 1, 5.\nTIP, 2, 1.\n*BOUNDARY\n900, 2, 6\n",
+        after="",
+    ),
     "equations with a node outside": deck(
         TURNED + LOOSE + "*NSET, NSET=ONE\n2\n*EQUATION\n"
         "3\n902, 1, 2., 90, 2, -1., 60, 1, 0.5\n2\n903, 3, 1., 902, 1, -3.\n",

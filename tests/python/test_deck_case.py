@@ -239,6 +239,26 @@ class Joints(unittest.TestCase):
         held = {"clamped_rotation": "z", "angle": "0.0,0.0,0.1"}
         self.assertEqual(options["constraint"]["reference_20"], held)
 
+    def test_couplings(self):
+        card = "*SURFACE, NAME=UP\nCUBE, S2\n"
+        card += "*COUPLING, REF NODE=20, SURFACE=UP, CONSTRAINT NAME=HUB{}\n"
+        axes = "*ORIENTATION, NAME=AXES, SYSTEM=CYLINDRICAL\n0., 0., 0., 0., 0., 2.\n"
+        text = self.LOOSE + axes + card.format(", ORIENTATION=AXES") + "*KINEMATIC\n1\n3, 3\n"
+        options = Imported(cube(text, "*CLOAD\n20, 5, 4.\n*BOUNDARY\n20, 6\n")).options
+        wanted = {"reference": "reference_20", "nodes": "UP", "components": "xz", "frame": "AXES"}
+        self.assertEqual(options["coupling"], {"HUB": wanted})
+        self.assertEqual(options["frame"]["AXES"]["axis"], "0.0,0.0,2.0")
+        self.assertEqual(options["load"], {"reference_20": {"moment": "0.0,4.0,0.0"}})
+        self.assertEqual(options["constraint"]["reference_20"], {"clamped_rotation": "z"})
+        text = cube(self.LOOSE + card.format("") + "*KINEMATIC\n1\n3, 3\n")
+        self.assertEqual(Imported(text).options["constraint"]["reference_20"], {"clamped": "y"})
+        rows = refused(cube(self.LOOSE + card.format("") + "*DISTRIBUTING\n1, 3\n"))
+        self.assertIn("*DISTRIBUTING: CalculiX distributes", rows[0])
+        (row,) = refused(cube(self.LOOSE + card.format("")))
+        self.assertIn("*COUPLING: no *KINEMATIC follows", row)
+        rows = refused(cube(self.LOOSE + card.format("") + "*KINEMATIC\n1, 6\n"))
+        self.assertIn("*KINEMATIC: components are 1 to 3", rows[1])
+
     def test_a_distributing_coupling_is_a_mean(self):
         cards = "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n9, 20\n"
         cards += "*DISTRIBUTING COUPLING, ELSET=D\n5, 1.\n6, 3.\n"
@@ -340,7 +360,7 @@ class Account(unittest.TestCase):
             {
                 "*MATERIAL, NAME=SPARE": "no section uses this material",
                 "*ELASTIC": "no section uses this material",
-                "*ORIENTATION, NAME=SPARE": "no section uses this orientation",
+                "*ORIENTATION, NAME=SPARE": "nothing uses this orientation",
                 "*TRANSFORM, NSET=TOP": "no support, force or equation has these axes",
             },
         )

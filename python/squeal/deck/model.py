@@ -204,13 +204,20 @@ class Equation:
 
 @dataclass
 class Rigid:
-    """A rigid body: `reference` moves with it, the components of `rotation` are its rotation."""
+    """Nodes that move with a reference node as a rigid body, along some components of the axes of
+    `frame` (None: global). The components of the node `rotation` are its rotation, if there is such
+    a node; components 4 to 6 of the reference node always are. `surface`: the nodes are those of a
+    surface of this key, otherwise of the set `label`. `name`: of a coupling, None for a body."""
 
-    nodes: np.ndarray
     label: str
+    nodes: np.ndarray
     reference: int
-    rotation: int
     source: Source
+    rotation: int = None
+    name: str = None
+    surface: str = None
+    components: tuple = (0, 1, 2)
+    frame: Frame = None
 
 
 @dataclass

@@ -40,6 +40,17 @@ class Case:
             self.groups[dimension][name] = members
         return self._names[identity]
 
+    def frame(self, frame):
+        """Sets the options of axes of the model, and returns their name."""
+        path = ("frame", clean(frame.name))
+        if frame.cylindrical:
+            self.set((*path, "origin"), frame.a, frame.source)
+            self.set((*path, "axis"), frame.b - frame.a, frame.source)
+        else:
+            self.set((*path, "x"), frame.a, frame.source)
+            self.set((*path, "xy"), frame.b, frame.source)
+        return path[1]
+
     def free_name(self, wanted, dimension):
         """Returns a name that no group has; of a blank it makes an underscore."""
         taken = set().union(*self.groups.values())

@@ -2,16 +2,17 @@
 """Equations, rigid bodies, couplings, springs, dashpots and masses of a case."""
 import numpy as np
 
-from squeal.deck.case.groups import NODES, text_of
+from squeal.deck.case.groups import NODES, clean, text_of
 from squeal.deck.case.roles import elements_in
 from squeal.deck.journal import TRANSLATED, Fault, Missing
 
 COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
 
 
-def add_joints(model, roles, case, journal):
-    """A fault of one joint does not keep the others from being translated."""
-    places = Numbered()
+def add_joints(model, roles, case, journal, faces):
+    """`faces`: the object that looks faces of elements up. A fault of one joint does not keep the
+    others from being translated."""
+    places = Numbered(faces)
     for translate, joints in (
         (_equation, model.equations),
         (_mean, model.means),
@@ -38,7 +39,8 @@ def add_joints(model, roles, case, journal):
 class Numbered:
     """Names with the line of their card, and a number if a card gives several; masses by node."""
 
-    def __init__(self):
+    def __init__(self, faces):
+        self.faces = faces
         self.counts = {}
         self.masses = {}
 
@@ -77,20 +79,43 @@ def _mean(mean, model, roles, case, places):
 
 
 def _rigid(rigid, model, roles, case, places):
+    if not rigid.components:
+        return  # refused with its role
+    numbers, wanted = _coupled_nodes(rigid, model, places.faces)
     name = roles.references[rigid.reference]
-    inside = [number for number in rigid.nodes.tolist() if roles.in_cells(number)]
+    inside = [number for number in numbers if roles.in_cells(number)]
     others = [
         roles.references[number]
-        for number in rigid.nodes.tolist()
-        if number in roles.references and number != rigid.reference and number not in inside
+        for number in numbers
+        if number in roles.references and number != rigid.reference and not roles.in_cells(number)
     ]
     if not inside and not others:
         raise Missing("none of its nodes belongs to an element that is translated")
-    sets = model.node_sets if rigid.label in model.node_sets else model.element_sets
-    nodes = [case.group(NODES, inside, sets.spelled[rigid.label])] if inside else []
+    nodes = [case.group(NODES, inside, wanted)] if inside else []
     case.set(("reference", name, "position"), model.nodes.at([rigid.reference])[0], rigid.source)
-    case.set(("coupling", name, "reference"), name, rigid.source)
-    case.set(("coupling", name, "nodes"), ",".join(nodes + others), rigid.source)
+    path = ("coupling", clean(rigid.name) if rigid.name else name)
+    case.set((*path, "reference"), name, rigid.source)
+    case.set((*path, "nodes"), ",".join(nodes + others), rigid.source)
+    if len(rigid.components) < 3:
+        letters = "".join("xyz"[component] for component in rigid.components)
+        case.set((*path, "components"), letters, rigid.source)
+    if rigid.frame is not None and len(rigid.components) < 3:
+        case.set((*path, "frame"), case.frame(rigid.frame), rigid.source)
+
+
+def _coupled_nodes(rigid, model, faces):
+    """Returns the nodes of a rigid body or of a coupling, and a name for their group."""
+    if rigid.surface is None:
+        sets = model.node_sets if rigid.label in model.node_sets else model.element_sets
+        return rigid.nodes.tolist(), sets.spelled[rigid.label]
+    surface = model.surfaces[rigid.surface]
+    if surface.nodes is not None:
+        return surface.nodes.tolist(), surface.name
+    rows = np.column_stack([surface.elements, surface.faces])
+    tables = [table.ravel() for _, table in faces.tables(rows)]
+    if not tables:
+        raise Fault(f"the surface '{surface.name}' has no faces")
+    return np.unique(np.concatenate(tables)).tolist(), surface.name
 
 
 def _joint(joint, model, roles, case, places):

@@ -12,7 +12,8 @@ from squeal.deck.model import EMPTY
 
 
 class Roles:
-    """`used`: components of loose nodes that equations, springs or masses use."""
+    """`used`: components of loose nodes that equations, springs or masses use; `joined`: those of
+    the reference nodes of rigid bodies and couplings."""
 
     def __init__(self, model, case, journal):
         self.model, self.case, self.journal = model, case, journal
@@ -20,13 +21,15 @@ class Roles:
         self.cell_nodes = np.unique(np.concatenate([EMPTY, *cells]))
         self.references = {}  # node -> name of its reference node
         self.rotations = {}  # node whose components are rotations -> name of that reference node
-        self.used = {}
+        self.used, self.joined = {}, {}
         for rigid in model.rigid:
             try:
                 self._rigid(rigid)
             except Fault as fault:
                 journal.refuse_fault(rigid.source, fault)
         for number, component in self._uses():
+            if number in self.joined:
+                self.joined[number].update(range(3) if number in model.frames else {component})
             if self.is_used(number) and number not in self.used or not model.nodes.has(number):
                 continue
             self.used.setdefault(number, set()).update(
@@ -35,9 +38,14 @@ class Roles:
             self.references[number] = f"reference_{number}"
 
     def _rigid(self, rigid):
-        if rigid.reference in self.references:
+        others = [one for one in self.model.rigid if one.reference == rigid.reference]
+        if rigid.name is None and others[0] is not rigid:
             raise Fault(f"node {rigid.reference} is the REF NODE of two rigid bodies")
+        if not rigid.components:
+            raise Fault("no *KINEMATIC follows this card")
         name = self.references[rigid.reference] = f"reference_{rigid.reference}"
+        joined = range(3) if rigid.frame is not None else rigid.components
+        self.joined.setdefault(rigid.reference, {3, 4, 5}).update(joined)
         if rigid.rotation is not None:
             if rigid.rotation in self.rotations or rigid.rotation in self.references:
                 raise Fault(f"node {rigid.rotation} has two roles in rigid bodies")

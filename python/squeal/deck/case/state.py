@@ -42,15 +42,8 @@ class Places:
         frame = self.roles.model.frames.get(number)
         if frame is None:
             return None
-        path = ("frame", frame.name)
-        if frame.cylindrical:
-            self.case.set((*path, "origin"), frame.a, frame.source)
-            self.case.set((*path, "axis"), frame.b - frame.a, frame.source)
-        else:
-            self.case.set((*path, "x"), frame.a, frame.source)
-            self.case.set((*path, "xy"), frame.b, frame.source)
         self.journal.mark(frame.source, "translated")
-        return frame.name
+        return self.case.frame(frame)
 
     def groups(self, default):
         """Yields name, number of nodes, frame and {component: Value} of groups of nodes with equal
@@ -82,18 +75,19 @@ def add_supports(model, roles, case, journal):
     places.add(model.state.supports, unused)
     for name, _, frame, values in places.groups("held"):
         _hold(case, name, frame, values, ("clamped", "displacement"), range(3))
-    for number, used in roles.used.items():
+    loose = {}
+    for number, used in (*roles.used.items(), *roles.joined.items()):
+        loose[roles.references[number]] = used
         places.references.setdefault(roles.references[number], ({}, places.frame(number)))
-    loose = {roles.references[number]: used for number, used in roles.used.items()}
     for name, (values, frame) in places.references.items():
-        free = [at for at in range(6) if at not in values and at not in loose.get(name, range(6))]
+        free = [at for at in range(6) if at not in values and at not in loose[name]]
         held = {**values, **dict.fromkeys(free)}
         _hold(case, name, frame, held, ("clamped", "displacement"), range(3))
         _hold(case, name, frame, held, ("clamped_rotation", "angle"), range(3, 6))
         if free:
             journal.choose(
-                f"{name} is a node outside the cells: its components"
-                f" {', '.join(str(at + 1) for at in free)}, which nothing joins, are held"
+                f"{name}: nothing joins the components"
+                f" {', '.join(str(at + 1) for at in free)}; they are held"
             )
 
 

@@ -24,7 +24,7 @@ def translate(model, journal):
     add_bodies(model, case, journal)
     roles = Roles(model, case, journal)
     case.ties = add_ties(model, roles, case, journal, faces)
-    add_joints(model, roles, case, journal)
+    add_joints(model, roles, case, journal, faces)
     add_supports(model, roles, case, journal)
     add_forces(model, roles, case, journal)
     add_pressures(model, case, journal, faces)
@@ -63,8 +63,9 @@ def _name_idle_cards(model, journal):
                 if source is not None:
                     journal.mark(source, UNUSED, "no section uses this material")
     for key, frame in model.orientations.items():
-        if not any(section.orientation == key for section in sections):
-            journal.mark(frame.source, UNUSED, "no section uses this orientation")
+        coupled = any(one.frame is frame for one in model.rigid)
+        if not coupled and not any(section.orientation == key for section in sections):
+            journal.mark(frame.source, UNUSED, "nothing uses this orientation")
     for frame in model.frames.values():
         if journal.entries[frame.source].status == USED:
             journal.mark(frame.source, UNUSED, "no support, force or equation has these axes")

@@ -59,7 +59,54 @@ def rigid_body(card, reader):
     if rotation is not None:
         rotation = integer(rotation)
     reader.model.nodes.at([reference])
-    reader.model.rigid.append(Rigid(nodes, label, reference, rotation, card.source))
+    reader.model.rigid.append(Rigid(label, nodes, reference, card.source, rotation))
+
+
+@handles(
+    "COUPLING", used=("REF NODE", "SURFACE", "CONSTRAINT NAME", "ORIENTATION"), idle=(), lines=0
+)
+def coupling(card, reader):
+    """Completed by *KINEMATIC."""
+    name, surface = card.require("CONSTRAINT NAME"), card.key("SURFACE")
+    if surface not in reader.model.surfaces:
+        raise Fault(f"there is no surface '{surface}'")
+    frame = None
+    if "ORIENTATION" in card.parameters:
+        frame = reader.model.orientations.get(card.key("ORIENTATION"))
+        if frame is None:
+            raise Fault(f"there is no orientation '{card.key('ORIENTATION')}' before this card")
+    reference = integer(card.require("REF NODE"))
+    reader.model.nodes.at([reference])
+    reader.model.rigid.append(
+        Rigid(surface, None, reference, card.source, None, name, surface, (), frame)
+    )
+
+
+@handles("KINEMATIC")
+def kinematic(card, reader):
+    one = reader.model.rigid[-1] if reader.model.rigid else None
+    if one is None or one.name is None or one.components:
+        raise Fault("this card belongs after *COUPLING")
+    components = set()
+    for line, fields in card.rows():
+        first = integer(fields[0], line)
+        last = integer(fields[1], line) if len(fields) > 1 and fields[1] else first
+        if not 1 <= first <= last <= 3:
+            raise Fault("components are 1 to 3; rotations follow from them", line=line)
+        components.update(range(first - 1, last))
+    if not components:
+        raise Fault("there is no line of components")
+    one.components = tuple(sorted(components))
+
+
+@handles("DISTRIBUTING", idle=None)
+def distributing(card, reader):
+    if reader.model.rigid and reader.model.rigid[-1].name and not reader.model.rigid[-1].components:
+        reader.model.rigid.pop()
+    raise Fault(
+        "CalculiX distributes forces over the surface by areas, and its reference node does not"
+        " move; this is not supported"
+    )
 
 
 @handles("DISTRIBUTING COUPLING", used=("ELSET",))
