@@ -305,8 +305,8 @@ class Joints(unittest.TestCase):
 
     def test_nodes_tied_to_faces(self):
         """A node 0.005 above the top at (0.25, 0.5) follows it with the weights of the bilinear
-        functions, 0.75 · 0.5 and so on, and is moved onto it; one at 0.2 stays free. CalculiX's tolerance is here 0.0071.
-        """
+        functions, 0.75 · 0.5 and so on, and is moved onto it; one at 0.2 stays free. The tolerance
+        of CalculiX is here 0.0071."""
         brick = "*NODE\n41, 0.25, 0.5, 1.005\n42, 0.75, 0.5, 1.2\n"
         brick += "43, .75, 1.5, 1.2\n44, .25, 1.5, 1.2\n"
         brick += "*ELEMENT, TYPE=C3D4, ELSET=CUBE\n2, 41, 42, 43, 44\n"
