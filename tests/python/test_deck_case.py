@@ -365,6 +365,14 @@ class Account(unittest.TestCase):
             },
         )
 
+    def test_cards_without_effect(self):
+        more = "*CONTROLS, PARAMETERS=FIELD\n0.005,\n*DAMPING, ALPHA=1., BETA=0.\n"
+        one = Imported(cube(more + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n"))
+        for card in ("CONTROLS", "DAMPING", "INITIAL CONDITIONS"):
+            self.assertEqual(one.remarks(card)[0], "not used")
+        (row,) = refused(cube("*INITIAL CONDITIONS, TYPE=STRESS\n1, 1, 0., 0., 0., 0., 0., 0.\n"))
+        self.assertIn("TYPE=STRESS is not supported", row)
+
     def test_names_of_ignore_that_meet_nothing(self):
         with self.assertRaisesRegex(DeckError, "--ignore PLASTIC: .* has nothing of this name"):
             Imported(cube(), ignored=["PLASTIC"])

@@ -229,7 +229,16 @@ def initial_conditions(card, reader):
     reader.journal.mark(card.source, UNUSED, "no temperatures: a card that gives one is refused")
 
 
-@handles("HEADING", "PHYSICAL CONSTANTS", "AMPLITUDE", idle=None)
+WITHOUT_EFFECT = {
+    "HEADING": "",
+    "PHYSICAL CONSTANTS": "temperatures and gravitation between masses are refused",
+    "AMPLITUDE": "a load that refers to it is refused",
+    "CONTROLS": "this program has its own tolerances",
+    "DAMPING": "without effect on *STATIC and *FREQUENCY of CalculiX; damping of the case are the"
+    " options -material_<group>_rayleigh_mass and _rayleigh_stiffness",
+}
+
+
+@handles(*WITHOUT_EFFECT, idle=None)
 def without_effect(card, reader):
-    remark = {"AMPLITUDE": "a load that refers to it is refused"}.get(card.keyword, "")
-    reader.journal.mark(card.source, UNUSED, remark)
+    reader.journal.mark(card.source, UNUSED, WITHOUT_EFFECT[card.keyword])

@@ -25,6 +25,14 @@ REASONS = {
 }
 
 
+def _reason(card):
+    if card.keyword in REASONS:
+        return REASONS[card.keyword]
+    if card.keyword in PROCEDURES:
+        return "this procedure is not computed"
+    return "this card is not supported" if card.known else "unknown card"
+
+
 @dataclass
 class Step:
     """The step that is read: kinds of cards that it has given already, and places that it has
@@ -73,8 +81,7 @@ class Reader:
             if card.keyword in OUTPUT:
                 self.journal.mark(card.source, UNUSED, "output of the other program")
             elif handler is None:
-                unknown = "this card is not supported" if card.known else "unknown card"
-                raise Fault(REASONS.get(card.keyword, unknown))
+                raise Fault(_reason(card))
             else:
                 settle(card, handler, self.journal)
                 handler.function(card, self)
@@ -115,7 +122,7 @@ class Reader:
                 journal.refuse(card.source, "large displacements are not supported", name)
             elif name == "PERTURBATION" and procedure == "FREQUENCY":
                 self.model.prestress = True
-            elif name in ("INC", "INCF", "NAME", "NLGEOM"):
+            elif name in ("INC", "INCF", "NAME", "NLGEOM", "AMPLITUDE"):
                 journal.remark(card.source, f"{name} is not used")
             else:
                 journal.refuse(card.source, "this parameter is not supported", name)
