@@ -185,6 +185,8 @@ class State(unittest.TestCase):
         self.assertNotIn("load", one.options)
         one = Imported(cube(after=frequency.format(", PERTURBATION")))
         self.assertIs(one.options["elasticity"]["prestress"], True)
+        rows = refused(cube(after=frequency.format("") + frequency.format(", PERTURBATION")))
+        self.assertIn("with and without PERTURBATION", rows[0])
         changed = frequency.format("").replace("*CLOAD\nTOP, 1, 1.", "*BOUNDARY\nTOP, 1")
         self.assertIn("supports that change", refused(cube(after=changed))[0])
         other = "*STEP, NLGEOM\n*DYNAMIC\n0.1, 1.\n*CLOAD\nTOP, 1, 1.\n*END STEP\n"
@@ -294,6 +296,18 @@ class Joints(unittest.TestCase):
         masses = "*ELEMENT, TYPE=MASS, ELSET=M\n33, 7\n34, 7\n*MASS, ELSET=M\n0.5\n"
         options = Imported(cube(masses)).options
         self.assertEqual(options["mass"], {"node_7": {"total": 1.0}})
+
+    def test_elements_without_properties_and_loads_without_elements(self):
+        spring = "*ELEMENT, TYPE=SPRINGA, ELSET=S\n30, 5, 6\n31, 6, 7\n"
+        (row,) = refused(cube(spring + "*ELSET, ELSET=ONE\n30\n*SPRING, ELSET=ONE\n\n10.\n"))
+        self.assertIn("*ELEMENT, SPRINGA: element 31 of type SPRINGA has no stiffness", row)
+        (row,) = refused(cube(self.LOOSE + "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n9, 20\n"))
+        self.assertIn("*ELEMENT, DCOUP3D: no *DISTRIBUTING COUPLING has this element", row)
+        (row,) = refused(cube("", "*DLOAD\n99, GRAV, 1., 0., 0., 1.\n"))
+        self.assertIn("*DLOAD, GRAV: there is no element 99", row)
+        masses = "*ELEMENT, TYPE=MASS, ELSET=M\n33, 7\n*MASS, ELSET=M\n0.5\n"
+        (row,) = refused(cube(masses, "*DLOAD\nM, GRAV, 1., 0., 0., 1.\n"))
+        self.assertIn("*DLOAD, GRAV: body loads on point masses are not supported", row)
 
     def test_ties_of_faces(self):
         ties = "*SURFACE, NAME=UP\nCUBE, S2\n*SURFACE, NAME=DOWN\nCUBE, S1\n"

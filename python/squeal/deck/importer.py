@@ -26,10 +26,8 @@ def import_deck(deck, folder, dialect="calculix", ignored=()):
     case = translate(model, journal)
     _prepare(folder)
     try:
-        write_account(
-            folder / "import.md",
-            *(model, None if journal.refusals else case, journal, DIALECTS[dialect]),
-        )
+        accounted = None if journal.refusals else case
+        write_account(folder / "import.md", model, accounted, journal, DIALECTS[dialect])
         journal.require_translatable(str(deck))
         for name in journal.unmet():
             raise DeckError(f"--ignore {name}: {deck} has nothing of this name that is refused")
@@ -61,22 +59,13 @@ def _prepare(folder):
 
 def main(words):
     parser = argparse.ArgumentParser(prog="squeal-import", description=__doc__)
-    parser.add_argument("deck", metavar="DECK", help="deck of CalculiX (.inp)")
-    parser.add_argument(
-        *("-o", "--output"),
-        metavar="FOLDER",
-        help="folder of the case; default: the name of the deck, in the working folder",
-    )
-    parser.add_argument(
-        *("--dialect",), choices=sorted(DIALECTS), default="calculix", help="program of the deck"
-    )
-    parser.add_argument(
-        *("--ignore",),
-        metavar="NAME",
-        action="append",
-        default=[],
-        help="card, parameter or type of element to leave out although it changes the physics",
-    )
+    add = parser.add_argument
+    add("deck", metavar="DECK", help="deck of CalculiX (.inp)")
+    folder = "folder of the case; default: the name of the deck, in the working folder"
+    add("-o", "--output", metavar="FOLDER", help=folder)
+    add("--dialect", choices=sorted(DIALECTS), default="calculix", help="program of the deck")
+    ignored = "card, parameter, load or type of element to leave out although it is physics"
+    add("--ignore", metavar="NAME", action="append", default=[], help=ignored)
     given = parser.parse_args(words)
     folder = Path(given.output or Path(given.deck).stem)
     journal = import_deck(given.deck, folder, given.dialect, given.ignore)

@@ -155,7 +155,6 @@ class Frame:
     a: np.ndarray
     b: np.ndarray
     source: Source
-    origin: np.ndarray = None  # of rectangular axes, if not zero
 
     def axes_at(self, place):
         """Returns the local axes at a point as rows. Raises Fault."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Checks of the mesh of a model before it is translated."""
+"""Checks of a model before it is translated."""
 import numpy as np
 
 from squeal.deck.model import EMPTY
@@ -32,3 +32,32 @@ def check_mesh(model, journal):
         words = "1 node is" if repeated == 1 else f"{repeated} nodes are"
         journal.choose(f"{words} defined twice; the last coordinates count")
     return complete
+
+
+def check_elements(model, journal):
+    """Refuses springs, masses and the like without their properties, and loads of bodies on
+    elements that do not exist or are point masses."""
+    described = [model.element_sets.members(one.label) for one in (*model.joints, *model.masses)]
+    references = [one.reference for one in model.means]
+    for block in model.blocks:
+        if block.shape is None and block.kind != "DCOUP3D":
+            lacking = np.setdiff1d(block.numbers, np.concatenate([EMPTY, *described]))
+            if len(lacking):
+                reason = f"element {lacking[0]} of type {block.kind} has no stiffness or mass"
+                journal.refuse(block.source, reason, block.kind)
+        elif block.shape is None and not np.all(np.isin(block.nodes, references)):
+            journal.refuse(block.source, "no *DISTRIBUTING COUPLING has this element", block.kind)
+    for load in model.state.body_loads:
+        _check_load(model, journal, load)
+
+
+def _check_load(model, journal, load):
+    blocks, _ = model.find_elements(load.elements)
+    if len(blocks) and np.all(blocks < 0) and not journal.incomplete:
+        journal.refuse(load.source, f"there is no element {load.elements[0]}", load.kind)
+    elif np.any(blocks < 0):
+        missing = load.elements[blocks < 0]
+        journal.remark(load.source, f"{len(missing)} of its elements are not there")
+    for number in np.unique(blocks[blocks >= 0]):
+        if model.blocks[number].kind == "MASS":
+            journal.refuse(load.source, "body loads on point masses are not supported", load.kind)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from squeal.deck.case.bodies import add_bodies
-from squeal.deck.case.checks import check_mesh
+from squeal.deck.case.checks import check_elements, check_mesh
 from squeal.deck.case.faces import Faces
 from squeal.deck.case.groups import Case
 from squeal.deck.case.joints import add_joints
@@ -18,6 +18,7 @@ def translate(model, journal):
     program does not have."""
     if not check_mesh(model, journal):
         return None
+    check_elements(model, journal)
     case = Case()
     case.set(("mesh", "file"), "mesh.msh")
     faces = Faces(model)

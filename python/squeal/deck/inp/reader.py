@@ -40,6 +40,7 @@ class Step:
 
     frequency: bool = False
     after_static: bool = False
+    perturbation: bool = False
     renewed: set = field(default_factory=set)
     loaded: set = field(default_factory=set)
 
@@ -121,7 +122,7 @@ class Reader:
             if name == "NLGEOM" and (value or "YES").upper() != "NO":
                 journal.refuse(card.source, "large displacements are not supported", name)
             elif name == "PERTURBATION" and procedure == "FREQUENCY":
-                self.model.prestress = True
+                self.step.perturbation = True
             elif name in ("INC", "INCF", "NAME", "NLGEOM", "AMPLITUDE"):
                 journal.remark(card.source, f"{name} is not used")
             else:
@@ -148,6 +149,9 @@ class Reader:
         if not rows:
             raise Fault("the number of frequencies is missing")
         line, fields = rows[0]
+        if self.model.frequency and self.model.prestress != self.step.perturbation:
+            raise Fault("steps of free vibrations with and without PERTURBATION")
+        self.model.prestress = self.step.perturbation
         self.model.frequencies = max(integer(fields[0], line), self.model.frequencies or 0)
         self.model.frequency = card.source
         if len(rows) > 1:
