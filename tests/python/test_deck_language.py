@@ -104,6 +104,29 @@ class Cards(unittest.TestCase):
         self.assertIn("ignored by --ignore AMPLITUDE", one.remarks("CLOAD")[1])
         self.assertEqual(one.options["load"]["TOP"]["force"], "0.0,0.0,8.0")
 
+    def test_cards_of_assemblies_are_refused_by_name(self):
+        cards = ["*PART", "*END PART", "*ASSEMBLY", "*INSTANCE", "*END INSTANCE", "*END ASSEMBLY"]
+        cards += ["*SYSTEM"]
+        text = "\n".join(f"{card}, NAME=A" for card in cards) + "\n"
+        self.assertEqual([row.split(": ")[1] for row in refused(cube(text))], cards)
+
+    def test_lines_of_data_are_accounted_for(self):
+        for card, reason in (
+            ("*MATERIAL, NAME=M\n1., 2.\n", "at most 0 lines of data"),
+            ("*TRANSFORM, NSET=TOP\n0, 1, 0, 1, 0, 0\n3., 4.\n", "at most 1 lines of data"),
+            ("*MATERIAL, NAME=M\n*ELASTIC\n1., 0.3, 20., 7.\n", "has 2 constants"),
+            ("*BOUNDARY\nTOP, 1, 1, 0., 5.\n", "a line has a node or set, two components"),
+            ("*RIGID BODY, ELSET=, REF NODE=1\n", "ELSET= has no value"),
+        ):
+            (row,) = refused(cube(card))
+            self.assertIn(reason, row)
+
+    def test_names_with_blanks_and_sections_of_other_sets(self):
+        text = cube().replace("NAME=STEEL", "NAME=Cast iron").replace("=STEEL", "=CAST IRON")
+        text = text.replace("*SOLID SECTION, ELSET=CUBE", "*SOLID SECTION, ELSET=OTHER")
+        one = Imported(text + "*ELSET, ELSET=OTHER\n1\n")
+        self.assertEqual(one.options["material"]["OTHER"]["young"], 210000.0)
+
     def test_quoted_names(self):
         text = cube('*NSET, NSET="Upper face, left"\nTOP\n', '*CLOAD\n"upper face, left", 1, 1.\n')
         one = Imported(text)
