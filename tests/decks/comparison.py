@@ -43,6 +43,10 @@ class Comparison:
 
     def displacements(self):
         """Returns for each component the largest difference over the largest value."""
+        return _relative(*self.both_displacements())
+
+    def both_displacements(self):
+        """Returns the displacements of the program and those of CalculiX, a row for each node."""
         with h5py.File(self.folder / "results/results.h5") as file:
             tags = file["mesh/node_tag"][:].ravel()
             found = file["steady/friction_0/displacement"][:]
@@ -50,7 +54,7 @@ class Comparison:
         assert len(numbers) == len(found)
         kept = [at for at, number in enumerate(numbers) if number is not None]
         wanted = np.array([self.reference.displacements[numbers[at]] for at in kept])
-        return _relative(found[kept], wanted)
+        return found[kept], wanted
 
     def _reference_nodes(self):
         """Returns the nodes of the deck whose components are the displacement and the rotation of

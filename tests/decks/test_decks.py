@@ -16,6 +16,7 @@ sys.path[:0] = [str(repository / "python"), str(Path(__file__).resolve().parent)
 sys.dont_write_bytecode = True
 import bars
 import ccx
+import numpy as np
 from comparison import Comparison
 
 from squeal.deck.importer import import_deck
@@ -105,6 +106,23 @@ class Decks(unittest.TestCase):
         for deck in REDUCED:
             with self.subTest(deck):
                 self.compare(deck, full=False)
+
+    def test_contact_is_the_limit_of_stiff_penalties(self):
+        """The error of a penalty k is a/k + b/k²; two penalties eliminate the first term."""
+        text = ccx.comparable(ccx.deck_text("contact4"), True)
+        limit = 0.0
+        for penalty, factor in (("1.E7", 0), ("1.E8", -1 / 9), ("1.E9", 10 / 9)):
+            one = Comparison(PROGRAM, text.replace("1.E7", penalty), self.folder / penalty)
+            ours, theirs = one.both_displacements()
+            limit = limit + factor * theirs
+            self.near(f"contact4, penalty {penalty}", ours, theirs, 4e5 / float(penalty))
+        # CalculiX iterates until forces change by 0.5 %, which limits its accuracy.
+        self.near("contact4, limit of penalties", ours, limit, 5e-5)
+
+    def near(self, name, ours, theirs, bound):
+        difference = float(np.max(np.abs(ours - theirs)) / np.max(np.abs(theirs)))
+        self.rows.append((name, "U", difference, bound))
+        self.assertLessEqual(difference, bound, name)
 
     def test_results_of_own_decks_agree(self):
         for name, text in bars.DECKS.items():

@@ -343,6 +343,36 @@ class Joints(unittest.TestCase):
         self.assertEqual(one.coordinates[list(one.nodes).index(41)].tolist(), [0.25, 0.5, 1.005])
 
 
+class Contacts(unittest.TestCase):
+    BLOCK = "*NODE\n11, 0., 0., 1.\n12, 1., 0., 1.\n13, 1., 1., 1.\n14, 0., 1., 1.\n"
+    BLOCK += "21, 0., 0., 2.\n22, 1., 0., 2.\n23, 1., 1., 2.\n24, 0., 1., 2.\n"
+    BLOCK += "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n2, 11, 12, 13, 14, 21, 22, 23, 24\n"
+    BLOCK += "*SURFACE, NAME=UP\n1, S2\n*SURFACE, NAME=DOWN\n2, S1\n"
+    PAIR = "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nDOWN, UP\n"
+    PAIR += "*SURFACE INTERACTION, NAME=I\n"
+
+    def test_hard_contact(self):
+        behaviors = ("", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E7, 1.\n")
+        for behavior in behaviors:
+            one = Imported(cube(self.BLOCK + self.PAIR + behavior))
+            (options,) = one.options["contact"].values()
+            wanted = {"pad": "DOWN", "disc": "UP", "slave": "pad", "gap": "measured"}
+            self.assertEqual(options, {**wanted, "role": "frictionless"})
+            self.assertEqual(sorted(one.groups["DOWN"][0]), [11, 12, 13, 14])
+            self.assertTrue(any("contact is hard" in text for text in one.journal.choices))
+
+    def test_contacts_that_are_not_hard(self):
+        linear = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E6\n"
+        (row,) = refused(cube(self.BLOCK + self.PAIR + linear))
+        self.assertIn("*SURFACE BEHAVIOR: the penalty is only 4.76 times as stiff", row)
+        (row,) = refused(cube(self.BLOCK + self.PAIR + "*FRICTION\n0.3, 5000.\n"))
+        self.assertIn("*FRICTION: friction is not translated", row)
+        rows = refused(cube(self.BLOCK + self.PAIR + linear.replace("LINEAR", "TIED")))
+        self.assertIn("PRESSURE-OVERCLOSURE=TIED is not supported", rows[0])
+        rows = refused(cube(self.BLOCK + self.PAIR.replace("PAIR,", "PAIR, ADJUST=0.1,")))
+        self.assertIn("*CONTACT PAIR, ADJUST", rows[0])
+
+
 class Account(unittest.TestCase):
     def test_every_card_is_accounted_for(self):
         text = "*HEADING\nA cube\n" + cube(step="*NODE PRINT, NSET=TOP\nU\n*CLOAD\nTOP, 3, 1.\n")

@@ -242,6 +242,27 @@ class Tie:
 
 
 @dataclass
+class Interaction:
+    """How two surfaces in contact act on each other: `stiffness` is that of a penalty, per area,
+    None for hard contact."""
+
+    source: Source
+    behavior: Source = None
+    stiffness: float = None
+    friction: Source = None
+
+
+@dataclass
+class Contact:
+    """Two surfaces, by their keys, that may touch."""
+
+    slave: str
+    master: str
+    interaction: str
+    source: Source
+
+
+@dataclass
 class Joint:
     """Springs or dashpots of a set of elements. `kind`: line (between two nodes) or ground (one
     node, along `component`)."""
@@ -309,6 +330,8 @@ class Model:
     rigid: list = field(default_factory=list)
     means: list = field(default_factory=list)
     ties: list = field(default_factory=list)
+    interactions: dict = field(default_factory=dict)
+    contacts: list = field(default_factory=list)
     joints: list = field(default_factory=list)
     masses: list = field(default_factory=list)
     state: State = field(default_factory=State)

@@ -4,6 +4,7 @@ import numpy as np
 
 from squeal.deck.case.bodies import add_bodies
 from squeal.deck.case.checks import check_elements, check_mesh
+from squeal.deck.case.contacts import add_contacts
 from squeal.deck.case.faces import Faces
 from squeal.deck.case.groups import Case
 from squeal.deck.case.joints import add_joints
@@ -25,6 +26,7 @@ def translate(model, journal):
     add_bodies(model, case, journal)
     roles = Roles(model, case, journal)
     case.ties = add_ties(model, roles, case, journal, faces)
+    add_contacts(model, case, journal, faces)
     add_joints(model, roles, case, journal, faces)
     add_supports(model, roles, case, journal)
     add_forces(model, roles, case, journal)

@@ -2,7 +2,6 @@
 """Cards that join nodes: equations, rigid bodies, couplings, ties, springs and masses."""
 import numpy as np
 
-from squeal.deck.inp.cards import key_of
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import Fault
 from squeal.deck.model import Equation, Joint, Mean, PointMass, Rigid, Tie
@@ -139,10 +138,7 @@ def tie(card, reader):
     for line, fields in card.rows():
         if len(fields) != 2:
             raise Fault("a line has the slave and the master surface", line=line)
-        slave, master = (key_of(field) for field in fields)
-        for key in (slave, master):
-            if key not in reader.model.surfaces:
-                raise Fault(f"there is no surface '{key}'", line=line)
+        slave, master = (reader.surface_of(field, line) for field in fields)
         if reader.model.surfaces[master].nodes is not None:
             raise Fault(f"the master surface '{master}' has no faces", line=line)
         bound = real(tolerance) if tolerance is not None else None

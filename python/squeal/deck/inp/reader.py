@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from squeal.deck.inp import joints, materials, mesh, state  # noqa: F401 (they register handlers)
+from squeal.deck.inp import contacts, joints, materials, mesh, state  # noqa: F401 (handlers)
 from squeal.deck.inp.cards import key_of, read_cards
 from squeal.deck.inp.dialect import OUTPUT, PROCEDURES
 from squeal.deck.inp.handlers import TABLE, settle
@@ -46,12 +46,12 @@ class Step:
 
 
 class Reader:
-    """Applies cards to a model; `material` is the one that following cards describe."""
+    """Applies cards to a model; following cards describe `material` and `interaction`."""
 
     def __init__(self, model, journal):
         self.model = model
         self.journal = journal
-        self.material = None
+        self.material = self.interaction = None
         self.step = Step()
 
     def read(self, cards):
@@ -182,6 +182,13 @@ class Reader:
     def elements_of(self, word, line):
         """Returns the element, or the elements of the set, that a field names. Raises Fault."""
         return self._members(word, line, self.model.element_sets)
+
+    def surface_of(self, word, line):
+        """Returns the key of a surface. Raises Fault if there is none."""
+        key = key_of(word)
+        if key not in self.model.surfaces:
+            raise Fault(f"there is no surface '{word}'", line=line)
+        return key
 
     def _members(self, word, line, sets):
         if is_integer(word):
