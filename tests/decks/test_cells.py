@@ -137,20 +137,23 @@ def integrals(faces):
 
 
 class Cells(unittest.TestCase):
-    def loads(self, kind, nodes, count):
-        """Returns the rows of loads of reactions.csv."""
-        lines = ["*NODE"]
-        lines += [f"{at + 1}, {x!r}, {y!r}, {z!r}" for at, (x, y, z) in enumerate(nodes.tolist())]
-        lines += [f"*ELEMENT, TYPE={kind}, ELSET=E"]
-        words = [str(word) for word in range(len(nodes) + 1)]
-        words[0] = "1"
-        lines += [", ".join(words[at : at + 16]) + "," for at in range(0, len(words), 16)]
-        lines[-1] = lines[-1].rstrip(",")
+    def loads(self, elements, faces):
+        """Returns the rows of loads of reactions.csv for elements (type, nodes), with a pressure on
+        each of `faces` faces."""
+        lines, held, first = [], [], 1
+        for number, (kind, nodes) in enumerate(elements, 1):
+            numbers = range(first, first + len(nodes))
+            places = zip(numbers, nodes.tolist())
+            lines += ["*NODE", *(f"{at}, {x!r}, {y!r}, {z!r}" for at, (x, y, z) in places)]
+            words = [str(word) for word in (number, *numbers)]
+            lines += [f"*ELEMENT, TYPE={kind}, ELSET=E"]
+            lines += [", ".join(words[at : at + 16]) for at in range(0, len(words), 16)]
+            held += [f"{first + at}, 1, 3" for at in range(3)]
+            first += len(nodes)
         lines += ["*MATERIAL, NAME=M", "*ELASTIC", "1000., 0.2", "*DENSITY", f"{DENSITY}"]
-        lines += ["*SOLID SECTION, ELSET=E, MATERIAL=M", "*BOUNDARY"]
-        lines += [f"{at}, 1, 3" for at in range(1, 4)]
+        lines += ["*SOLID SECTION, ELSET=E, MATERIAL=M", "*BOUNDARY", *held]
         lines += ["*STEP", "*STATIC", "*DLOAD"]
-        lines += [f"E, P{face + 1}, {2**face}." for face in range(count)]
+        lines += [f"E, P{face + 1}, {2**face}." for face in range(faces)]
         size = np.linalg.norm(GRAVITY)
         lines += [f"E, GRAV, {size!r}, {', '.join(map(repr, GRAVITY))}"]
         lines += [f"E, CENTRIF, {SPIN2}, 0., 0., 0., 0., 0., 1.", "*END STEP"]
@@ -166,12 +169,21 @@ class Cells(unittest.TestCase):
         table = table[table.kind == "load"].set_index("name")
         return {name: table.loc[name].iloc[-6:].to_numpy(float) for name in table.index}
 
+    def test_types_in_one_body(self):
+        elements, volume = [], 0.0
+        for number, (kind, (shape, curved, _)) in enumerate(TYPES.items()):
+            nodes, faces = element(shape, curved)
+            elements.append((kind, nodes + [10 * number, 0, 0]))
+            volume += integrals(faces)[0]
+        weight = self.loads(elements, 0)["gravity"][:3]
+        self.near(weight, DENSITY * volume * np.array(GRAVITY), 1e-11)
+
     def test_integrals_of_the_deck(self):
         for kind, (shape, curved, tolerance) in TYPES.items():
             with self.subTest(kind):
                 nodes, faces = element(shape, curved)
                 volume, first, second, force, moment = integrals(faces)
-                loads = self.loads(kind, nodes, len(faces))
+                loads = self.loads([(kind, nodes)], len(faces))
                 gravity = np.array(GRAVITY)
                 weight = loads["gravity"]
                 self.near(weight[:3], DENSITY * volume * gravity, 1e-11)

@@ -127,10 +127,13 @@ def _entities(block):
 def _groups(block, names, tags):
     sizes = {4: 4, 5: 8, 6: 6, 11: 10, 17: 20, 18: 15, 2: 3, 3: 4, 9: 6, 16: 8, 15: 1}
     count, total, _, _ = struct.unpack_from("<4Q", block)
-    at, groups, elements = 32, {}, []
+    at, groups, elements, seen = 32, {}, [], set()
     for _ in range(count):
         dimension, entity, kind, rows = struct.unpack_from("<3iQ", block, at)
         at += struct.calcsize("<3iQ")
+        # gmsh loses cells of a second type in an entity.
+        assert (dimension, entity) not in seen
+        seen.add((dimension, entity))
         table = np.frombuffer(block, "<u8", rows * (1 + sizes[kind]), at).reshape(rows, -1)
         at += table.nbytes
         elements.extend(table[:, 0])

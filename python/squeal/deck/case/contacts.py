@@ -7,13 +7,18 @@ the physics.
 import numpy as np
 
 from squeal.deck.case.groups import FACES
-from squeal.deck.journal import TRANSLATED, Fault
+from squeal.deck.journal import TRANSLATED, UNUSED, Fault
 
 # Least stiffness of a penalty over that of the cells of the slave, k h / E, for hard contact.
 HARD = 20
 
 
 def add_contacts(model, case, journal, faces):
+    used = {contact.interaction for contact in model.contacts}
+    for key, one in model.interactions.items():
+        for source in (one.source, one.behavior, one.friction):
+            if source is not None and key not in used:
+                journal.mark(source, UNUSED, "no contact pair has this interaction")
     taken = {}
     for contact in model.contacts:
         try:

@@ -2,7 +2,8 @@
 """Writes the mesh of a case as a binary gmsh file, version 4.1.
 
 Nodes and cells keep the numbers of the deck. Each entity of gmsh is a set of nodes, faces or cells
-that belong to the same groups: a member of several groups occurs only once.
+of one type that belong to the same groups: a member of several groups occurs only once, and gmsh
+would lose cells of a second type.
 """
 import struct
 
@@ -50,31 +51,27 @@ def _partition(groups):
 
 def _points(case):
     for names, numbers in _partition(case.groups[NODES]):
-        yield NODES, names, [(POINT, None, numbers[:, None])]
+        yield NODES, names, (POINT, None, numbers[:, None])
 
 
 def _faces(case, faces):
     for names, rows in _partition(case.groups[FACES]):
         tables = [table for _, table in faces.tables(rows)]
-        yield FACES, names, [
-            (
-                FACE_TYPES[size],
-                None,
-                np.concatenate([one for one in tables if one.shape[1] == size]),
-            )
-            for size in sorted({table.shape[1] for table in tables})
-        ]
+        for size in sorted({table.shape[1] for table in tables}):
+            table = np.concatenate([table for table in tables if table.shape[1] == size])
+            yield FACES, names, (FACE_TYPES[size], None, table)
 
 
 def _cells(model, case):
     for name, numbers in case.groups[CELLS].items():
-        parts = []
+        parts = {}
         for block in model.blocks:
             chosen = np.isin(block.numbers, numbers) if block.shape else np.zeros(0, bool)
             if np.any(chosen):
                 nodes = block.nodes[chosen][:, block.shape.order]
-                parts.append((block.shape.gmsh, block.numbers[chosen], nodes))
-        yield CELLS, [name], parts
+                parts.setdefault(block.shape.gmsh, []).append((block.numbers[chosen], nodes))
+        for kind, tables in parts.items():
+            yield CELLS, [name], (kind, *map(np.concatenate, zip(*tables)))
 
 
 def _write_names(file, numbering):
@@ -87,10 +84,10 @@ def _write_entities(file, numbering, blocks, model):
     """Returns the numbers of the entities by block."""
     counts = [0, 0, 0, 0]
     entities, records = [], {dimension: [] for dimension in range(4)}
-    for dimension, names, parts in blocks:
+    for dimension, names, (_, _, nodes) in blocks:
         counts[dimension] += 1
         entities.append(counts[dimension])
-        places = model.nodes.at(np.unique(np.concatenate([part[2].ravel() for part in parts])))
+        places = model.nodes.at(np.unique(nodes))
         low, high = places.min(axis=0), places.max(axis=0)
         box = struct.pack("<3d", *low) if dimension == 0 else struct.pack("<6d", *low, *high)
         tags = [numbering[dimension, name] for name in names]
@@ -121,19 +118,18 @@ def _write_elements(file, model, blocks):
     first = following
     counts, chunks = {}, []
     total = 0
-    lowest = min(int(part[1].min()) for block in blocks for part in block[2] if part[1] is not None)
-    for dimension, _, parts in blocks:
+    lowest = min(int(part[1].min()) for _, _, part in blocks if part[1] is not None)
+    for dimension, _, (kind, numbers, nodes) in blocks:
         counts[dimension] = counts.get(dimension, 0) + 1
-        for kind, numbers, nodes in parts:
-            if numbers is None:
-                numbers = np.arange(following, following + len(nodes))
-                following += len(nodes)
-            table = np.column_stack([numbers, nodes]).astype("<u8")
-            header = struct.pack("<3iQ", dimension, counts[dimension], kind, len(nodes))
-            chunks.append(header + table.tobytes())
-            total += len(nodes)
+        if numbers is None:
+            numbers = np.arange(following, following + len(nodes))
+            following += len(nodes)
+        table = np.column_stack([numbers, nodes]).astype("<u8")
+        chunks.append(struct.pack("<3iQ", dimension, counts[dimension], kind, len(nodes)))
+        chunks.append(table.tobytes())
+        total += len(nodes)
     highest = following - 1 if following > first else first - 1
-    file.write(b"$Elements\n" + struct.pack("<4Q", len(chunks), total, lowest, highest))
+    file.write(b"$Elements\n" + struct.pack("<4Q", len(blocks), total, lowest, highest))
     for chunk in chunks:
         file.write(chunk)
     file.write(b"\n$EndElements\n")
