@@ -341,16 +341,35 @@ class Model:
     prestress: bool = False
     _lookup: tuple = None
 
+    def merge_blocks(self):
+        """Joins the elements of each type; their source is that of the first. To be called once,
+        when all are read: decks may have a card for each element."""
+        parts = {}
+        for block in self.blocks:
+            parts.setdefault(block.kind, []).append(block)
+        self.blocks = [
+            Block(
+                kind,
+                blocks[0].shape,
+                np.concatenate([block.numbers for block in blocks]),
+                np.concatenate([block.nodes for block in blocks]),
+                blocks[0].source,
+            )
+            for kind, blocks in parts.items()
+        ]
+        self._lookup = None
+
     def find_elements(self, numbers):
-        """Returns block and row of elements, −1 for numbers without one."""
-        if self._lookup is None or self._lookup[0] != len(self.blocks):
+        """Returns block and row of elements, −1 for numbers without one. To be called when the
+        blocks are merged."""
+        if self._lookup is None:
             known = np.concatenate([EMPTY, *(block.numbers for block in self.blocks)])
             counts = [len(block.numbers) for block in self.blocks]
             order = np.argsort(known, kind="stable")
             blocks = np.repeat(np.arange(len(counts)), counts)[order]
             rows = np.concatenate([EMPTY, *(np.arange(count) for count in counts)])[order]
-            self._lookup = len(counts), known[order], blocks, rows
-        _, known, blocks, rows = self._lookup
+            self._lookup = known[order], blocks, rows
+        known, blocks, rows = self._lookup
         if not len(known):
             return np.full(len(numbers), -1), np.full(len(numbers), -1)
         at = np.minimum(np.searchsorted(known, numbers), len(known) - 1)

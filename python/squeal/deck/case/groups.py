@@ -55,6 +55,8 @@ class Case:
         """Returns a name that no group has; of a blank it makes an underscore."""
         taken = set().union(*self.groups.values())
         name = clean(wanted)
+        if name.startswith("reference_"):  # names of reference nodes
+            name = f"set_{name}"
         suffix = {NODES: "_nodes", FACES: "_faces", CELLS: "_body"}[dimension]
         if name in taken and name + suffix not in taken:
             name += suffix

@@ -58,7 +58,10 @@ class Reader:
         phases = [[], [], []]
         for card in cards:
             phases[TABLE[card.keyword].phase if card.keyword in TABLE else 2].append(card)
-        for card in phases[0] + phases[1]:
+        for card in phases[0]:
+            self._apply(card)
+        self.model.merge_blocks()
+        for card in phases[1]:
             self._apply(card)
         rest = phases[2]
         at = 0
