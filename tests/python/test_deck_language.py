@@ -102,6 +102,7 @@ class Cards(unittest.TestCase):
         )
         one = Imported(text, ignored=["amplitude", "WHEN"])
         self.assertIn("ignored by --ignore AMPLITUDE", one.remarks("CLOAD")[1])
+        self.assertIn("# Left out by --ignore: amplitude, WHEN.\n", one.text)
         self.assertEqual(one.options["load"]["TOP"]["force"], "0.0,0.0,8.0")
 
     def test_cards_of_assemblies_are_refused_by_name(self):
@@ -109,6 +110,27 @@ class Cards(unittest.TestCase):
         cards += ["*SYSTEM"]
         text = "\n".join(f"{card}, NAME=A" for card in cards) + "\n"
         self.assertEqual([row.split(": ")[1] for row in refused(cube(text))], cards)
+
+    def test_thirty_unsupported_cards_are_named_at_once(self):
+        model = """BEAM SECTION|SHELL SECTION|MEMBRANE SECTION|GAP|MPC|PRE-TENSION SECTION|NORMAL
+SUBMODEL|CYCLIC SYMMETRY MODEL|GAP CONDUCTANCE|CLEARANCE|DISTRIBUTION|USER ELEMENT|FLUID SECTION
+NONSTRUCTURAL MASS|DESIGN VARIABLES|MODAL DAMPING|SYSTEM|CONNECTOR SECTION|SURFACE WEAR"""
+        step = """TEMPERATURE|FILM|RADIATE|DFLUX|CFLUX|MODEL CHANGE|CHANGE FRICTION|MOTION
+CONTACT INTERFERENCE|BASE MOTION"""
+        before, within = (text.replace("\n", "|").split("|") for text in (model, step))
+        text = cube(
+            "".join(f"*{name}, ELSET=CUBE\n1., 2.\n" for name in before),
+            "".join(f"*{name}\n1, 2.\n" for name in within),
+        )
+        rows = refused(text)
+        self.assertEqual(len(rows), 30)
+        lines = text.splitlines()
+        for row, name in zip(rows, before + within):
+            place, card, _ = row.split(": ", 2)
+            self.assertEqual(card, f"*{name}")
+            self.assertTrue(lines[int(place.split(":")[1]) - 1].startswith(f"*{name}"))
+        one = Imported(text, ignored=before + within)
+        self.assertEqual(one.account.count("ignored by --ignore"), 30)
 
     def test_lines_of_data_are_accounted_for(self):
         for card, reason in (

@@ -32,7 +32,7 @@ def import_deck(deck, folder, dialect="calculix", ignored=()):
         for name in journal.unmet():
             raise DeckError(f"--ignore {name}: {deck} has nothing of this name that is refused")
         write_mesh(folder / PARTIAL, model, case, Faces(model))
-        write_options(folder / "case.yaml", case, model.title, DIALECTS[dialect])
+        write_options(folder / "case.yaml", case, model.title, DIALECTS[dialect], ignored)
         (folder / PARTIAL).rename(folder / "mesh.msh")
     except OSError as error:
         raise DeckError(f"{error.filename or folder}: {error.strerror}") from None

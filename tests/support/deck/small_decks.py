@@ -51,8 +51,8 @@ def cube(model="", step="", after=""):
 
 
 class Imported:
-    """The case of a deck: `options` as in case.yaml, `groups` by name (node numbers, or rows of
-    nodes of faces and cells), `nodes` and `coordinates`, and the journal."""
+    """The case of a deck: `text` and `options` of case.yaml, `groups` by name (node numbers, or
+    rows of nodes of faces and cells), `nodes` and `coordinates`, and the journal."""
 
     def __init__(self, text, files=(), **words):
         with tempfile.TemporaryDirectory() as folder:
@@ -62,7 +62,8 @@ class Imported:
                 (Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
                 (Path(folder) / name).write_text(content)
             self.journal = import_deck(path, Path(folder) / "case", **words)
-            self.options = yaml.safe_load((Path(folder) / "case/case.yaml").read_text())
+            self.text = (Path(folder) / "case/case.yaml").read_text()
+            self.options = yaml.safe_load(self.text)
             self.account = (Path(folder) / "case/import.md").read_text()
             self.groups, self.nodes, self.coordinates = read_mesh(Path(folder) / "case/mesh.msh")
 

@@ -28,7 +28,7 @@ class Lines:
         self.files = 0
 
     def __iter__(self):
-        yield from self._file(self.root, self.root.name, ())
+        yield from self._file(self.root, " ".join(self.root.name.split()), ())
 
     def _file(self, path, name, above):
         self.files += 1

@@ -222,6 +222,6 @@ def read_model(path, dialect, journal):
     """Returns the model of a deck; the journal then has an entry for each card. Raises DeckError if
     a file cannot be read."""
     cards = read_cards(read_lines(path, journal), dialect, journal)
-    model = Model(Path(path).name)
+    model = Model(" ".join(Path(path).name.split()))
     Reader(model, journal).read(cards)
     return model

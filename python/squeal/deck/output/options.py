@@ -5,9 +5,12 @@ import re
 MARK = "# Made by squeal-import from"
 
 
-def write_options(path, case, title, dialect):
-    """Raises OSError."""
+def write_options(path, case, title, dialect, ignored):
+    """`ignored`: names of what the user has left out. Raises OSError."""
     lines = [f"{MARK} {title} ({dialect.name}). The units are those of the deck."]
+    if ignored:
+        names = ", ".join(" ".join(name.split()) for name in ignored)
+        lines.append(f"# Left out by --ignore: {names}.")
     for prefix, options in case.options.items():
         lines += ["", f"{_plain(prefix)}:"]
         lines += _lines(options, 1)
