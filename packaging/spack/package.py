@@ -65,7 +65,8 @@ class Squeal(CMakePackage):
         if "+report" not in self.spec:
             return
         scripts = join_path(self.prefix.share, "squeal", "scripts")
-        for name in ("squeal-report", "squeal-plot", "squeal-merge", "convert_matrix"):
+        commands = ("squeal-report", "squeal-plot", "squeal-merge", "squeal-import")
+        for name in (*commands, "convert_matrix"):
             filter_file(
                 r"^#!/usr/bin/python3",
                 "#!" + self.spec["python"].command.path,

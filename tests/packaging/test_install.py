@@ -19,7 +19,7 @@ CMAKE, BUILD = (
     else ("cmake", repository / "build")
 )
 CASES = sorted(path.stem for path in (repository / "options").glob("*.yaml"))
-COMMANDS = {"squeal", "squeal-run", "squeal-report", "squeal-plot", "squeal-merge"}
+COMMANDS = {"squeal", "squeal-run", "squeal-report", "squeal-plot", "squeal-merge", "squeal-import"}
 SMALL = [
     "-mesh_set",
     "nx=12,ny=4",
@@ -54,7 +54,7 @@ class Installation(unittest.TestCase):
         )
         # Whoever may write there leaves no bytecode. The folder holds no results, which the
         # commands find when they have loaded all.
-        for command in ("squeal-report", "squeal-plot", "squeal-merge"):
+        for command in ("squeal-report", "squeal-plot", "squeal-merge", "squeal-import"):
             subprocess.run(
                 [first / "bin" / command, first],
                 check=False,
@@ -231,6 +231,22 @@ class Installation(unittest.TestCase):
         self.call("squeal-run", "../own/belt.yaml", NP="1")
         self.assertTrue((own / "results/belt/report.html").exists())
         self.assertEqual([path.name for path in self.work.iterdir()], ["results"])
+
+    def test_a_deck_runs(self):
+        page = (repository / "docs/decks.md").read_text()
+        (self.home / "decks").mkdir(mode=0o777)
+        (self.home / "decks").chmod(0o777)
+        deck = self.home / "decks/bracket.inp"
+        deck.write_text(page.split("```")[1].lstrip())
+        self.call("squeal-run", "../decks/bracket.inp", "-report_fields", "off", NP="1")
+        folder = self.home / "decks/bracket"
+        self.assertLessEqual({"mesh.msh", "case.yaml", "import.md"}, below(folder))
+        modes = (folder / "results/case/modes.csv").read_text().splitlines()
+        # docs/decks.md names these frequencies.
+        self.assertEqual([round(float(row.split(",")[2])) for row in modes[1:]], [1362, 2623, 9049])
+        deck.write_text("*SHELL SECTION\n")
+        printed = self.call("squeal-run", "../decks/bracket.inp", status=1)
+        self.assertIn("bracket.inp:1: *SHELL SECTION: shells are not supported", printed)
 
     def test_refusals(self):
         printed = self.call("squeal-run", "nosuch", status=1)

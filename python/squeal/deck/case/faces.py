@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Faces of solid elements by number of element and face."""
+import numpy as np
+
+from squeal.deck.journal import Fault, Missing
+
+
+class Faces:
+    """Looks faces up in a model."""
+
+    def __init__(self, model):
+        self.model = model
+
+    def tables(self, rows):
+        """Returns the nodes of faces, given as rows (element, face from 0): a list of (places among
+        the rows, table with a row of nodes, corners first, for each place), one for each size of
+        face and type of element. Raises Fault."""
+        rows = np.asarray(rows, np.int64).reshape(-1, 2)
+        blocks, at = self.model.find_elements(rows[:, 0])
+        found = []
+        for number in np.unique(blocks):
+            on = np.flatnonzero(blocks == number)
+            block = self.model.blocks[number] if number >= 0 else None
+            if block is None or block.shape is None:
+                raise Missing(f"element {rows[on[0], 0]} is not a solid element")
+            wrong = on[(rows[on, 1] < 0) | (rows[on, 1] >= len(block.shape.faces))]
+            if len(wrong):
+                raise Fault(f"element {rows[wrong[0], 0]} has {len(block.shape.faces)} faces")
+            for face, nodes in enumerate(block.shape.faces):
+                chosen = on[rows[on, 1] == face]
+                if len(chosen):
+                    found.append((chosen, block.nodes[at[chosen]][:, nodes]))
+        return found
+
+    def nodes(self, rows):
+        """Returns the nodes of faces in the order of the rows, one array each. Raises Fault."""
+        found = [None] * len(rows)
+        for places, table in self.tables(rows):
+            for place, nodes in zip(places.tolist(), table):
+                found[place] = nodes
+        return found
+
+    def require_outer(self, rows):
+        """Raises Fault if a face lies between two cells."""
+        wanted = {}
+        for places, table in self.tables(rows):
+            corners = np.sort(table[:, : _corners(table.shape[1])], axis=1)
+            for place, key in zip(places.tolist(), map(tuple, corners.tolist())):
+                if key in wanted:
+                    raise Fault(self._inside(rows[place]))
+                wanted[key] = place
+        hashes = np.array([_hash(np.array([key]))[0] for key in wanted], np.uint64)
+        for block in self.model.blocks:
+            for number, face in enumerate(block.shape.faces if block.shape else ()):
+                corners = block.nodes[:, face[: _corners(len(face))]]
+                near = np.flatnonzero(np.isin(_hash(corners), hashes))
+                for at, key in zip(near.tolist(), map(tuple, np.sort(corners[near]).tolist())):
+                    if key in wanted and rows[wanted[key]] != (block.numbers[at], number):
+                        raise Fault(self._inside(rows[wanted[key]]))
+
+    def _inside(self, row):
+        return f"face {row[1] + 1} of element {row[0]} lies between two elements"
+
+
+def _corners(size):
+    return 3 if size in (3, 6) else 4
+
+
+def _hash(corners):
+    """Returns a number for each row that does not depend on the order of its entries."""
+    mixed = corners.astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+    mixed ^= mixed >> np.uint64(29)
+    return (mixed * np.uint64(0xBF58476D1CE4E5B9)).sum(axis=1, dtype=np.uint64)

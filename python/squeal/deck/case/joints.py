@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Equations, rigid bodies, couplings, springs, dashpots and masses of a case."""
+import numpy as np
+
+from squeal.deck.case.groups import NODES, clean, text_of
+from squeal.deck.case.roles import elements_in
+from squeal.deck.journal import TRANSLATED, Fault, Missing
+
+COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
+
+
+def add_joints(model, roles, case, journal, faces):
+    """`faces`: the object that looks faces of elements up. A fault of one joint does not keep the
+    others from being translated."""
+    places = Numbered(faces)
+    for translate, joints in (
+        (_equation, model.equations),
+        (_mean, model.means),
+        (_rigid, model.rigid),
+        (_joint, model.joints),
+        (_mass, model.masses),
+    ):
+        for joint in joints:
+            try:
+                translate(joint, model, roles, case, places)
+                journal.mark(joint.source, TRANSLATED)
+            except Fault as fault:
+                journal.refuse_fault(joint.source, fault)
+    if model.static and model.frequency and any(one.kind == "line" for one in model.joints):
+        journal.choose(
+            "SPRINGA keeps its direction; CalculiX turns it with the displacements of the static"
+            " step before it computes frequencies"
+        )
+    for number in roles.used:
+        position = model.nodes.at([number])[0]
+        case.set(("reference", roles.references[number], "position"), position)
+
+
+class Numbered:
+    """Names with the line of their card, and a number if a card gives several; masses by node."""
+
+    def __init__(self, faces):
+        self.faces = faces
+        self.counts = {}
+        self.masses = {}
+
+    def name(self, kind, source):
+        stem = f"{kind}_{source.line}"
+        count = self.counts[stem] = self.counts.get(stem, 0) + 1
+        return stem if count == 1 else f"{stem}_{count}"
+
+
+def set_equation(case, name, terms, source):
+    """Sets an equation of terms (name, component, coefficient), whose sum is zero."""
+    sign = -1.0 if terms[0][2] < 0 else 1.0
+    text = ""
+    for place, component, coefficient in terms:
+        value = sign * float(coefficient)
+        joint = "" if not text else (" - " if value < 0 else " + ")
+        factor = "" if abs(value) == 1 else f"{abs(value)!r}*"
+        text += f"{joint}{factor}{place}:{COMPONENTS[component]}"
+    case.set(("equation", name), f"{text} = 0", source)
+
+
+def _equation(equation, model, roles, case, places):
+    terms = roles.global_terms(equation.terms)
+    set_equation(case, places.name("line", equation.source), terms, equation.source)
+
+
+def _mean(mean, model, roles, case, places):
+    """u_R = Σ w u / Σ w for each component."""
+    weights = mean.weights / mean.weights.sum()
+    for component in range(3):
+        terms = [(roles.name(mean.reference), component, 1.0)]
+        for number, weight in zip(mean.nodes.tolist(), weights):
+            roles.place(number, component)
+            terms.append((roles.name(number), component, -weight))
+        set_equation(case, places.name("line", mean.source), terms, mean.source)
+
+
+def _rigid(rigid, model, roles, case, places):
+    if not rigid.components:
+        return  # refused with its role
+    numbers, wanted = _coupled_nodes(rigid, model, places.faces)
+    name = roles.references[rigid.reference]
+    inside = [number for number in numbers if roles.in_cells(number)]
+    others = [
+        roles.references[number]
+        for number in numbers
+        if number in roles.references and number != rigid.reference and not roles.in_cells(number)
+    ]
+    if not inside and not others:
+        raise Missing("none of its nodes belongs to an element that is translated")
+    nodes = [case.group(NODES, inside, wanted)] if inside else []
+    case.set(("reference", name, "position"), model.nodes.at([rigid.reference])[0], rigid.source)
+    path = ("coupling", clean(rigid.name) if rigid.name else name)
+    case.set((*path, "reference"), name, rigid.source)
+    case.set((*path, "nodes"), ",".join(nodes + others), rigid.source)
+    if len(rigid.components) < 3:
+        letters = "".join("xyz"[component] for component in rigid.components)
+        case.set((*path, "components"), letters, rigid.source)
+    if rigid.frame is not None and len(rigid.components) < 3:
+        case.set((*path, "frame"), case.frame(rigid.frame), rigid.source)
+
+
+def _coupled_nodes(rigid, model, faces):
+    """Returns the nodes of a rigid body or of a coupling, and a name for their group."""
+    if rigid.surface is None:
+        sets = model.node_sets if rigid.label in model.node_sets else model.element_sets
+        return rigid.nodes.tolist(), sets.spelled[rigid.label]
+    surface = model.surfaces[rigid.surface]
+    if surface.nodes is not None:
+        return surface.nodes.tolist(), surface.name
+    rows = np.column_stack([surface.elements, surface.faces])
+    tables = [table.ravel() for _, table in faces.tables(rows)]
+    if not tables:
+        raise Fault(f"the surface '{surface.name}' has no faces")
+    return np.unique(np.concatenate(tables)).tolist(), surface.name
+
+
+def _joint(joint, model, roles, case, places):
+    for number, nodes in elements_in(model, joint.label):
+        for node in nodes:
+            roles.place(node, 0)
+        if joint.kind == "ground":
+            _ground(joint, number, nodes[0], model, roles, case)
+            continue
+        path = ("spring", f"element_{number}")
+        case.set((*path, "from"), roles.name(nodes[0]), joint.source)
+        case.set((*path, "to"), roles.name(nodes[1]), joint.source)
+        for key, value in (("stiffness", joint.stiffness), ("damping", joint.damping)):
+            if value:
+                case.set((*path, key), value, joint.source)
+
+
+def _ground(joint, number, node, model, roles, case):
+    if node in model.frames:
+        raise Fault("a spring to the ground at a node with *TRANSFORM is not supported")
+    path = ("bushing", f"element_{number}")
+    case.set((*path, "from"), roles.name(node), joint.source)
+    for key, value in (("stiffness", joint.stiffness), ("damping", joint.damping)):
+        if value:
+            values = np.zeros(3)
+            values[joint.component] = value
+            case.set((*path, key), values, joint.source)
+
+
+def _mass(mass, model, roles, case, places):
+    for number, nodes in elements_in(model, mass.label):
+        roles.place(nodes[0], 0)
+        places.masses[nodes[0]] = places.masses.get(nodes[0], 0.0) + mass.mass
+        options = case.options.setdefault("mass", {}).setdefault(roles.name(nodes[0]), {})
+        options["total"] = (text_of(places.masses[nodes[0]]), mass.source)

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Points on faces of cells: to which face they belong, and the nearest point there."""
+import numpy as np
+
+STEPS = 30
+OUTSIDE = 1e-6  # of the reference face: nodes on an edge belong to it
+
+
+# The triangles of a face with 3, 4, 6 or 8 nodes.
+TRIANGLES = {
+    3: ((0, 1, 2),),
+    4: ((0, 1, 3), (1, 2, 3)),
+    6: ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
+    8: ((0, 4, 7), (4, 1, 5), (5, 2, 6), (6, 3, 7), (7, 4, 6), (4, 5, 6)),
+}
+
+
+def _distances(face):
+    """Returns for each triangle of a face the distance of its centre from the side opposite to its
+    first node: a third of its height."""
+    for first, second, third in TRIANGLES[len(face)]:
+        side = face[third] - face[second]
+        area = np.linalg.norm(np.cross(side, face[first] - face[second]))
+        yield area / np.linalg.norm(side) / 3
+
+
+def shape_functions(size, xi, eta):
+    """Returns values and derivatives (by xi and eta) of the functions of a face with 3, 4, 6 or 8
+    nodes, corners first."""
+    if size in (3, 6):
+        return _triangle(size, xi, eta)
+    corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], float)
+    a, b = corners.T
+    if size == 4:
+        return (
+            (1 + a * xi) * (1 + b * eta) / 4,
+            a * (1 + b * eta) / 4,
+            b * (1 + a * xi) / 4,
+        )
+    values, by_xi, by_eta = np.zeros(8), np.zeros(8), np.zeros(8)
+    values[:4] = (1 + a * xi) * (1 + b * eta) * (a * xi + b * eta - 1) / 4
+    by_xi[:4] = a * (1 + b * eta) * (2 * a * xi + b * eta) / 4
+    by_eta[:4] = b * (1 + a * xi) * (a * xi + 2 * b * eta) / 4
+    for at, sign in ((4, -1), (6, 1)):
+        values[at] = (1 - xi**2) * (1 + sign * eta) / 2
+        by_xi[at], by_eta[at] = -xi * (1 + sign * eta), sign * (1 - xi**2) / 2
+    for at, sign in ((5, 1), (7, -1)):
+        values[at] = (1 + sign * xi) * (1 - eta**2) / 2
+        by_xi[at], by_eta[at] = sign * (1 - eta**2) / 2, -eta * (1 + sign * xi)
+    return values, by_xi, by_eta
+
+
+def _triangle(size, xi, eta):
+    third = 1 - xi - eta
+    if size == 3:
+        return np.array([third, xi, eta]), np.array([-1.0, 1, 0]), np.array([-1.0, 0, 1])
+    values = [third * (2 * third - 1), xi * (2 * xi - 1), eta * (2 * eta - 1)]
+    values += [4 * third * xi, 4 * xi * eta, 4 * eta * third]
+    by_xi = [1 - 4 * third, 4 * xi - 1, 0, 4 * (third - xi), 4 * eta, -4 * eta]
+    by_eta = [1 - 4 * third, 0, 4 * eta - 1, -4 * xi, 4 * xi, 4 * (third - eta)]
+    return np.array(values), np.array(by_xi, float), np.array(by_eta, float)
+
+
+def project(point, face):
+    """Returns the point of a face that is nearest to a point: the weights of its nodes and its
+    place. That is the foot of a normal, or a point of the boundary."""
+    size = len(face)
+    triangle = size in (3, 6)
+    xi = eta = 1 / 3 if triangle else 0.0
+    for _ in range(STEPS):
+        values, by_xi, by_eta = shape_functions(size, xi, eta)
+        tangents = np.array([by_xi @ face, by_eta @ face])
+        # Gauss-Newton: the distance to a flat or slightly curved face.
+        step = np.linalg.lstsq(tangents.T, point - values @ face, rcond=None)[0]
+        xi, eta = xi + step[0], eta + step[1]
+        if not max(abs(xi), abs(eta)) < 10:
+            break
+        if np.max(np.abs(step)) < 1e-13:
+            break
+    if triangle:
+        inside = min(xi, eta, 1 - xi - eta) > -OUTSIDE
+    else:
+        inside = max(abs(xi), abs(eta)) < 1 + OUTSIDE
+    if not inside:
+        return _project_on_edges(point, face)
+    values, _, _ = shape_functions(size, xi, eta)
+    return values, values @ face
+
+
+def _project_on_edges(point, face):
+    corners = 4 if len(face) in (4, 8) else 3
+    best = None
+    for first in range(corners):
+        nodes = [first, (first + 1) % corners, *([corners + first] if len(face) > 4 else [])]
+        for start in (0.0, 0.5, 1.0):
+            at = _nearest_on_edge(point, face[nodes], start)
+            weights = np.zeros(len(face))
+            weights[nodes] = _edge_functions(len(nodes), at)[0]
+            distance = np.linalg.norm(weights @ face - point)
+            if best is None or distance < best[0]:
+                best = distance, weights
+    return best[1], best[1] @ face
+
+
+def _edge_functions(size, t):
+    """Returns values and derivatives on an edge from t = 0 to 1 with the middle node last."""
+    if size == 2:
+        return np.array([1 - t, t]), np.array([-1.0, 1.0])
+    return (
+        np.array([(1 - t) * (1 - 2 * t), t * (2 * t - 1), 4 * t * (1 - t)]),
+        np.array([4 * t - 3, 4 * t - 1, 4 - 8 * t]),
+    )
+
+
+def _nearest_on_edge(point, edge, t):
+    for _ in range(STEPS):
+        values, slopes = _edge_functions(len(edge), t)
+        tangent = slopes @ edge
+        step = np.dot(point - values @ edge, tangent) / np.dot(tangent, tangent)
+        new = min(max(t + step, 0.0), 1.0)
+        if abs(new - t) < 1e-14:
+            break
+        t = new
+    return t
+
+
+class Surface:
+    """Faces, each an array of coordinates of its nodes, corners first, and the triangles by which
+    CalculiX assigns points to them. `size`: the typical size of a face that sets its tolerances."""
+
+    def __init__(self, faces):
+        self.faces = faces
+        distances = [distance for face in faces for distance in _distances(face)]
+        self.size = float(np.mean(distances))
+        triangles = [face[list(one)] for face in faces for one in TRIANGLES[len(face)]]
+        self.owners = [number for number, face in enumerate(faces) for _ in TRIANGLES[len(face)]]
+        self.corners = np.array(triangles)
+        sides = np.roll(self.corners, -1, axis=1) - self.corners
+        normals = np.cross(sides[:, 0], sides[:, 1])
+        self.normals = normals / np.linalg.norm(normals, axis=1)[:, None]
+        outwards = np.cross(sides, self.normals[:, None])
+        self.outwards = outwards / np.linalg.norm(outwards, axis=2)[:, :, None]
+
+    def face_of(self, point, tolerance):
+        """Returns the number of the face of a point and its distance from the plane of its
+        triangle, or None if it lies beside all triangles by more than a tolerance."""
+        away = point - self.corners
+        beside = np.maximum(np.einsum("tij,tij->ti", away, self.outwards).max(axis=1), 0.0)
+        distances = np.abs(np.einsum("tj,tj->t", away[:, 0], self.normals))
+        inside = beside <= tolerance
+        if not np.any(inside):
+            return None
+        # One that contains the foot comes first, and then the nearest.
+        contained = inside & (beside <= 1e-9 * self.size)
+        chosen = np.flatnonzero(contained if np.any(contained) else inside)
+        best = chosen[np.argmin(distances[chosen])]
+        return self.owners[best], float(distances[best])

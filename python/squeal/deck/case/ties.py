@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Ties of a case: of two surfaces, or of nodes and a surface.
+
+Nodes are tied one by one, as CalculiX does: each follows the nearest point of its master face.
+These are equations in the case, whose ties need faces on both sides. A node is tied if its distance
+from the plane of a triangle of a face is within POSITION TOLERANCE, and if it lies beside this
+triangle by no more than the default of that.
+"""
+import numpy as np
+
+from squeal.deck.case.groups import FACES, clean
+from squeal.deck.case.joints import set_equation
+from squeal.deck.case.projection import Surface, project
+from squeal.deck.journal import TRANSLATED, Fault
+
+TOLERANCE = 0.025  # of the typical size of the master faces; the measured one of CalculiX 2.20
+
+
+def add_ties(model, roles, case, journal, faces):
+    """Returns for import.md the rows (name, tied, free) of ties of nodes. Moves their nodes onto
+    the master if the deck adjusts them; to be called before coordinates are used."""
+    counted = []
+    for tie in model.ties:
+        try:
+            slave, master = model.surfaces[tie.slave], model.surfaces[tie.master]
+            if slave.nodes is None:
+                _tie_of_faces(tie, slave, master, case, journal, faces)
+            else:
+                counted.append(_tie_of_nodes(tie, slave, master, model, roles, case, faces))
+                journal.remark(tie.source, "{1} nodes tied, {2} free".format(*counted[-1]))
+            for source in (tie.source, slave.source, master.source):
+                journal.mark(source, TRANSLATED)
+        except Fault as fault:
+            journal.refuse_fault(tie.source, fault)
+    return counted
+
+
+def _tie_of_faces(tie, slave, master, case, journal, faces):
+    path = ("tie", clean(tie.name))
+    for key, surface in (("slave", slave), ("master", master)):
+        rows = np.column_stack([surface.elements, surface.faces])
+        faces.tables(rows)
+        case.set((*path, key), case.group(FACES, rows, surface.name), tie.source)
+    if tie.tolerance is not None:
+        case.set((*path, "tolerance"), tie.tolerance, tie.source)
+    if not tie.adjust:
+        case.set((*path, "adjust"), False, tie.source)
+    journal.choose(
+        f"{tie.source}: the faces are tied by a mortar method, not node by node as in CalculiX"
+    )
+
+
+def _tie_of_nodes(tie, slave, master, model, roles, case, faces):
+    nodes = faces.nodes(np.column_stack([master.elements, master.faces]))
+    if not nodes:
+        raise Fault("the master surface has no faces")
+    surface = Surface([model.nodes.at(one) for one in nodes])
+    beside = TOLERANCE * surface.size
+    bound = beside if tie.tolerance is None else tie.tolerance
+    tied = 0
+    for number in slave.nodes.tolist():
+        roles.place(number, 0)
+        point = model.nodes.at([number])[0]
+        found = surface.face_of(point, beside)
+        if found is None or found[1] > bound or number in nodes[found[0]]:
+            continue
+        face, _ = found
+        weights, place = project(point, surface.faces[face])
+        tied += 1
+        if tie.adjust:
+            model.nodes.move(number, place)
+        _follow(tie, number, nodes[face], weights, roles, case)
+    return tie.name, tied, len(slave.nodes) - tied
+
+
+def _follow(tie, number, nodes, weights, roles, case):
+    """u = Σ N u of the nodes of the face, in global axes."""
+    kept = np.abs(weights) > 1e-12
+    for component, axis in enumerate("xyz"):
+        terms = [(roles.name(number), component, 1.0)]
+        for master, weight in zip(nodes[kept].tolist(), weights[kept]):
+            terms.append((roles.name(master), component, -weight))
+        set_equation(case, f"{clean(tie.name)}_{number}_{axis}", terms, tie.source)

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Translates a deck into the folder of a case: mesh.msh, case.yaml and import.md."""
+import argparse
+from pathlib import Path
+
+from squeal.deck.case.faces import Faces
+from squeal.deck.case.translate import translate
+from squeal.deck.inp.dialect import CALCULIX
+from squeal.deck.inp.reader import read_model
+from squeal.deck.journal import DeckError, Journal
+from squeal.deck.output.account import write_account
+from squeal.deck.output.msh import write_mesh
+from squeal.deck.output.options import MARK, write_options
+
+DIALECTS = {"calculix": CALCULIX}
+PARTIAL = "mesh.msh.partial"  # the mesh gets its name when all is written
+FILES = ("mesh.msh", "case.yaml", "import.md", PARTIAL)
+
+
+def import_deck(deck, folder, dialect="calculix", ignored=()):
+    """Writes the case of a deck into a folder, and returns its journal. If the deck is refused,
+    writes only import.md and raises DeckError."""
+    folder = Path(folder)
+    journal = Journal(ignored)
+    model = read_model(deck, DIALECTS[dialect], journal)
+    case = translate(model, journal)
+    _prepare(folder)
+    try:
+        accounted = None if journal.refusals else case
+        write_account(folder / "import.md", model, accounted, journal, DIALECTS[dialect])
+        journal.require_translatable(str(deck))
+        for name in journal.unmet():
+            raise DeckError(f"--ignore {name}: {deck} has nothing of this name that is refused")
+        write_mesh(folder / PARTIAL, model, case, Faces(model))
+        write_options(folder / "case.yaml", case, model.title, DIALECTS[dialect], ignored)
+        (folder / PARTIAL).rename(folder / "mesh.msh")
+    except OSError as error:
+        raise DeckError(f"{error.filename or folder}: {error.strerror}") from None
+    return journal
+
+
+def _prepare(folder):
+    """Makes the folder, and removes the files of an earlier import. Raises DeckError if a case is
+    there that was not imported."""
+    case = folder / "case.yaml"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if case.exists() and not case.read_text(encoding="utf-8", errors="replace").startswith(
+            MARK
+        ):
+            raise DeckError(f"{case} was not made by squeal-import; choose another folder")
+        if not case.exists() and (folder / "mesh.msh").exists():
+            raise DeckError(f"{folder} has a mesh.msh of another origin; choose another folder")
+        for name in FILES:
+            (folder / name).unlink(missing_ok=True)
+    except OSError as error:
+        raise DeckError(f"{error.filename or folder}: {error.strerror}") from None
+
+
+def main(words):
+    parser = argparse.ArgumentParser(prog="squeal-import", description=__doc__)
+    add = parser.add_argument
+    add("deck", metavar="DECK", help="deck of CalculiX (.inp)")
+    folder = "folder of the case; default: the name of the deck, in the working folder"
+    add("-o", "--output", metavar="FOLDER", help=folder)
+    add("--dialect", choices=sorted(DIALECTS), default="calculix", help="program of the deck")
+    ignored = "card, parameter, load or type of element to leave out although it is physics"
+    add("--ignore", metavar="NAME", action="append", default=[], help=ignored)
+    given = parser.parse_args(words)
+    folder = Path(given.output or Path(given.deck).stem)
+    journal = import_deck(given.deck, folder, given.dialect, given.ignore)
+    print(f"{folder / 'case.yaml'}: the case; {folder / 'import.md'}: the account of the deck")
+    print(f"  cards: {journal.counted()}")
+    for choice in journal.choices:
+        print(f"  {choice}")

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Lines of a deck, with those of included files in their place."""
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from squeal.deck.journal import DeckError, Source
+from squeal.files import open_regular
+
+DEPTH = 20  # of files that include each other
+
+
+@dataclass(frozen=True)
+class Line:
+    file: str
+    number: int
+    text: str
+
+
+class Lines:
+    """The lines of a deck. Comments (two stars after blanks) and blank lines are omitted; the texts
+    have no blanks at their ends."""
+
+    def __init__(self, path, journal):
+        self.root = Path(path)
+        self.journal = journal
+        self.files = 0
+
+    def __iter__(self):
+        yield from self._file(self.root, " ".join(self.root.name.split()), ())
+
+    def _file(self, path, name, above):
+        self.files += 1
+        for number, text in enumerate(self._texts(path, name), 1):
+            text = text.strip()
+            if not text or text.startswith("**"):
+                continue
+            if text.startswith("*") and re.match(r"\*\s*INCLUDE\s*(,|$)", text, re.IGNORECASE):
+                yield from self._included(Line(name, number, text), path, (*above, path))
+            else:
+                yield Line(name, number, text)
+
+    def _texts(self, path, name):
+        with os.fdopen(open_regular(path), "rb") as file:
+            data = file.read()
+        if data.startswith(b"\xef\xbb\xbf"):
+            data = data[3:]
+            self.journal.choose(f"{name}: a byte order mark at the start is skipped")
+        try:
+            text = data.decode("utf-8")
+        except UnicodeDecodeError:
+            text = data.decode("latin-1")
+            self.journal.choose(f"{name}: read as ISO 8859-1, since it is not UTF-8")
+        return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+    def _included(self, line, path, above):
+        source = Source(line.file, line.number, "INCLUDE")
+        self.journal.open(source)
+        match = re.search(r"INPUT\s*=\s*(\"([^\"]*)\"|[^,]*)", line.text, re.IGNORECASE)
+        name = (match[2] if match[2] is not None else match[1]).strip() if match else ""
+        if not name:
+            self.journal.refuse(source, "INPUT= names no file")
+            return
+        places = list(dict.fromkeys([path.parent / name, self.root.parent / name]))
+        found = next((place for place in places if place.is_file()), None)
+        if found is None:
+            where = " and ".join(map(str, places))
+            self.journal.refuse(source, f"there is no file {where}")
+        elif len(above) >= DEPTH or any(os.path.samefile(found, one) for one in above):
+            self.journal.refuse(source, f"{name} includes itself, or files are nested too deeply")
+        else:
+            self.journal.mark(source, "used", str(found))
+            yield from self._file(found, name, above)
+
+
+def read_lines(path, journal):
+    """Returns the lines of a deck. Raises DeckError if its file cannot be read."""
+    try:
+        return list(Lines(path, journal))
+    except OSError as error:
+        raise DeckError(f"{error.filename or path}: {error.strerror}") from None

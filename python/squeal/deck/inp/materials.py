@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Cards of materials, sections and axes."""
+import numpy as np
+
+from squeal.deck.inp.handlers import handles
+from squeal.deck.journal import UNUSED, Fault
+from squeal.deck.model import Frame, Material, Section
+from squeal.deck.numbers import real
+
+# Law, number of constants and lines of one temperature.
+LAWS = {
+    **{"ISO": ("isotropic", 2, 1), "ISOTROPIC": ("isotropic", 2, 1)},
+    **{"ORTHO": ("orthotropic", 9, 2), "ORTHOTROPIC": ("orthotropic", 9, 2)},
+    **{"ANISO": ("anisotropic", 21, 3), "ANISOTROPIC": ("anisotropic", 21, 3)},
+    "ENGINEERINGCONSTANTS": ("engineering", 9, 2),
+}
+OTHER_LAWS = {
+    **{"PLASTIC": "plasticity", "CYCLIC HARDENING": "plasticity", "CREEP": "creep"},
+    **{"HYPERELASTIC": "hyperelasticity", "HYPERFOAM": "hyperelasticity"},
+    **{"DEFORMATION PLASTICITY": "plasticity", "MOHR COULOMB": "plasticity"},
+    **{"USER MATERIAL": "a law of the user", "DEPVAR": "a law of the user"},
+}
+
+
+@handles("MATERIAL", used=("NAME",), lines=0)
+def material(card, reader):
+    name = card.require("NAME")
+    key = card.key("NAME")
+    if key in reader.model.materials:
+        raise Fault(f"material '{name}' is defined twice")
+    reader.material = reader.model.materials[key] = Material(name, card.source)
+
+
+def _material(reader):
+    if reader.material is None:
+        raise Fault("this card belongs after *MATERIAL")
+    return reader.material
+
+
+@handles("ELASTIC", used=("TYPE",))
+def elastic(card, reader):
+    one = _material(reader)
+    kind = card.key("TYPE", "ISO")
+    if kind not in LAWS:
+        raise Fault(f"TYPE={kind} is not supported")
+    law, count, lines = LAWS[kind]
+    rows = list(card.rows())
+    fields = [field for _, row in rows[:lines] for field in row]
+    if len(fields) not in (count, count + 1):
+        raise Fault(f"TYPE={kind} has {count} constants and a temperature on {lines} lines")
+    if one.law:
+        raise Fault(f"material '{one.name}' has two laws")
+    one.constants = tuple(real(field, rows[0][0]) for field in fields[:count])
+    one.law, one.elastic = law, card.source
+    if len(rows) > lines:
+        reader.journal.choose(
+            f"{card.source}: the constants of the first temperature are used, of"
+            f" {len(rows) // lines}"
+        )
+    elif len(fields) > count:
+        reader.journal.remark(card.source, "the temperature of the constants is not used")
+
+
+@handles("DENSITY")
+def density(card, reader):
+    one = _material(reader)
+    line, fields = next(card.rows(), (None, []))
+    if not fields:
+        raise Fault("there is no line of data")
+    one.density, one.density_source = real(fields[0], line), card.source
+    if len(card.data) > 1:
+        reader.journal.choose(f"{card.source}: the density of the first temperature is used")
+
+
+@handles("EXPANSION", "CONDUCTIVITY", "SPECIFIC HEAT", "ELECTRICAL CONDUCTIVITY", idle=None)
+def thermal(card, reader):
+    reader.journal.mark(card.source, UNUSED, "no temperatures: a card that gives one is refused")
+
+
+@handles(*OTHER_LAWS, idle=None)
+def other_law(card, reader):
+    """Recorded with the material, and refused if a section uses that."""
+    reason = f"{OTHER_LAWS[card.keyword]} is not supported"
+    _material(reader).refusals.append((card.source, reason))
+    reader.journal.mark(card.source, UNUSED)
+
+
+@handles("SOLID SECTION", used=("ELSET", "MATERIAL", "ORIENTATION"), lines=1)
+def solid_section(card, reader):
+    label = card.key("ELSET")
+    reader.model.sections.append(
+        Section(
+            reader.model.element_sets.members(label),
+            label,
+            card.key("MATERIAL"),
+            card.key("ORIENTATION", "") or None,
+            card.source,
+        )
+    )
+    if card.data:
+        reader.journal.remark(card.source, "the line of data has no effect on solid cells")
+
+
+def _frame(card, name, cylindrical):
+    rows = list(card.rows())
+    if not rows:
+        raise Fault("there is no line of data")
+    line, fields = rows[0]
+    if len(fields) not in (6, 9):
+        raise Fault("the axes need the coordinates of two points", line=line)
+    numbers = np.array([real(field, line) if field else 0.0 for field in fields]).reshape(-1, 3)
+    a, b = numbers[:2]
+    if len(numbers) == 3 and not cylindrical:
+        a, b = a - numbers[2], b - numbers[2]
+    frame = Frame(name, cylindrical, a, b, card.source)
+    # The first axis must exist at some point.
+    frame.axes_at(a + np.array([1.3, 0.7, 0.4]))
+    return frame, rows[1:]
+
+
+@handles("ORIENTATION", used=("NAME", "SYSTEM"), idle=("DEFINITION",), lines=2)
+def orientation(card, reader):
+    system = card.key("SYSTEM", "RECTANGULAR")
+    if system not in ("RECTANGULAR", "CYLINDRICAL"):
+        raise Fault(f"SYSTEM={system} is not supported")
+    if card.key("DEFINITION", "COORDINATES") != "COORDINATES":
+        raise Fault("only DEFINITION=COORDINATES is supported", "DEFINITION")
+    name = card.require("NAME")
+    frame, more = _frame(card, name, system == "CYLINDRICAL")
+    if any(len(fields) > 1 and real(fields[1], line) != 0 for line, fields in more):
+        raise Fault("an additional rotation is not supported", line=more[0][0])
+    reader.model.orientations[card.key("NAME")] = frame
+
+
+@handles("TRANSFORM", used=("NSET", "TYPE"), lines=1)
+def transform(card, reader):
+    kind = card.key("TYPE", "R")
+    if kind not in ("R", "C"):
+        raise Fault(f"TYPE={kind} is not supported")
+    label = card.key("NSET")
+    number = 1 + len({frame.name for frame in reader.model.frames.values()})
+    frame, _ = _frame(card, f"transform_{number}", kind == "C")
+    for one in reader.model.node_sets.members(label):
+        reader.model.frames[int(one)] = frame

@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""From the cards of a deck to its model."""
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from squeal.deck.inp import contacts, joints, materials, mesh, state  # noqa: F401 (handlers)
+from squeal.deck.inp.cards import key_of, read_cards
+from squeal.deck.inp.dialect import OUTPUT, PROCEDURES
+from squeal.deck.inp.handlers import TABLE, settle
+from squeal.deck.inp.lines import read_lines
+from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
+from squeal.deck.model import EMPTY, Model
+from squeal.deck.numbers import integer, is_integer
+
+REASONS = {
+    **{name: "shells are not supported" for name in ("SHELL SECTION", "MEMBRANE SECTION")},
+    "BEAM SECTION": "beams are not supported",
+    "TEMPERATURE": "temperatures and their strains are not supported",
+    "GAP": "gap elements are not supported",
+    "MPC": "multi-point constraints of this kind are not supported; use *EQUATION",
+    "BUCKLE": "buckling loads are not computed",
+    "COMPLEX FREQUENCY": "complex modes of a rotor are not translated",
+}
+
+
+def _reason(card):
+    if card.keyword in REASONS:
+        return REASONS[card.keyword]
+    if card.keyword in PROCEDURES:
+        return "this procedure is not computed"
+    return "this card is not supported" if card.known else "unknown card"
+
+
+@dataclass
+class Step:
+    """The step that is read: kinds of cards that it has given already, and places that it has
+    loaded."""
+
+    frequency: bool = False
+    after_static: bool = False
+    perturbation: bool = False
+    renewed: set = field(default_factory=set)
+    loaded: set = field(default_factory=set)
+
+
+class Reader:
+    """Applies cards to a model; following cards describe `material` and `interaction`."""
+
+    def __init__(self, model, journal):
+        self.model = model
+        self.journal = journal
+        self.material = self.interaction = None
+        self.step = Step()
+
+    def read(self, cards):
+        phases = [[], [], []]
+        for card in cards:
+            phases[TABLE[card.keyword].phase if card.keyword in TABLE else 2].append(card)
+        for card in phases[0]:
+            self._apply(card)
+        self.model.merge_blocks()
+        for card in phases[1]:
+            self._apply(card)
+        rest = phases[2]
+        at = 0
+        while at < len(rest):
+            if rest[at].keyword == "STEP":
+                end = at + 1
+                while end < len(rest) and rest[end].keyword not in ("STEP", "END STEP"):
+                    end += 1
+                ended = end < len(rest) and rest[end].keyword == "END STEP"
+                self._step(rest[at : end + ended])
+                at = end + ended
+            else:
+                self._apply(rest[at])
+                at += 1
+        self.journal.close()
+
+    def _apply(self, card):
+        """Lets the handler of a card work, or refuses the card."""
+        handler = TABLE.get(card.keyword)
+        try:
+            if card.keyword in OUTPUT:
+                self.journal.mark(card.source, UNUSED, "output of the other program")
+            elif handler is None:
+                raise Fault(_reason(card))
+            else:
+                settle(card, handler, self.journal)
+                handler.function(card, self)
+        except Fault as fault:
+            self.journal.refuse(card.source, fault.reason, fault.name, fault.line)
+        else:
+            if not self.journal.entries[card.source].status:
+                self.journal.mark(card.source, USED)
+
+    def _step(self, cards):
+        procedure = next((card for card in cards if card.keyword in PROCEDURES), None)
+        name = procedure.keyword if procedure else None
+        supported = name in ("STATIC", "FREQUENCY")
+        if procedure and not supported and self.journal.ignores(name):
+            for card in cards:
+                self.journal.mark(card.source, UNUSED, f"in the step of *{name}, which is ignored")
+            return
+        if procedure is None:
+            self.journal.refuse(cards[0].source, "the step has no procedure")
+        self.step = Step(name == "FREQUENCY", self.model.static is not None)
+        self._open_step(cards[0], name)
+        for card in cards[1:]:
+            if card is procedure and supported:
+                self._procedure(card)
+            elif card.keyword == "END STEP":
+                self.journal.mark(card.source, USED)
+            elif card.keyword == "BOUNDARY" and self.step.frequency and self.step.after_static:
+                self.journal.refuse(card.source, "supports that change after the static step")
+            else:
+                self._apply(card)
+        self.step = Step()
+
+    def _open_step(self, card, procedure):
+        journal = self.journal
+        journal.mark(card.source, USED)
+        for name, value in card.parameters.items():
+            if name == "NLGEOM" and (value or "YES").upper() != "NO":
+                journal.refuse(card.source, "large displacements are not supported", name)
+            elif name == "PERTURBATION" and procedure == "FREQUENCY":
+                self.step.perturbation = True
+            elif name in ("INC", "INCF", "NAME", "NLGEOM", "AMPLITUDE"):
+                journal.remark(card.source, f"{name} is not used")
+            else:
+                journal.refuse(card.source, "this parameter is not supported", name)
+
+    def _procedure(self, card):
+        journal = self.journal
+        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION"}
+        for name in card.parameters:
+            if name in idle:
+                journal.remark(card.source, f"{name} is not used")
+            else:
+                journal.refuse(card.source, "this parameter is not supported", name)
+        try:
+            if card.keyword == "FREQUENCY":
+                self._frequency(card)
+            else:
+                self._static(card)
+        except Fault as fault:
+            journal.refuse(card.source, fault.reason, fault.name, fault.line)
+
+    def _frequency(self, card):
+        rows = list(card.rows())
+        if not rows:
+            raise Fault("the number of frequencies is missing")
+        line, fields = rows[0]
+        if self.model.frequency and self.model.prestress != self.step.perturbation:
+            raise Fault("steps of free vibrations with and without PERTURBATION")
+        self.model.prestress = self.step.perturbation
+        self.model.frequencies = max(integer(fields[0], line), self.model.frequencies or 0)
+        self.model.frequency = card.source
+        if len(rows) > 1:
+            raise Fault("this card has one line of data", line=rows[1][0])
+        if len(fields) > 1:
+            self.journal.remark(card.source, "only the number of frequencies is used")
+        if self.model.static and not self.model.prestress:
+            self.journal.choose(f"{card.source}: frequencies without the effect of the static step")
+        self.journal.mark(card.source, TRANSLATED)
+
+    def _static(self, card):
+        if self.model.static:
+            self.journal.choose(
+                f"{card.source}: the case has the state at the end of this static step, not those"
+                " of earlier ones"
+            )
+        if self.model.frequencies is not None:
+            raise Fault("a static step after one of free vibrations is not supported")
+        if card.data:
+            self.journal.remark(card.source, "increments are not used: the step is linear")
+        self.model.static = card.source
+        self.journal.mark(card.source, TRANSLATED)
+
+    def nodes_of(self, word, line):
+        """Returns the node, or the nodes of the set, that a field names. Raises Fault."""
+        return self._members(word, line, self.model.node_sets)
+
+    def elements_of(self, word, line):
+        """Returns the element, or the elements of the set, that a field names. Raises Fault."""
+        return self._members(word, line, self.model.element_sets)
+
+    def surface_of(self, word, line):
+        """Returns the key of a surface. Raises Fault if there is none."""
+        key = key_of(word)
+        if key not in self.model.surfaces:
+            raise Fault(f"there is no surface '{word}'", line=line)
+        return key
+
+    def _members(self, word, line, sets):
+        if is_integer(word):
+            if word in sets:
+                self.journal.choose(f"line {line}: {word} is read as a number, not as a set")
+            return np.array([integer(word, line)], np.int64)
+        try:
+            return sets.members(key_of(word))
+        except Fault as fault:
+            raise Fault(fault.reason, line=line) from None
+
+    def kinds_of(self, elements):
+        """Returns the kinds of elements; elements that do not exist are left out."""
+        blocks, _ = self.model.find_elements(elements)
+        return {self.model.blocks[block].kind for block in np.unique(blocks[blocks >= 0])}
+
+    def nodes_of_elements(self, elements, kind=None):
+        """Returns the nodes of elements, of one kind only if it is given, in ascending order."""
+        found = [EMPTY]
+        blocks, rows = self.model.find_elements(elements)
+        for number, block in enumerate(self.model.blocks):
+            if kind is None or block.kind == kind:
+                found.append(block.nodes[rows[blocks == number]].ravel())
+        return np.unique(np.concatenate(found))
+
+
+def read_model(path, dialect, journal):
+    """Returns the model of a deck; the journal then has an entry for each card. Raises DeckError if
+    a file cannot be read."""
+    cards = read_cards(read_lines(path, journal), dialect, journal)
+    model = Model(" ".join(Path(path).name.split()))
+    Reader(model, journal).read(cards)
+    return model

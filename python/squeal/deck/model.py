@@ -1,0 +1,377 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""The model that a deck describes, the same for all input languages.
+
+Node and element numbers are those of the deck. Components are 0, 1, 2 for displacements and
+3, 4, 5 for rotations.
+"""
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from squeal.deck.journal import Fault, Source
+
+EMPTY = np.zeros(0, dtype=np.int64)
+
+
+class Nodes:
+    """Numbers and coordinates; a number that is given again replaces the earlier coordinates."""
+
+    def __init__(self):
+        self._parts = []
+        self._sorted = None
+
+    def add(self, numbers, coordinates):
+        self._parts.append((np.asarray(numbers, np.int64), np.asarray(coordinates, float)))
+        self._sorted = None
+
+    def _table(self):
+        if self._sorted is None:
+            numbers = np.concatenate([EMPTY, *(part[0] for part in self._parts)])
+            places = np.concatenate([np.zeros((0, 3)), *(part[1] for part in self._parts)])
+            # The last one of equal numbers counts.
+            unique, first = np.unique(numbers[::-1], return_index=True)
+            self._sorted = unique, places[::-1][first], len(numbers) - len(unique)
+        return self._sorted
+
+    @property
+    def numbers(self):
+        return self._table()[0]
+
+    @property
+    def coordinates(self):
+        return self._table()[1]
+
+    @property
+    def repeated(self):
+        """The number of coordinates that were replaced."""
+        return self._table()[2]
+
+    def has(self, numbers):
+        """Returns for each number whether there is a node."""
+        known = self.numbers
+        if not len(known):
+            return np.zeros(np.shape(numbers), bool)
+        at = np.minimum(np.searchsorted(known, numbers), len(known) - 1)
+        return known[at] == numbers
+
+    def at(self, numbers):
+        """Returns the coordinates of nodes, one row each. Raises Fault for an unknown one."""
+        numbers = np.asarray(numbers, np.int64)
+        there = self.has(numbers)
+        if not np.all(there):
+            raise Fault(f"there is no node {np.atleast_1d(numbers)[~np.atleast_1d(there)][0]}")
+        return self.coordinates[np.searchsorted(self.numbers, numbers)]
+
+    def move(self, number, place):
+        self.coordinates[np.searchsorted(self.numbers, number)] = place
+
+
+@dataclass
+class Block:
+    """Elements of one kind: `kind` is the deck's word (C3D20R); `nodes` in Abaqus' order; `shape`
+    is that of solid cells, otherwise None."""
+
+    kind: str
+    shape: object
+    numbers: np.ndarray
+    nodes: np.ndarray
+    source: Source
+
+
+class Sets:
+    """Named sets of numbers, which may contain each other; `what` they are, for messages."""
+
+    def __init__(self, what):
+        self.what = what
+        self.spelled = {}
+        self.sources = {}
+        self._parts = {}
+        self._members = {}
+
+    def __contains__(self, key):
+        return key in self._parts
+
+    def __iter__(self):
+        return iter(self._parts)
+
+    def add(self, key, spelled, source, parts=()):
+        """Appends to a set numbers (arrays) and names of sets (strings), in their order."""
+        self.spelled.setdefault(key, spelled)
+        self.sources.setdefault(key, []).append(source)
+        self._parts.setdefault(key, []).extend(parts)
+        self._members.clear()
+
+    def members(self, key, above=()):
+        """Returns the numbers of a set in the order of the deck, each once. Raises Fault."""
+        if key not in self._parts:
+            raise Fault(f"there is no {self.what} set '{key}'")
+        if key in above:
+            raise Fault(f"the {self.what} set '{key}' contains itself")
+        if key not in self._members:
+            parts = [
+                self.members(part, (*above, key)) if isinstance(part, str) else part
+                for part in self._parts[key]
+            ]
+            numbers = np.concatenate([EMPTY, *parts])
+            _, first = np.unique(numbers, return_index=True)
+            self._members[key] = numbers[np.sort(first)]
+        return self._members[key]
+
+
+@dataclass
+class Surface:
+    """Faces (element number, number of the face from 0) or, without TYPE=ELEMENT, nodes."""
+
+    name: str
+    source: Source
+    nodes: np.ndarray = None
+    elements: np.ndarray = None
+    faces: np.ndarray = None
+
+
+@dataclass
+class Material:
+    """`law`: isotropic, engineering, orthotropic or anisotropic, with its constants in the order of
+    Abaqus. `refusals`: laws that the program does not have, as (source, reason); they matter only
+    if a section uses the material."""
+
+    name: str
+    source: Source
+    law: str = ""
+    constants: tuple = ()
+    elastic: Source = None
+    density: float = None
+    density_source: Source = None
+    refusals: list = field(default_factory=list)
+
+
+@dataclass
+class Frame:
+    """Axes: rectangular with directions a, b (axis 1 along a, b in the plane 1-2), or cylindrical
+    about the line from point a to point b."""
+
+    name: str
+    cylindrical: bool
+    a: np.ndarray
+    b: np.ndarray
+    source: Source
+
+    def axes_at(self, place):
+        """Returns the local axes at a point as rows. Raises Fault."""
+        if not self.cylindrical:
+            return _orthonormal(self.a, self.b)
+        axis = self.b - self.a
+        length = np.linalg.norm(axis)
+        if length == 0:
+            raise Fault("the two points of the axis coincide")
+        axis = axis / length
+        radial = place - self.a
+        radial = radial - np.dot(radial, axis) * axis
+        distance = np.linalg.norm(radial)
+        if distance <= 1e-12 * max(length, np.linalg.norm(place - self.a)):
+            raise Fault("a node on the axis has no radial direction")
+        radial = radial / distance
+        return np.array([radial, np.cross(axis, radial), axis])
+
+
+def _orthonormal(a, b):
+    lengths = np.linalg.norm(a), np.linalg.norm(b)
+    normal = np.cross(a, b)
+    if np.linalg.norm(normal) <= 1e-10 * lengths[0] * lengths[1]:
+        raise Fault("the two directions of the axes are zero or parallel")
+    x = a / lengths[0]
+    z = normal / np.linalg.norm(normal)
+    return np.array([x, np.cross(z, x), z])
+
+
+@dataclass
+class Section:
+    elements: np.ndarray
+    label: str
+    material: str
+    orientation: str
+    source: Source
+
+
+@dataclass
+class Equation:
+    """Terms (node, component, coefficient) in the axes of each node; their sum is zero."""
+
+    terms: list
+    source: Source
+
+
+@dataclass
+class Rigid:
+    """Nodes that move with a reference node as a rigid body, along some components of the axes of
+    `frame` (None: global). The components of the node `rotation` are its rotation, if there is such
+    a node; components 4 to 6 of the reference node always are. `surface`: the nodes are those of a
+    surface of this key, otherwise of the set `label`. `name`: of a coupling, None for a body."""
+
+    label: str
+    nodes: np.ndarray
+    reference: int
+    source: Source
+    rotation: int = None
+    name: str = None
+    surface: str = None
+    components: tuple = (0, 1, 2)
+    frame: Frame = None
+
+
+@dataclass
+class Mean:
+    """A node whose displacement is the weighted mean of that of others, without moments."""
+
+    reference: int
+    nodes: np.ndarray
+    weights: np.ndarray
+    source: Source
+
+
+@dataclass
+class Tie:
+    """`tolerance` None: that of the program of the deck."""
+
+    name: str
+    slave: str
+    master: str
+    tolerance: float
+    adjust: bool
+    source: Source
+
+
+@dataclass
+class Interaction:
+    """How two surfaces in contact act on each other: `stiffness` is that of a penalty, per area,
+    None for hard contact."""
+
+    source: Source
+    behavior: Source = None
+    stiffness: float = None
+    friction: Source = None
+
+
+@dataclass
+class Contact:
+    """Two surfaces, by their keys, that may touch."""
+
+    slave: str
+    master: str
+    interaction: str
+    source: Source
+
+
+@dataclass
+class Joint:
+    """Springs or dashpots of a set of elements. `kind`: line (between two nodes) or ground (one
+    node, along `component`)."""
+
+    kind: str
+    label: str
+    component: int
+    stiffness: float
+    damping: float
+    source: Source
+
+
+@dataclass
+class PointMass:
+    label: str
+    mass: float
+    source: Source
+
+
+@dataclass(frozen=True)
+class Value:
+    """A prescribed value or force: `label` is the key of the set that the deck named, or None."""
+
+    value: float
+    label: str
+    source: Source
+
+
+@dataclass
+class BodyLoad:
+    """Gravity (GRAV: `amount` is the acceleration along `direction`) or the centrifugal force of a
+    rotation (CENTRIF: `amount` is the speed about the axis through `origin`)."""
+
+    kind: str
+    elements: np.ndarray
+    direction: np.ndarray
+    amount: float
+    source: Source
+    origin: np.ndarray = None
+
+
+@dataclass
+class State:
+    """Supports and loads of the last static state: by node and component, by element and face."""
+
+    supports: dict = field(default_factory=dict)
+    forces: dict = field(default_factory=dict)
+    pressures: dict = field(default_factory=dict)
+    body_loads: list = field(default_factory=list)
+
+
+@dataclass
+class Model:
+    title: str
+    nodes: Nodes = field(default_factory=Nodes)
+    blocks: list = field(default_factory=list)
+    node_sets: Sets = field(default_factory=lambda: Sets("node"))
+    element_sets: Sets = field(default_factory=lambda: Sets("element"))
+    surfaces: dict = field(default_factory=dict)
+    materials: dict = field(default_factory=dict)
+    orientations: dict = field(default_factory=dict)
+    frames: dict = field(default_factory=dict)  # by node number
+    sections: list = field(default_factory=list)
+    equations: list = field(default_factory=list)
+    rigid: list = field(default_factory=list)
+    means: list = field(default_factory=list)
+    ties: list = field(default_factory=list)
+    interactions: dict = field(default_factory=dict)
+    contacts: list = field(default_factory=list)
+    joints: list = field(default_factory=list)
+    masses: list = field(default_factory=list)
+    state: State = field(default_factory=State)
+    static: Source = None  # the last static step
+    frequencies: int = None  # number of free modes, None: none requested
+    frequency: Source = None
+    prestress: bool = False
+    _lookup: tuple = None
+
+    def merge_blocks(self):
+        """Joins the elements of each type; their source is that of the first. To be called once,
+        when all are read: decks may have a card for each element."""
+        parts = {}
+        for block in self.blocks:
+            parts.setdefault(block.kind, []).append(block)
+        self.blocks = [
+            Block(
+                kind,
+                blocks[0].shape,
+                np.concatenate([block.numbers for block in blocks]),
+                np.concatenate([block.nodes for block in blocks]),
+                blocks[0].source,
+            )
+            for kind, blocks in parts.items()
+        ]
+        self._lookup = None
+
+    def find_elements(self, numbers):
+        """Returns block and row of elements, −1 for numbers without one. To be called when the
+        blocks are merged."""
+        if self._lookup is None:
+            known = np.concatenate([EMPTY, *(block.numbers for block in self.blocks)])
+            counts = [len(block.numbers) for block in self.blocks]
+            order = np.argsort(known, kind="stable")
+            blocks = np.repeat(np.arange(len(counts)), counts)[order]
+            rows = np.concatenate([EMPTY, *(np.arange(count) for count in counts)])[order]
+            self._lookup = known[order], blocks, rows
+        known, blocks, rows = self._lookup
+        if not len(known):
+            return np.full(len(numbers), -1), np.full(len(numbers), -1)
+        at = np.minimum(np.searchsorted(known, numbers), len(known) - 1)
+        found = known[at] == numbers
+        return np.where(found, blocks[at], -1), np.where(found, rows[at], -1)

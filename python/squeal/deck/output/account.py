@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Writes import.md: what became of each card, the sets with their sizes, and the choices made."""
+import numpy as np
+
+from squeal.deck.case.groups import CELLS, FACES, NODES
+from squeal.deck.journal import Fault
+
+
+def write_account(path, model, case, journal, dialect):
+    """`case` is None if the deck is refused. Raises OSError."""
+    text = [f"# {model.title}", ""]
+    text += _outcome(journal, dialect)
+    text += _choices(journal)
+    text += _cards(journal)
+    text += _elements(model)
+    text += _sets(model)
+    if case is not None:
+        text += _groups(case)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(text) + "\n")
+
+
+def _outcome(journal, dialect):
+    lines = [f"Read as a deck of {dialect.name}. Cards: {journal.counted()}.", ""]
+    if journal.refusals:
+        lines += ["The deck cannot be translated:", ""]
+        lines += [f"- {refusal}" for refusal in journal.refusals]
+        lines.append("")
+    return lines
+
+
+def _choices(journal):
+    if not journal.choices:
+        return []
+    return ["## Choices", "", *(f"- {choice}" for choice in journal.choices), ""]
+
+
+def _cards(journal):
+    lines = ["## Cards", "", "| place | card | outcome | remark |", "|---|---|---|---|"]
+    for source, entry in journal.entries.items():
+        if source.card:
+            remarks = _cell("; ".join(entry.remarks))
+            lines.append(f"| {_cell(str(source))} | *{source.card} | {entry.status} | {remarks} |")
+    return [*lines, ""]
+
+
+def _cell(text):
+    return text.replace("|", "\\|")
+
+
+def _elements(model):
+    lines = ["## Elements", "", "| type | elements | card |", "|---|---|---|"]
+    for block in model.blocks:
+        lines.append(f"| {block.kind} | {len(block.numbers)} | {_cell(str(block.source))} |")
+    return [*lines, "", f"Nodes: {len(model.nodes.numbers)}", ""]
+
+
+def _sets(model):
+    lines = ["## Sets and surfaces", "", "| kind | name | members | not in the deck |"]
+    lines.append("|---|---|---|---|")
+    for what, sets, exist in (
+        ("node set", model.node_sets, model.nodes.has),
+        ("element set", model.element_sets, lambda one: model.find_elements(one)[0] >= 0),
+    ):
+        for key in sets:
+            try:
+                members = sets.members(key)
+            except Fault as fault:  # refused where it is used
+                lines.append(f"| {what} | {_cell(sets.spelled[key])} | {_cell(str(fault))} | |")
+                continue
+            missing = int(np.sum(~exist(members))) if len(members) else 0
+            lines.append(
+                f"| {what} | {_cell(sets.spelled[key])} | {len(members)} | {missing or ''} |"
+            )
+    for surface in model.surfaces.values():
+        nodal = surface.nodes is not None
+        size = len(surface.nodes if nodal else surface.faces)
+        what = "surface of nodes" if nodal else "surface of faces"
+        lines.append(f"| {what} | {_cell(surface.name)} | {size} | |")
+    return [*lines, ""]
+
+
+def _groups(case):
+    lines = ["## Groups of the mesh", "", "| kind | name | members |", "|---|---|---|"]
+    for dimension, word in ((CELLS, "body"), (FACES, "faces"), (NODES, "nodes")):
+        for name, members in case.groups[dimension].items():
+            lines.append(f"| {word} | {_cell(name)} | {len(members)} |")
+    if case.ties:
+        lines += ["", "## Ties of nodes", "", "| tie | tied | free |", "|---|---|---|"]
+        lines += [f"| {_cell(name)} | {tied} | {free} |" for name, tied, free in case.ties]
+    return [*lines, ""]

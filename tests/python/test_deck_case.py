@@ -1,0 +1,462 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
+"""Cases of decks: what materials, supports, loads and joints become."""
+import re
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+repository = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
+sys.dont_write_bytecode = True
+from small_decks import CUBE, HELD, STATIC, STEEL, Imported, cube, refused
+
+from squeal.deck.importer import import_deck
+from squeal.deck.journal import DeckError
+
+ORTHO = "500000.,157200.,400000.,157200.,157200.,300000.,126200.,126200.,\n126200.,294."
+
+
+def numbers(text):
+    return [float(word) for word in text.split(",")]
+
+
+def terms(equation):
+    """Returns the coefficients of an equation by place."""
+    left, right = equation.split(" = ")
+    assert right == "0"
+    found = {}
+    for sign, factor, place in re.findall(r"(^|[+-] )(?:([\d.e+-]+)\*)?(\S+:\w+)", left):
+        found[place] = (-1 if sign == "- " else 1) * float(factor or 1)
+    return found
+
+
+class Materials(unittest.TestCase):
+    def materials(self, cards, section=""):
+        text = (
+            CUBE + f"*MATERIAL, NAME=M\n{cards}\n*SOLID SECTION, ELSET=CUBE, MATERIAL=M{section}\n"
+        )
+        return Imported(text + HELD + STATIC.format(""))
+
+    def test_laws(self):
+        for kind, data, key, count in (
+            ("ORTHO", ORTHO, "orthotropic", 9),
+            ("ENGINEERING CONSTANTS", "3.,2.,1.,.1,.2,.3,4.,5.,\n6.,", "engineering_constants", 9),
+            ("ANISO", "1,2,3,4,5,6,7,8\n9,10,11,12,13,14,15,16\n17,18,19,20,21", "anisotropic", 21),
+        ):
+            one = self.materials(f"*DENSITY\n1.\n*ELASTIC, TYPE={kind}\n{data}")
+            found = numbers(one.options["material"]["CUBE"][key])
+            given = [float(word) for word in re.split(r"[,\s]+", data.strip(",")) if word]
+            self.assertEqual(found, given[:count])
+
+    def test_orientations(self):
+        section = ", ORIENTATION=AXES\n*ORIENTATION, NAME=AXES{}"
+        law = f"*DENSITY\n1.\n*ELASTIC, TYPE=ORTHO\n{ORTHO}"
+        one = self.materials(law, section.format("\n0., 0., 1., 1., 0., 0."))
+        self.assertEqual(
+            numbers(one.options["material"]["CUBE"]["orientation"]), [0, 0, 1, 1, 0, 0]
+        )
+        axes = section.format(", SYSTEM=CYLINDRICAL\n1., 2., 3., 1., 2., 5.")
+        one = self.materials(law, axes)
+        self.assertEqual(
+            numbers(one.options["material"]["CUBE"]["cylindrical"]), [1, 2, 3, 0, 0, 2]
+        )
+        one = self.materials("*ELASTIC\n1., 0.\n*DENSITY\n1.", axes)
+        self.assertEqual(one.remarks("ORIENTATION")[0], "not used")
+
+    def test_a_missing_density_is_named(self):
+        one = self.materials("*ELASTIC\n1., 0.")
+        self.assertEqual(one.options["material"]["CUBE"]["density"], 1.0)
+        self.assertTrue(any("no *DENSITY: the density 1" in text for text in one.journal.choices))
+        rows = refused(
+            cube(step="*DLOAD\nCUBE, GRAV, 9.81, 0., 0., -1.\n").replace("*DENSITY\n7.8E-9\n", "")
+        )
+        self.assertIn("*DLOAD: material 'STEEL' has no *DENSITY", rows[0])
+
+    def test_laws_that_matter_only_if_they_are_used(self):
+        rubber = "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, OGDEN\n1., 2., 0.\n"
+        one = Imported(cube(rubber))
+        self.assertEqual(one.remarks("HYPERELASTIC")[0], "not used")
+        text = cube(rubber).replace("ELSET=CUBE, MATERIAL=STEEL", "ELSET=CUBE, MATERIAL=RUBBER")
+        (row,) = refused(text)
+        self.assertIn("*HYPERELASTIC: hyperelasticity is not supported", row)
+
+    def test_sections(self):
+        (row,) = refused(cube("*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n"))
+        self.assertIn("element 1 has two sections", row)
+        (row,) = refused(cube().replace("*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n", ""))
+        self.assertIn("1 solid elements have no *SOLID SECTION", row)
+        (row,) = refused(cube().replace("MATERIAL=STEEL", "MATERIAL=IRON"))
+        self.assertIn("there is no material 'IRON'", row)
+
+    def test_bodies_have_one_material_and_equal_loads(self):
+        second = "*NODE\n11, 0., 0., 2.\n12, 1., 0., 2.\n13, 1., 1., 2.\n14, 0., 1., 2.\n"
+        second += "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n2, 5, 6, 7, 8, 11, 12, 13, 14\n"
+        loads = "*DLOAD\nCUBE, GRAV, 2., 0., 0., -3.\n2, CENTRIF, 9., 1., 0., 0., 0., 2., 0.\n"
+        one = Imported(cube(second, loads))
+        self.assertEqual(sorted(one.options["material"]), ["CUBE", "CUBE_body"])
+        spun = next(name for name in one.groups if "CUBE" in name and 11 in one.groups[name][0])
+        load = one.options["load"][spun]
+        self.assertEqual(numbers(load["acceleration"]), [0, 0, -2])
+        self.assertEqual((load["spin"], load["spin_axis"]), (3.0, "0.0,1.0,0.0"))
+        self.assertEqual(numbers(load["spin_origin"]), [1, 0, 0])
+
+
+class State(unittest.TestCase):
+    def test_ways_to_hold(self):
+        for card, name, held in (
+            ("1, 1\n", "node_1", "x"),
+            ("TOP, 2,, 0\n", "TOP", "y"),
+            ("TOP, 1, 3\n", "TOP", "xyz"),
+            ("TOP, ZSYMM\n", "TOP", "z"),
+            ("TOP, PINNED\n", "TOP", "xyz"),
+            ("TOP, 3\n*BOUNDARY\nTOP, 1\n", "TOP", "xz"),
+        ):
+            one = Imported(CUBE + STEEL + "*BOUNDARY\n" + card + STATIC.format(""))
+            self.assertEqual(one.options["constraint"], {name: {"clamped": held}})
+
+    def test_prescribed_values_and_their_replacement(self):
+        step = "*BOUNDARY\nTOP, 3, 3, 0.5\n7, 3, 3, 0.25\n"
+        one = Imported(cube(step=step))
+        self.assertEqual(one.options["constraint"]["node_7"]["displacement"], "0.0,0.0,0.25")
+        self.assertEqual(one.groups["TOP"], [5, 6, 8])
+        last = "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nTOP, 1, 2\n*END STEP\n"
+        one = Imported(cube(step=step, after=last))
+        self.assertEqual(one.options["constraint"], {"TOP": {"clamped": "xy"}})
+
+    def test_components_without_a_meaning(self):
+        (row,) = refused(cube(step="*BOUNDARY\nTOP, 11, 11, 20.\n"))
+        self.assertIn("temperatures (11) are not supported", row)
+        (row,) = refused(cube(step="*CLOAD\nTOP, 4, 20.\n"))
+        self.assertIn("node 5 of solid cells has no rotations", row)
+
+    def test_forces_of_steps(self):
+        """CalculiX adds forces of one step and replaces those of earlier ones."""
+        first = "*CLOAD\nTOP, 3, 1.\n*CLOAD\nTOP, 3, 2.\n"
+        self.assertEqual(Imported(cube(step=first)).options["load"]["TOP"]["force"], "0.0,0.0,12.0")
+        second = "*STEP\n*STATIC\n*CLOAD{}\n5, 3, 5.\n*END STEP\n"
+        load = Imported(cube(step=first, after=second.format(""))).options["load"]
+        self.assertEqual(
+            load, {"node_5": {"force": "0.0,0.0,5.0"}, "TOP": {"force": "0.0,0.0,9.0"}}
+        )
+        load = Imported(cube(step=first, after=second.format(", OP=NEW"))).options["load"]
+        self.assertEqual(load, {"node_5": {"force": "0.0,0.0,5.0"}})
+
+    def test_distributed_loads_of_steps(self):
+        """CalculiX adds pressures of one step, and gravities also of different directions."""
+        first = "*DLOAD\nCUBE, P2, 1.\n1, P2, 2.\nCUBE, GRAV, 1., 0., 0., -1.\n"
+        first += "1, GRAV, 3., -1., 0., 0.\n"
+        second = "*STEP\n*STATIC\n*DLOAD\nCUBE, P2, 7.\nCUBE, GRAV, 5., 0., 0., -2.\n*END STEP\n"
+        for after, pressure, gravity in (("", 3.0, [-3, 0, -1]), (second, 7.0, [-3, 0, -5])):
+            one = Imported(cube(step=first, after=after))
+            body = one.options["load"]["CUBE"]
+            self.assertEqual(numbers(body["acceleration"]), gravity)
+            (face,) = (name for name, keys in one.options["load"].items() if "pressure" in keys)
+            self.assertEqual(one.options["load"][face]["pressure"], pressure)
+            self.assertEqual(sorted(one.groups[face][0]), [5, 6, 7, 8])
+
+    def test_pressure_between_two_elements(self):
+        second = "*NODE\n11, 0., 0., 2.\n12, 1., 0., 2.\n13, 1., 1., 2.\n14, 0., 1., 2.\n"
+        second += "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n2, 5, 6, 7, 8, 11, 12, 13, 14\n"
+        for load, number in (("1, P2", "2 of element 1"), ("2, P1", "1 of element 2")):
+            (row,) = refused(cube(second, f"*DLOAD\n2, P2, 5.\n{load}, 5.\n"))
+            self.assertIn(f"face {number} lies between two elements", row)
+        self.assertEqual(len(Imported(cube(second, "*DLOAD\n2, P2, 5.\n")).groups["pressed"]), 1)
+        (row,) = refused(cube(second, "*DLOAD\n2, P7, 5.\n"))
+        self.assertIn("'P7' is not a face", row)
+
+    def test_transformed_axes(self):
+        axes = "*TRANSFORM, NSET=TOP, TYPE=C\n0., 0., 0., 0., 0., 1.\n"
+        one = Imported(cube(axes, "*CLOAD\n7, 2, 3.\n*BOUNDARY\n6, 1\n"))
+        frame = one.options["frame"]["transform_1"]
+        self.assertEqual((frame["origin"], frame["axis"]), ("0.0,0.0,0.0", "0.0,0.0,1.0"))
+        self.assertEqual(
+            one.options["load"]["node_7"], {"force": "0.0,3.0,0.0", "frame": "transform_1"}
+        )
+        self.assertEqual(one.options["constraint"]["node_6"]["frame"], "transform_1")
+
+    def test_steps(self):
+        frequency = "*STEP{}\n*FREQUENCY, STORAGE=YES\n12, 1.\n*CLOAD\nTOP, 1, 1.\n*END STEP\n"
+        one = Imported(cube(after=frequency.format("")))
+        self.assertEqual(one.options["modes"]["count"], 12)
+        self.assertNotIn("load", one.options)
+        one = Imported(cube(after=frequency.format(", PERTURBATION")))
+        self.assertIs(one.options["elasticity"]["prestress"], True)
+        rows = refused(cube(after=frequency.format("") + frequency.format(", PERTURBATION")))
+        self.assertIn("with and without PERTURBATION", rows[0])
+        changed = frequency.format("").replace("*CLOAD\nTOP, 1, 1.", "*BOUNDARY\nTOP, 1")
+        self.assertIn("supports that change", refused(cube(after=changed))[0])
+        other = "*STEP, NLGEOM\n*DYNAMIC\n0.1, 1.\n*CLOAD\nTOP, 1, 1.\n*END STEP\n"
+        rows = refused(cube(after=other))
+        self.assertEqual([row.split(": ")[1] for row in rows], ["*STEP, NLGEOM", "*DYNAMIC"])
+        one = Imported(cube(after=other), ignored=["DYNAMIC"])
+        self.assertNotIn("load", one.options)
+        self.assertIn("in the step of *DYNAMIC, which is ignored", one.account)
+
+
+class Joints(unittest.TestCase):
+    LOOSE = "*NODE\n20, 5., 0., 0.\n21, 6., 0., 0.\n"
+
+    def test_equations_with_loose_nodes_and_transformed_axes(self):
+        axes = "*TRANSFORM, NSET=TOP, TYPE=R\n0., 1., 0., -1., 0., 0.\n"
+        one = Imported(cube(self.LOOSE + axes + "*EQUATION\n2\n20, 1, 2., 5, 1, -3.\n"))
+        (text,) = one.options["equation"].values()
+        # The first axis at node 5 is y.
+        self.assertEqual(terms(text), {"reference_20:x": 2, "node_5:y": -3})
+        held = one.options["constraint"]["reference_20"]
+        self.assertEqual(held, {"clamped": "yz", "clamped_rotation": "xyz"})
+        self.assertNotIn("reference_21", one.options["reference"])
+
+    def test_equations_of_sets_are_paired(self):
+        one = Imported(
+            cube(
+                "*EQUATION\n2\nTOP, 3, 1., 5, 3, -1.\n".replace("TOP", "PART")
+                + "*NSET, NSET=PART\n6, 7\n"
+            )
+        )
+        found = [terms(text) for text in one.options["equation"].values()]
+        self.assertEqual(found, [{f"node_{at}:z": 1, "node_5:z": -1} for at in (6, 7)])
+
+    def test_wrong_equations(self):
+        for card, reason in (
+            ("3\n5, 1, 1., 6, 1, 1.\n", "an equation of 3 terms has 9 fields"),
+            ("1\n5, 1, 0.\n", "all coefficients of an equation are zero"),
+            ("1\n5, 9, 1.\n", "components are 1 to 6"),
+            ("1\n99, 1, 1.\n", "there is no node 99"),
+        ):
+            self.assertIn(reason, refused(cube("*EQUATION\n" + card))[0])
+
+    def test_a_rigid_body_with_a_moment(self):
+        body = "*RIGID BODY, NSET=TOP, REF NODE=20, ROTNODE=21\n"
+        step = "*CLOAD\n21, 2, 4.\n20, 1, 5.\n*BOUNDARY\n21, 3, 3, 0.1\n"
+        one = Imported(cube(self.LOOSE + body, step))
+        options = one.options
+        self.assertEqual(options["coupling"]["reference_20"]["nodes"], "TOP")
+        self.assertEqual(options["reference"]["reference_20"]["position"], "5.0,0.0,0.0")
+        load = {"force": "5.0,0.0,0.0", "moment": "0.0,4.0,0.0"}
+        self.assertEqual(options["load"]["reference_20"], load)
+        held = {"clamped_rotation": "z", "angle": "0.0,0.0,0.1"}
+        self.assertEqual(options["constraint"]["reference_20"], held)
+
+    def test_couplings(self):
+        card = "*SURFACE, NAME=UP\nCUBE, S2\n"
+        card += "*COUPLING, REF NODE=20, SURFACE=UP, CONSTRAINT NAME=HUB{}\n"
+        axes = "*ORIENTATION, NAME=AXES, SYSTEM=CYLINDRICAL\n0., 0., 0., 0., 0., 2.\n"
+        text = self.LOOSE + axes + card.format(", ORIENTATION=AXES") + "*KINEMATIC\n1\n3, 3\n"
+        options = Imported(cube(text, "*CLOAD\n20, 5, 4.\n*BOUNDARY\n20, 6\n")).options
+        wanted = {"reference": "reference_20", "nodes": "UP", "components": "xz", "frame": "AXES"}
+        self.assertEqual(options["coupling"], {"HUB": wanted})
+        self.assertEqual(options["frame"]["AXES"]["axis"], "0.0,0.0,2.0")
+        self.assertEqual(options["load"], {"reference_20": {"moment": "0.0,4.0,0.0"}})
+        self.assertEqual(options["constraint"]["reference_20"], {"clamped_rotation": "z"})
+        text = cube(self.LOOSE + card.format("") + "*KINEMATIC\n1\n3, 3\n")
+        self.assertEqual(Imported(text).options["constraint"]["reference_20"], {"clamped": "y"})
+        rows = refused(cube(self.LOOSE + card.format("") + "*DISTRIBUTING\n1, 3\n"))
+        self.assertIn("*DISTRIBUTING: CalculiX distributes", rows[0])
+        (row,) = refused(cube(self.LOOSE + card.format("")))
+        self.assertIn("*COUPLING: no *KINEMATIC follows", row)
+        rows = refused(cube(self.LOOSE + card.format("") + "*KINEMATIC\n1, 6\n"))
+        self.assertIn("*KINEMATIC: components are 1 to 3", rows[1])
+
+    def test_a_distributing_coupling_is_a_mean(self):
+        cards = "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n9, 20\n"
+        cards += "*DISTRIBUTING COUPLING, ELSET=D\n5, 1.\n6, 3.\n"
+        one = Imported(cube(self.LOOSE + cards, "*CLOAD\n20, 3, 8.\n"))
+        found = [terms(text) for text in one.options["equation"].values()]
+        self.assertEqual(
+            found,
+            [
+                {f"reference_20:{at}": 1, f"node_5:{at}": -0.25, f"node_6:{at}": -0.75}
+                for at in "xyz"
+            ],
+        )
+        self.assertEqual(one.options["load"]["reference_20"]["force"], "0.0,0.0,8.0")
+
+    def test_springs_dashpots_and_masses(self):
+        cards = "*ELEMENT, TYPE=SPRINGA, ELSET=S\n30, 5, 20\n*SPRING, ELSET=S\n\n10.\n"
+        cards += "*ELEMENT, TYPE=DASHPOTA, ELSET=D\n31, 5, 6\n*DASHPOT, ELSET=D\n\n1.e-5\n"
+        cards += "*ELEMENT, TYPE=SPRING1, ELSET=G\n32, 7\n*SPRING, ELSET=G\n2\n50.\n"
+        cards += "*ELEMENT, TYPE=MASS, ELSET=M\n33, 20\n*MASS, ELSET=M\n0.5\n"
+        options = Imported(cube(self.LOOSE + cards, "*BOUNDARY\n20, 1, 3\n")).options
+        spring = {"from": "node_5", "to": "reference_20", "stiffness": 10.0}
+        self.assertEqual(options["spring"]["element_30"], spring)
+        dashpot = {"from": "node_5", "to": "node_6", "damping": 1e-5}
+        self.assertEqual(options["spring"]["element_31"], dashpot)
+        ground = {"from": "node_7", "stiffness": "0.0,50.0,0.0"}
+        self.assertEqual(options["bushing"]["element_32"], ground)
+        self.assertEqual(options["mass"]["reference_20"]["total"], 0.5)
+
+    def test_joints_that_would_replace_each_other(self):
+        cards = "*ELEMENT, TYPE=SPRINGA, ELSET=S\n30, 5, 6\n*SPRING, ELSET=S\n\n10.\n"
+        (row,) = refused(cube(cards + "*SPRING, ELSET=S\n\n20.\n"))
+        self.assertIn("-spring_element_30_stiffness would have the values 10.0 and 20.0", row)
+        masses = "*ELEMENT, TYPE=MASS, ELSET=M\n33, 7\n34, 7\n*MASS, ELSET=M\n0.5\n"
+        options = Imported(cube(masses)).options
+        self.assertEqual(options["mass"], {"node_7": {"total": 1.0}})
+
+    def test_elements_without_properties_and_loads_without_elements(self):
+        spring = "*ELEMENT, TYPE=SPRINGA, ELSET=S\n30, 5, 6\n31, 6, 7\n"
+        (row,) = refused(cube(spring + "*ELSET, ELSET=ONE\n30\n*SPRING, ELSET=ONE\n\n10.\n"))
+        self.assertIn("*ELEMENT, SPRINGA: element 31 of type SPRINGA has no stiffness", row)
+        (row,) = refused(cube(self.LOOSE + "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n9, 20\n"))
+        self.assertIn("*ELEMENT, DCOUP3D: no *DISTRIBUTING COUPLING has this element", row)
+        (row,) = refused(cube("", "*DLOAD\n99, GRAV, 1., 0., 0., 1.\n"))
+        self.assertIn("*DLOAD, GRAV: there is no element 99", row)
+        masses = "*ELEMENT, TYPE=MASS, ELSET=M\n33, 7\n*MASS, ELSET=M\n0.5\n"
+        (row,) = refused(cube(masses, "*DLOAD\nM, GRAV, 1., 0., 0., 1.\n"))
+        self.assertIn("*DLOAD, GRAV: body loads on point masses are not supported", row)
+
+    def test_ties_of_faces(self):
+        ties = "*SURFACE, NAME=UP\nCUBE, S2\n*SURFACE, NAME=DOWN\nCUBE, S1\n"
+        ties += "*TIE, NAME=A B, POSITION TOLERANCE=0.2, ADJUST=NO\nUP, DOWN\n"
+        ties += "*TIE, NAME=A B\nDOWN, UP\n"
+        options = Imported(cube(ties)).options
+        first = {"slave": "UP", "master": "DOWN", "tolerance": 0.2, "adjust": False}
+        self.assertEqual(options["tie"], {"A_B": first, "A_B_2": {"slave": "DOWN", "master": "UP"}})
+
+    def test_nodes_tied_to_faces(self):
+        """A node 0.005 above the top at (0.25, 0.5) follows it with the weights of the bilinear
+        functions, 0.75 · 0.5 and so on, and is moved onto it; one at 0.2 stays free. The tolerance
+        of CalculiX is here 0.0071."""
+        brick = "*NODE\n41, 0.25, 0.5, 1.005\n42, 0.75, 0.5, 1.2\n"
+        brick += "43, .75, 1.5, 1.2\n44, .25, 1.5, 1.2\n"
+        brick += "*ELEMENT, TYPE=C3D4, ELSET=CUBE\n2, 41, 42, 43, 44\n"
+        tie = "*SURFACE, NAME=UP\nCUBE1, S2\n*ELSET, ELSET=CUBE1\n1\n*NSET, NSET=N\n41, 42\n"
+        tie += "*SURFACE, NAME=NODES, TYPE=NODE\nN\n*TIE, NAME=T{}\nNODES, UP\n"
+        one = Imported(cube(brick + tie.format(""), ""))
+        found = [terms(text) for text in one.options["equation"].values()]
+        weights = {5: 0.375, 6: 0.125, 7: 0.125, 8: 0.375}
+        for axis, equation in zip("xyz", found):
+            self.assertEqual(equation.pop(f"node_41:{axis}"), 1)
+            self.assertEqual(set(equation), {f"node_{at}:{axis}" for at in weights})
+            for at, weight in weights.items():
+                self.assertAlmostEqual(equation[f"node_{at}:{axis}"], -weight, delta=1e-13)
+        self.assertEqual(len(found), 3)
+        place = one.coordinates[list(one.nodes).index(41)]
+        self.assertLess(np.max(np.abs(place - [0.25, 0.5, 1.0])), 1e-14)
+        self.assertIn("| T | 1 | 1 |", one.account)
+        one = Imported(cube(brick + tie.format(", ADJUST=NO, POSITION TOLERANCE=0.3"), ""))
+        self.assertEqual(len(one.options["equation"]), 6)
+        self.assertEqual(one.coordinates[list(one.nodes).index(41)].tolist(), [0.25, 0.5, 1.005])
+
+
+class Contacts(unittest.TestCase):
+    BLOCK = "*NODE\n11, 0., 0., 1.\n12, 1., 0., 1.\n13, 1., 1., 1.\n14, 0., 1., 1.\n"
+    BLOCK += "21, 0., 0., 2.\n22, 1., 0., 2.\n23, 1., 1., 2.\n24, 0., 1., 2.\n"
+    BLOCK += "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n2, 11, 12, 13, 14, 21, 22, 23, 24\n"
+    BLOCK += "*SURFACE, NAME=UP\n1, S2\n*SURFACE, NAME=DOWN\n2, S1\n"
+    PAIR = "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nDOWN, UP\n"
+    PAIR += "*SURFACE INTERACTION, NAME=I\n"
+
+    def test_hard_contact(self):
+        behaviors = ("", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E7, 1.\n")
+        for behavior in behaviors:
+            one = Imported(cube(self.BLOCK + self.PAIR + behavior))
+            (options,) = one.options["contact"].values()
+            wanted = {"pad": "DOWN", "disc": "UP", "slave": "pad", "gap": "measured"}
+            self.assertEqual(options, {**wanted, "role": "frictionless"})
+            self.assertEqual(sorted(one.groups["DOWN"][0]), [11, 12, 13, 14])
+            self.assertTrue(any("contact is hard" in text for text in one.journal.choices))
+
+    def test_contacts_that_are_not_hard(self):
+        linear = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E6\n"
+        (row,) = refused(cube(self.BLOCK + self.PAIR + linear))
+        self.assertIn("*SURFACE BEHAVIOR: the penalty is only 4.76 times as stiff", row)
+        (row,) = refused(cube(self.BLOCK + self.PAIR + "*FRICTION\n0.3, 5000.\n"))
+        self.assertIn("*FRICTION: friction is not translated", row)
+        spare = "*SURFACE INTERACTION, NAME=J\n*FRICTION\n0.3, 5000.\n"
+        one = Imported(cube(self.BLOCK + self.PAIR + spare))
+        self.assertEqual(one.remarks("FRICTION")[0], "not used")
+        rows = refused(cube(self.BLOCK + self.PAIR + linear.replace("LINEAR", "TIED")))
+        self.assertIn("PRESSURE-OVERCLOSURE=TIED is not supported", rows[0])
+        rows = refused(cube(self.BLOCK + self.PAIR.replace("PAIR,", "PAIR, ADJUST=0.1,")))
+        self.assertIn("*CONTACT PAIR, ADJUST", rows[0])
+
+
+class Account(unittest.TestCase):
+    def test_every_card_is_accounted_for(self):
+        text = "*HEADING\nA cube\n" + cube(step="*NODE PRINT, NSET=TOP\nU\n*CLOAD\nTOP, 3, 1.\n")
+        one = Imported(text)
+        cards = [line for line in text.splitlines() if line.startswith("*")]
+        self.assertEqual(len(one.journal.entries), len(cards))
+        for number, line in enumerate(text.splitlines(), 1):
+            if line.startswith("*"):
+                card = line.split(",")[0]
+                self.assertRegex(one.account, rf"\| deck.inp:{number} \| \{card} \| \w+")
+        self.assertEqual(one.remarks("NODE PRINT")[0], "not used")
+        self.assertEqual(one.remarks("CLOAD")[0], "translated")
+        self.assertIn("| node set | TOP | 4 |", one.account)
+
+    def test_cards_that_nothing_refers_to(self):
+        more = "*MATERIAL, NAME=SPARE\n*ELASTIC\n1., 0.\n"
+        more += "*ORIENTATION, NAME=SPARE\n1., 0., 0., 0., 1., 0.\n"
+        more += "*TRANSFORM, NSET=TOP\n0., 1., 0., 1., 0., 0.\n"
+        text = cube(more)
+        one = Imported(text)
+        lines = text.splitlines()
+        idle = {
+            lines[source.line - 1]: "; ".join(entry.remarks)
+            for source, entry in one.journal.entries.items()
+            if entry.status == "not used"
+        }
+        self.assertEqual(
+            idle,
+            {
+                "*MATERIAL, NAME=SPARE": "no section uses this material",
+                "*ELASTIC": "no section uses this material",
+                "*ORIENTATION, NAME=SPARE": "nothing uses this orientation",
+                "*TRANSFORM, NSET=TOP": "no support, force or equation has these axes",
+            },
+        )
+
+    def test_cards_without_effect(self):
+        more = "*CONTROLS, PARAMETERS=FIELD\n0.005,\n*DAMPING, ALPHA=1., BETA=0.\n"
+        one = Imported(cube(more + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n"))
+        for card in ("CONTROLS", "DAMPING", "INITIAL CONDITIONS"):
+            self.assertEqual(one.remarks(card)[0], "not used")
+        (row,) = refused(cube("*INITIAL CONDITIONS, TYPE=STRESS\n1, 1, 0., 0., 0., 0., 0., 0.\n"))
+        self.assertIn("TYPE=STRESS is not supported", row)
+
+    def test_names_of_ignore_that_meet_nothing(self):
+        with self.assertRaisesRegex(DeckError, "--ignore PLASTIC: .* has nothing of this name"):
+            Imported(cube(), ignored=["PLASTIC"])
+
+    def test_only_folders_of_imports_are_written_to(self):
+        with tempfile.TemporaryDirectory() as folder:
+            deck, case = Path(folder) / "deck.inp", Path(folder) / "case"
+            deck.write_text(cube())
+            import_deck(deck, case)
+            deck.write_text(cube("*SHELL SECTION, ELSET=CUBE\n1.\n"))
+            self.assertRaises(DeckError, import_deck, deck, case)
+            self.assertEqual([path.name for path in case.iterdir()], ["import.md"])
+            self.assertIn("- deck.inp:", (case / "import.md").read_text())
+            (case / "case.yaml").write_text("mesh: {file: brake.msh}\n")
+            self.assertRaisesRegex(DeckError, "was not made by", import_deck, deck, case)
+
+
+class Manual(unittest.TestCase):
+    def test_the_example_of_the_page(self):
+        """docs/decks.md shows the case of its deck, and the error of one that is changed."""
+        page = (repository / "docs/decks.md").read_text()
+        blocks = re.findall(r"^```\w*\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+        deck, case, choices, error = blocks
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bracket.inp"
+            path.write_text(deck)
+            journal = import_deck(path, Path(folder) / "bracket")
+            self.assertEqual((Path(folder) / "bracket/case.yaml").read_text(), case)
+            self.assertEqual("\n".join(journal.choices) + "\n", choices)
+            deck = re.sub(r"\*RIGID BODY.*", "*MPC\nBEAM, 21, 22", deck)
+            path.write_text(deck.replace("*CLOAD", "*CLOAD, AMPLITUDE=RAMP"))
+            with self.assertRaises(DeckError) as raised:
+                import_deck(path, Path(folder) / "bracket")
+        # The page has the command's name and no path.
+        shown = str(raised.exception).replace(f"{folder}/", "squeal-import: ", 1)
+        self.assertEqual(shown + "\n", error)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,138 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
+"""Damaged decks: each is translated or refused in words, and translated ones lose nothing.
+
+With SQUEAL_LONG in the environment, 20,000 decks in place of 600.
+"""
+import os
+import random
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+repository = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
+sys.dont_write_bytecode = True
+from small_decks import cube, read_mesh
+
+from squeal.deck.importer import import_deck
+from squeal.deck.journal import DeckError
+
+COUNT = 20000 if os.environ.get("SQUEAL_LONG") else 600
+WORDS = (
+    *("", "0", "-1", "1e400", "nan", "99999999999999999999", "1.5", "*", "**", '"', "=", ",,"),
+    *("GENERATE", "*NSET, NSET=A", "*STEP", "*END STEP", "NLGEOM", "\t", "\0", "é", "1,,", "-"),
+    *("1-3", "S7", "P9", "GRAV", "TYPE=", "*INCLUDE, INPUT=x", "CUBE", "TOP", "*ELEMENT", "*NODE"),
+)
+JOINTS = """*NODE
+20, 5., 0., 0.
+21, 6., 0., 0.
+*RIGID BODY, NSET=TOP, REF NODE=20, ROT NODE=21
+*ELEMENT, TYPE=SPRINGA, ELSET=S
+30, 1, 20
+*SPRING, ELSET=S
+
+10.
+*TRANSFORM, NSET=BOTTOM, TYPE=C
+-1., 0., 0., -1., 0., 1.
+*NSET, NSET=PART, GENERATE
+1, 3, 2
+*NSET, NSET=MORE
+PART, 4
+*EQUATION
+3
+5, 1, 1., 6, 1, -0.5, 7, 1, -0.5
+"""
+LOADS = """*CLOAD
+21, 2, 4.
+MORE, 3, 1.
+*DLOAD
+CUBE, P2, 3.
+CUBE, GRAV, 9.81, 0., 0., -1.
+*NODE PRINT, NSET=TOP
+U
+"""
+FREQUENCY = "*STEP, PERTURBATION\n*FREQUENCY\n4\n*END STEP\n"
+SEED = cube(JOINTS, LOADS, FREQUENCY)
+
+
+def damaged(rng):
+    lines = SEED.split("\n")
+    for _ in range(rng.choice([1, 1, 2, 3, 6])):
+        at = rng.randrange(len(lines))
+        kind = rng.randrange(6)
+        if kind == 0 and len(lines) > 1:
+            del lines[at]
+        elif kind == 1:
+            lines.insert(at, rng.choice(lines))
+        elif kind == 2:
+            words = lines[at].split(",")
+            words[rng.randrange(len(words))] = rng.choice(WORDS)
+            lines[at] = ",".join(words)
+        elif kind == 3:
+            lines.insert(at, rng.choice(WORDS))
+        elif kind == 4 and lines[at]:
+            place = rng.randrange(len(lines[at]))
+            letter = rng.choice('0123456789.,-*= eEdD"\tAZ')
+            lines[at] = lines[at][:place] + letter + lines[at][place + 1 :]
+        else:
+            lines[at] = lines[at][: rng.randrange(len(lines[at]) + 1)]
+    return "\n".join(lines)
+
+
+def blocks(text):
+    """Yields the keyword line of each card without blanks, and its fields that are not empty."""
+    card, fields = "", []
+    for line in text.split("\n"):
+        line = line.strip()
+        if line.startswith("*") and not line.startswith("**"):
+            yield card, fields
+            card, fields = line.upper().replace(" ", "").replace("\t", ""), []
+        elif line and not line.startswith("**"):
+            fields += [word for word in line.split(",") if word.strip()]
+    yield card, fields
+
+
+class Damaged(unittest.TestCase):
+    def test_no_deck_is_lost_without_a_word(self):
+        rng = random.Random(20)
+        translated = 0
+        with tempfile.TemporaryDirectory() as folder:
+            deck, case = Path(folder) / "deck.inp", Path(folder) / "case"
+            for number in range(COUNT):
+                text = damaged(rng)
+                deck.write_text(text, encoding="utf-8")
+                started = time.monotonic()
+                with self.subTest(number=number, text=text):
+                    try:
+                        journal = import_deck(deck, case)
+                    except DeckError as error:
+                        self.assertGreater(len(str(error)), 20)
+                    else:
+                        translated += 1
+                        self.complete(text, journal, case)
+                    self.assertLess(time.monotonic() - started, 10)
+        # Enough of them must get as far as the mesh for the test to mean something.
+        self.assertGreater(translated, COUNT // 20)
+
+    def complete(self, text, journal, case):
+        """Compares the mesh with a count of the fields of the deck."""
+        cells = cards = 0
+        for card, fields in blocks(text):
+            cards += bool(card)
+            if card.startswith("*ELEMENT,") and "TYPE=C3D8" in card:
+                cells += len(fields) // 9
+        groups, nodes, _ = read_mesh(case / "mesh.msh")
+        bodies = [
+            rows for rows in groups.values() if isinstance(rows[0], tuple) and len(rows[0]) == 8
+        ]
+        self.assertEqual(sum(map(len, bodies)), cells)
+        self.assertEqual(len(nodes), len({node for rows in bodies for row in rows for node in row}))
+        self.assertEqual(len(journal.entries), cards)
+        self.assertNotIn("", [entry.status for entry in journal.entries.values()])
+
+
+if __name__ == "__main__":
+    unittest.main()
