@@ -10,6 +10,7 @@
 #include "base/system/text.hpp"
 #include "model/attachments/forms.hpp"
 #include "model/elasticity/assembly.hpp"
+#include "model/elasticity/attached_parts.hpp"
 #include "model/elasticity/carried_axes.hpp"
 #include "model/elasticity/carried_masses.hpp"
 #include "model/elasticity/convection.hpp"
@@ -132,26 +133,6 @@ void assembleMatrices(const mesh::Mesh& mesh, Bodies& bodies) {
   if (!sums.damping) return;
   sums.damping->addRows(ground.dashpots);
   bodies.damping = sums.damping->finish(SymmetryClass::rounded);
-}
-
-/// Collective. Returns Σ factor δδᵀ over the forms, N×N; null if all factors are zero.
-OwnedMat formMatrix(const mesh::Mesh& mesh, const std::vector<attachments::Form>& forms,
-                    double attachments::Form::*factor) {
-  Triples triples;
-  bool any = false;
-  for (const auto& form : forms) {
-    if (form.*factor == 0) continue;
-    any = true;
-    if (mpi::rank(mesh.comm) > 0) continue;
-    for (const auto& a : form.terms)
-      for (const auto& b : form.terms)
-        for (int i = 0; i < mesh.dimension; ++i)
-          for (int j = 0; j < mesh.dimension; ++j)
-            triples.add(mesh.dimension * a.node + i, mesh.dimension * b.node + j,
-                        form.*factor * a.direction[i] * b.direction[j]);
-  }
-  if (!any) return {};
-  return toMatrix(mesh, triples, SymmetryClass::symmetric);
 }
 
 /// Collective. Adds a matrix, which may be null, to another one, which is created if it is null.

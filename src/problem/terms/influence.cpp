@@ -31,6 +31,7 @@ struct Influences::Influence {
   double sweep::Parameters::*member = nullptr;  // θ in the point; null: θ belongs to a material
   int material = -1;                            // index into Mesh::materialGroups
   bool density = false;  // θ is a factor on the density of the material; otherwise on its moduli
+  int attached = -1;     // θ is a factor on this spring, bushing or mass
   double size = 1;       // θ, for the step of differences
   steady::Change change = {};
   std::vector<double> responseForce = {};  // its change
@@ -66,6 +67,7 @@ void Influences::derive(pencil::ComplexModes& point, const pencil::Pencil& penci
 }
 
 std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {
+  if (parts_.empty()) attached_ = elasticity::attachedParts(mesh_, bodies_);
   for (int group = parts_.size(); group < std::ssize(mesh_.materialGroups); ++group)
     parts_.push_back(elasticity::materialPart(mesh_, bodies_, group));
   std::vector<Influence> list;
@@ -80,10 +82,14 @@ std::vector<Influences::Influence> Influences::influences(const BodyPoint& state
       list.push_back({.name = (density ? "density_" : "young_") + mesh_.materialGroups[group].name,
                       .material = group,
                       .density = density});
+  for (int i = 0; i < std::ssize(attached_); ++i)
+    list.push_back({.name = attached_[i].parameter, .attached = i});
   if (!dependsOnSteadyState(contact_, state.at, state.prestress, settings_)) return list;
   const steady::Problem problem(mesh_, bodies_, contact_);
   for (auto& influence : list)
-    if (influence.member != &sweep::Parameters::damping) addSteadyChange(state, problem, influence);
+    if (influence.member != &sweep::Parameters::damping &&
+        !(influence.attached >= 0 && attached_[influence.attached].damping))
+      addSteadyChange(state, problem, influence);
   return list;
 }
 
@@ -110,7 +116,12 @@ void Influences::addSteadyChange(const BodyPoint& state, const steady::Problem& 
     if (bodies_.constantLoad) check(VecAXPY(force, 1, bodies_.constantLoad));
     cause.held = contact_.kinematics.offset;
   }
-  if (!influence.member) {
+  if (influence.attached >= 0) {
+    const auto& part = attached_[influence.attached];
+    if (part.stiffness) check(MatMult(part.stiffness, state.solution.displacement, force));
+    if (part.centrifugal) check(VecAXPY(force, -v * v, part.centrifugal));
+    if (part.weight) check(VecAXPY(force, -1, part.weight));
+  } else if (!influence.member) {
     const auto& part = parts_[influence.material];
     if (influence.density) {
       inertiaForms(part.rotationStiffness, part.centrifugal, v * v);
@@ -161,14 +172,19 @@ Influences::Projected Influences::project(const BodyPoint& state,
 }
 
 /// Returns zᴴ (∂P/∂θ) u for the matrices of one material [M.47]: K, C and K_σ for its moduli, or M,
-/// C, G and K^R for its density.
+/// C, G and K^R for its density; or for those of a spring, bushing or mass.
 Complex Influences::materialForm(const Influence& influence, const BodyPoint& state,
                                  const Projected& pair) const {
   if (influence.member) return 0;
-  const auto& part = parts_[influence.material];
   const auto form = [&](Mat matrix) { return matrix ? dot(pair.z, product(matrix, pair.u)) : 0; };
   const Complex s = pair.s;
   const double v = state.at.speed, c = state.at.damping;
+  if (influence.attached >= 0) {
+    const auto& part = attached_[influence.attached];
+    return form(part.stiffness) + s * c * form(part.damping) + s * s * form(part.mass) +
+           s * v * form(part.gyroscopic);
+  }
+  const auto& part = parts_[influence.material];
   if (influence.density)
     return (s * s + s * c * part.massDamping) * form(part.mass) + s * v * form(part.gyroscopic) +
            v * v * form(part.rotationStiffness);

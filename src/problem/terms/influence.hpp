@@ -12,6 +12,7 @@
 #include "eigen/sensitivity/sensitivity.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "model/contact/coupled.hpp"
+#include "model/elasticity/attached_parts.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/mesh/mesh.hpp"
 #include "problem/terms/friction_work.hpp"
@@ -39,9 +40,10 @@ class Influences {
   /// `pencil` contains the terms of the point. The derivatives [M.46] include the terms that depend
   /// on the steady state; the active set and the matrix of modal damping are constant. The
   /// parameters are friction, speed, pressure and damping as in Parameters, a factor young_GROUP on
-  /// all moduli of a material group (ds/d ln E), and a factor density_GROUP on its density
-  /// (ds/d ln ρ). The search for left vectors starts from `start`. Throws Error if the change of
-  /// the steady state does not converge.
+  /// all moduli of a material group (ds/d ln E), a factor density_GROUP on its density
+  /// (ds/d ln ρ), and factors on the stiffness and damping of each spring and bushing and on each
+  /// point mass. The search for left vectors starts from `start`. Throws Error if the change of the
+  /// steady state does not converge.
   void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
 
@@ -61,7 +63,8 @@ class Influences {
   const elasticity::Bodies& bodies_;
   const contact::Contact& contact_;
   Settings settings_;
-  std::vector<elasticity::MaterialPart> parts_;  // [material group], made when first needed
+  std::vector<elasticity::MaterialPart> parts_;     // [material group], made when first needed
+  std::vector<elasticity::AttachedPart> attached_;  // likewise
 };
 
 }  // namespace squeal::terms

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fuzz/models/joints.hpp"
 #include "fuzz/models/model.hpp"
 #include "fuzz/random.hpp"
 
@@ -37,6 +38,7 @@ class Generator {
     damp();
     sweep();
     chooseMethod();
+    if (random_.chance(0.35)) makeJoints();
     note(std::to_string(model_.mesh.boxes.size()) + " bodies");
     return model_;
   }
@@ -429,6 +431,23 @@ class Generator {
     if (plane() && random_.chance(0.3)) settings.set("elasticity_plane", "stress");
     if (random_.chance(0.3)) settings.set("flutter_track", "on");
     settings.set("steady_uniqueness", random_.chance(0.1) ? "on" : "off");
+  }
+
+  /// The last draws, so that all other features of a model stay the same.
+  void makeJoints() {
+    const std::size_t number = plate_.value_or(pad_);
+    JointFaces faces;
+    faces.outer = top(number), faces.mayBeRigid = plate_ || !model_.glue;
+    if (second_)
+      faces.second = bottom(*second_);
+    else if (holder_)
+      faces.second = side(*holder_, 0, true);
+    else if (!ring() && plate_)
+      faces.second = side(pad_, 0, false);
+    const double height = box(number).cuts[up()].back() + 0.01;
+    faces.near = ring() ? Vector{0.06, 0.01, height} : Vector{0.4 * length_, 0.01, height};
+    if (plane()) faces.near = {0.4 * length_, height, 0};
+    addJoints(faces, random_, model_);
   }
 
   Random random_;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "base/petsc/arrays.hpp"
 #include "base/petsc/check.hpp"
 
 namespace squeal::fuzz {
@@ -15,12 +16,19 @@ using nlohmann::json;
 
 double length(const mesh::Point& x) { return std::hypot(x[0], x[1], x[2]); }
 
-double largestDiagonal(Mat matrix, bool smallest) {
-  OwnedVec diagonal = rightVector(matrix);
-  PetscReal value = 0;
+/// Collective. The largest or the smallest diagonal entry at nodes of cells; reference nodes may
+/// have no mass.
+double largestDiagonal(const mesh::Mesh& mesh, Mat matrix, bool smallest) {
+  const OwnedVec diagonal = elasticity::nodalVector(mesh);
   check(MatGetDiagonal(matrix, diagonal));
-  check(smallest ? VecMin(diagonal, nullptr, &value) : VecMax(diagonal, nullptr, &value));
-  return value;
+  double found = smallest ? INFINITY : 0;
+  const ReadArray values(diagonal);
+  for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
+    for (int d = 0; d < mesh.dimension && !mesh.referenceWith(mesh.firstNode + node); ++d) {
+      const double value = values[mesh.dimension * node + d];
+      found = smallest ? std::min(found, value) : std::max(found, value);
+    }
+  return smallest ? mpi::min(mesh.comm, found) : mpi::max(mesh.comm, found);
 }
 
 std::vector<FoundPoint> pointsOf(const analysis::Analysis& analysis) {
@@ -88,8 +96,9 @@ Outcome outcomeOf(const analysis::Analysis& analysis) {
   outcome.failures = analysis.flutter.failures;
   outcome.points = pointsOf(analysis);
   outcome.steady = steadyOf(analysis);
-  outcome.stiffest = std::sqrt(largestDiagonal(analysis.model.bodies.stiffness, false) /
-                               largestDiagonal(analysis.model.bodies.mass, true));
+  outcome.stiffest =
+      std::sqrt(largestDiagonal(*analysis.model.mesh, analysis.model.bodies.stiffness, false) /
+                largestDiagonal(*analysis.model.mesh, analysis.model.bodies.mass, true));
   bool gaps = false, any = false;
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& followed : segment.trackedLines) {

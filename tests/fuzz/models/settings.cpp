@@ -28,22 +28,26 @@ void Settings::put(Entry entry) {
     entries_.push_back(std::move(entry));
 }
 
-void Settings::set(const std::string& name, const std::string& value) { put({name, value}); }
+void Settings::set(const std::string& name, const std::string& value) {
+  put({.name = name, .text = value});
+}
 
-void Settings::set(const std::string& name, double value) { put({name, number(value)}); }
+void Settings::set(const std::string& name, double value) {
+  put({.name = name, .text = number(value)});
+}
 
 void Settings::setList(const std::string& name, const std::vector<double>& values) {
   std::string text;
   for (double value : values) text += (text.empty() ? "" : ",") + number(value);
-  put({name, text});
+  put({.name = name, .text = text});
 }
 
 void Settings::setVector(const std::string& name, const Vector& value) {
-  put({name, "", true, false, value});
+  put({.name = name, .text = "", .isVector = true, .vector = value});
 }
 
 void Settings::setPair(const std::string& name, const Vector& first, const Vector& second) {
-  put({name, "", true, false, first, second});
+  put({.name = name, .text = "", .isVector = true, .vector = first, .second = second});
 }
 
 void Settings::addVector(const std::string& name, const Vector& value) {
@@ -55,7 +59,11 @@ void Settings::addVector(const std::string& name, const Vector& value) {
 }
 
 void Settings::setComponents(const std::string& name, const std::string& components) {
-  put({name, components, false, true});
+  put({.name = name, .text = components, .isComponents = true});
+}
+
+void Settings::setEquation(const std::string& name, const std::string& equation) {
+  put({.name = name, .text = equation, .isEquation = true});
 }
 
 std::vector<std::pair<std::string, std::string>> Settings::turnedBy(int turn) const {
@@ -64,6 +72,11 @@ std::vector<std::pair<std::string, std::string>> Settings::turnedBy(int turn) co
     std::string text = entry.text;
     if (entry.isComponents)
       for (char& c : text) c = static_cast<char>('x' + (c - 'x' + turn) % 3);
+    for (std::size_t i = 1; entry.isEquation && i < text.size(); ++i) {
+      const bool follows =
+          text[i - 1] == ':' || (i > 1 && text[i - 1] == 'r' && text[i - 2] == ':');
+      if (follows && text[i] >= 'x') text[i] = static_cast<char>('x' + (text[i] - 'x' + turn) % 3);
+    }
     if (entry.isVector) text = vectorText(turned(entry.vector, turn));
     if (entry.second) text += "," + vectorText(turned(*entry.second, turn));
     result.emplace_back(entry.name, text);

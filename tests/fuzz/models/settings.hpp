@@ -24,15 +24,17 @@ class Settings {
   void addVector(const std::string& name, const Vector& value);
   /// Some of "xyz".
   void setComponents(const std::string& name, const std::string& components);
+  /// A linear equation of components, such as "a:x - 2*b:ry = 0".
+  void setEquation(const std::string& name, const std::string& equation);
   /// Names and values in the axes of the turned model.
   std::vector<std::pair<std::string, std::string>> turnedBy(int turn) const;
 
  private:
   struct Entry {
     std::string name, text;
-    bool isVector = false, isComponents = false;
-    Vector vector{};
-    std::optional<Vector> second{};
+    bool isVector = false, isComponents = false, isEquation = false;
+    Vector vector = {};
+    std::optional<Vector> second = {};
   };
   void put(Entry entry);
   std::vector<Entry> entries_;

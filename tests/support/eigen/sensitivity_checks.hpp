@@ -30,6 +30,8 @@ struct Configuration {
   std::string name, options;  ///< no name: only options
   double friction = 0.4;
   std::map<std::string, Material> materials{{"disc", {{1.0}, 1.0}}, {"pad", {{0.4}, 0.6}}};
+  /// [parameter] the options of springs, bushings and masses that it multiplies, and their values
+  std::map<std::string, std::vector<std::pair<std::string, std::vector<double>>>> attached = {};
 };
 
 /// Options of a body with a factor on all its moduli and another on its density.
@@ -57,6 +59,13 @@ inline analysis::Analysis run(const Configuration& model, const std::string& par
   for (const auto& [body, material] : model.materials)
     options += materialOptions(body, material, parameter == "young_" + body ? value : 1,
                                parameter == "density_" + body ? value : 1);
+  for (const auto& [name, list] : model.attached)
+    for (const auto& [option, values] : list) {
+      options += " -" + option + " ";
+      for (std::size_t i = 0; i < values.size(); ++i)
+        options +=
+            formatted("%s%.17g", i == 0 ? "" : ",", values[i] * (parameter == name ? value : 1));
+    }
   return model.name.empty() ? runOptions(options) : runCase(model.name, options);
 }
 
@@ -107,8 +116,9 @@ inline void expectDifferences(const Configuration& model, const analysis::Analys
   EXPECT_EQ(point.sensitivities.size(), point.shapes.size());
   if (point.sensitivities.empty()) return;
   const auto& first = point.sensitivities[0].derivatives;
-  EXPECT_EQ(first.size(), analysis.model.mesh ? 4 + 2 * model.materials.size()
-                                              : 3);  // no pressure on matrices from files
+  EXPECT_EQ(first.size(), analysis.model.mesh
+                              ? 4 + 2 * model.materials.size() + model.attached.size()
+                              : 3);  // no pressure on matrices from files
   for (std::size_t p = 0; p < first.size(); ++p) {
     const std::string name = first[p].parameter;
     const bool idle = name == "damping" && analysis.model.mesh && !analysis.model.bodies.damping;

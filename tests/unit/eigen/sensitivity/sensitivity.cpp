@@ -79,6 +79,30 @@ TEST(Sensitivity, OfOrthotropicBodies) {
   expectDerivatives(model);
 }
 
+// A block on a bushing with a mass, and a spring to its side; their forces change the steady
+// stress.
+TEST(Sensitivity, OfBushingsSpringsAndMasses) {
+  Configuration model{
+      "",
+      "-mesh_file meshes/layer_slab.geo -mesh_set Lx=0.5,nx=3,ny=3,nz=1,depth=0.3 "
+      "-material_layer_poisson 0.3 -reference_r_position 0.2,-1.2,0.1 -coupling_r_reference r "
+      "-coupling_r_nodes bottom -bushing_b_from r -reference_t_position 0.6,-0.4,0.1 "
+      "-coupling_t_reference t -coupling_t_nodes right -coupling_t_kind distributed "
+      "-spring_s_from r -spring_s_to t -load_gravity "
+      "0,0.02,0 "
+      "-contact_plate_pad top "
+      "-contact_plate_obstacle_velocity 1,0,0.2 -contact_plate_obstacle_displacement 0,-0.01,0 "
+      "-elasticity_prestress on -modes_count 40 -flutter_method direct -flutter_direct_count 400",
+      0.4,
+      {{"layer", {{1.0}, 1.0}}},
+      {{"bushing_b_stiffness", {{"bushing_b_stiffness", {0.5, 0.7, 0.6, 0.1, 0.2, 0.15}}}},
+       {"bushing_b_damping",
+        {{"bushing_b_damping", {0.001, 0.002, 0.001, 0.0001, 0.0001, 0.0002}}}},
+       {"spring_s_stiffness", {{"spring_s_stiffness", {0.3}}}},
+       {"mass_r", {{"mass_r_total", {0.1}}, {"mass_r_inertia", {0.01, 0.02, 0.015, 0, 0, 0}}}}}};
+  expectDifferences(model, run(model, "", 1));
+}
+
 void expectDerivativesOfOpenContact(const Configuration& model) {
   const analysis::Analysis analysis = run(model, "", 1);
   const auto open = analysis.flutter.segments.at(0).openNodes;

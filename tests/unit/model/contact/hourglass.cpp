@@ -51,7 +51,7 @@ int checkedModes(const std::string& set, const Supports& supports) {
   test::setOptions(row(set, text));
   auto mesh = test::readMesh();
   auto ties = test::findTies(mesh);
-  const auto bodies = test::assembleBodies(mesh);
+  auto bodies = test::assembleBodies(mesh);
   const int count = nullMotions(mesh, bodies, supports);
   const auto message = test::errorOf(
       [&] { contact::build(mesh, bodies, std::move(ties), contact::Settings::given()); });
@@ -122,7 +122,7 @@ TEST(Hourglass, OpenContactDoesNotHoldThem) {
     test::setOptions(row("nx=3,ny=1,nz=1", supports + plate));
     auto mesh = test::readMesh();
     auto ties = test::findTies(mesh);
-    const auto bodies = test::assembleBodies(mesh);
+    auto bodies = test::assembleBodies(mesh);
     const auto contact =
         contact::build(mesh, bodies, std::move(ties), contact::Settings::given());  // closed: none
     const contact::Mask open(contact.interfaces.nodes.size(), 0);

@@ -371,7 +371,7 @@ TEST(Uniqueness, DoesNotDependOnTheRanks) {
   const auto together = examined(test::buildModel(), {0.3, 1.2});
   mesh::Mesh mesh = test::readMesh(PETSC_COMM_SELF);
   auto ties = test::findTies(mesh);
-  const auto bodies = test::assembleBodies(mesh);
+  auto bodies = test::assembleBodies(mesh);
   const auto contact = contact::build(mesh, bodies, std::move(ties), contact::Settings::given());
   const auto single =
       uniqueness::examine(bodies, contact, 1, {0.3, 1.2}, uniqueness::Settings::given());

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Matrices and loads of springs, bushings and point masses: all together, or each separately.
+#include <string>
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "model/attachments/forms.hpp"
+#include "model/elasticity/elasticity.hpp"
+
+namespace squeal::elasticity {
+
+/// Collective. Returns Σ factor δδᵀ over the forms, N×N; null if all factors are zero.
+OwnedMat formMatrix(const mesh::Mesh& mesh, const std::vector<attachments::Form>& forms,
+                    double attachments::Form::*factor);
+
+/// The contribution of one stiffness, damping or mass to Bodies, on all nodal displacements: its
+/// derivatives with respect to a factor on it. Matrices and vectors are null if they are zero.
+struct AttachedPart {
+  std::string parameter;  ///< such as bushing_hub_stiffness, spring_s_damping, mass_hub
+  OwnedMat stiffness, damping, mass, gyroscopic;
+  OwnedVec centrifugal, weight;
+};
+/// Collective. Returns the contributions of all springs, bushings and point masses.
+std::vector<AttachedPart> attachedParts(const mesh::Mesh& mesh, const Bodies& bodies);
+
+}  // namespace squeal::elasticity
