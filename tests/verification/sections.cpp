@@ -192,8 +192,8 @@ TEST(Sections, FrequenciesOfATurnedLaminate) {
 /// The coarse disc brake with all that a material enters: damping, prestress, weight, friction
 /// damping and derivatives of eigenvalues. The lining is orthotropic in a cylindrical frame.
 std::string brake(const std::string& bodies) {
-  return "-mesh_file meshes/disc_brake.geo -mesh_set order=2,serendipity=1,n_pad_theta=4,n_pad_r=3,"
-         "n_free_theta=5 -frame_wheel_axis 0,0,1 "
+  return "-mesh_file meshes/disc_brake.geo -mesh_set order=2,serendipity=1,n_pad_theta=2,n_pad_r=2,"
+         "n_free_theta=4 -frame_wheel_axis 0,0,1 "
          "-material_lining_engineering_constants 2e9,3e9,1.5e9,0.2,0.1,0.15,1e9,0.8e9,0.7e9 "
          "-material_lining_frame wheel -material_lining_density 2500 "
          "-material_lining_rayleigh_stiffness 1e-7 -material_lining_integration reduced "
