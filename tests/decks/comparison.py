@@ -50,6 +50,7 @@ class Comparison:
         with h5py.File(self.folder / "results/results.h5") as file:
             tags = file["mesh/node_tag"][:].ravel()
             found = file["steady/friction_0/displacement"][:]
+        found, tags = found[tags >= -1], tags[tags >= -1]  # without the nodes of soft layers
         numbers = [*tags[tags > 0].tolist(), *self._reference_nodes()]
         assert len(numbers) == len(found)
         kept = [at for at, number in enumerate(numbers) if number is not None]

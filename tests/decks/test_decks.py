@@ -119,6 +119,15 @@ class Decks(unittest.TestCase):
         # CalculiX iterates until forces change by 0.5 %, which limits its accuracy.
         self.near("contact4, limit of penalties", ours, limit, 5e-5)
 
+    def test_soft_penalties_are_layers(self):
+        """They change the displacements by 73 % and 23 %; the accuracy is that of CalculiX, which
+        iterates until forces change by 0.5 %."""
+        text = ccx.comparable(ccx.deck_text("contact4"), True)
+        for penalty in ("1.E5", "1.E6"):
+            one = Comparison(PROGRAM, text.replace("1.E7", penalty), self.folder / penalty)
+            ours, theirs = one.both_displacements()
+            self.near(f"contact4, layer {penalty}", ours, theirs, 2e-4)
+
     def near(self, name, ours, theirs, bound):
         difference = float(np.max(np.abs(ours - theirs)) / np.max(np.abs(theirs)))
         self.rows.append((name, "U", difference, bound))

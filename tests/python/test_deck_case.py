@@ -361,10 +361,15 @@ class Contacts(unittest.TestCase):
             self.assertEqual(sorted(one.groups["DOWN"][0]), [11, 12, 13, 14])
             self.assertTrue(any("contact is hard" in text for text in one.journal.choices))
 
-    def test_contacts_that_are_not_hard(self):
+    def test_soft_penalties_are_layers(self):
         linear = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E6\n"
-        (row,) = refused(cube(self.BLOCK + self.PAIR + linear))
-        self.assertIn("*SURFACE BEHAVIOR: the penalty is only 4.76 times as stiff", row)
+        one = Imported(cube(self.BLOCK + self.PAIR + linear))
+        (options,) = one.options["contact"].values()
+        self.assertEqual(float(options["stiffness"]), 1e6)
+        self.assertTrue(any("4.76 times as stiff" in text for text in one.journal.choices))
+
+    def test_contacts_that_are_refused(self):
+        linear = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E6\n"
         (row,) = refused(cube(self.BLOCK + self.PAIR + "*FRICTION\n0.3, 5000.\n"))
         self.assertIn("*FRICTION: friction is not translated", row)
         spare = "*SURFACE INTERACTION, NAME=J\n*FRICTION\n0.3, 5000.\n"

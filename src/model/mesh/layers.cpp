@@ -21,7 +21,7 @@ void addLayers(WholeMesh& mesh, const Request& request) {
   for (const PetscInt node : nodes) {
     const PetscInt layer = layerOf[node] = mesh.nodeCount();
     mesh.points.push_back(Point(mesh.points[node]));
-    mesh.tags.push_back(PetscInt(mesh.tags[node]));
+    mesh.tags.push_back(-1 - mesh.tags[node]);  // below those of reference nodes, 0 and −1
     mesh.part.push_back(int(mesh.part[node]));
     mesh.primary.push_back(layer);
     mesh.layers.push_back({node, layer});

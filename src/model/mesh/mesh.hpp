@@ -138,7 +138,8 @@ struct Mesh {
   PetscInt firstNode = 0;   ///< global number of local node 0; owned nodes are contiguous
   std::vector<PetscInt> globalNode;  ///< [local node] global number
   std::vector<Point> coordinates;    ///< [local node], m
-  /// [local node] gmsh's tag; the two nodes of a split shared node repeat it
+  /// [local node] gmsh's tag; the two nodes of a split shared node repeat it. It is 0 and −1 at
+  /// reference nodes, and −1 − tag at the layer node of a node with this tag.
   std::vector<PetscInt> nodeTag;
   /// [local node] connected part (0 … parts−1) of the bodies once contact is cut
   std::vector<int> nodePart;

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Contacts of a case: hard, frictionless interfaces of two surfaces of faces.
+"""Contacts of a case: frictionless interfaces of two surfaces of faces.
 
-A penalty is translated only if it stands for hard contact; a softer one is a layer that is part of
-the physics.
+A penalty that stands for hard contact is left out; a softer one is a layer that is part of the
+physics.
 """
 import numpy as np
 
@@ -48,7 +48,7 @@ def _add(contact, model, case, journal, faces, taken):
         faces.require_outer([tuple(row) for row in rows.tolist()])
         case.set((*path, key), case.group(FACES, rows, surface.name), contact.source)
         if key == "pad":
-            _require_hard(interaction, model, journal, rows, faces)
+            _set_stiffness(interaction, model, case, journal, path, rows, faces)
     case.set((*path, "role"), "frictionless", contact.source)
     case.set((*path, "slave"), "pad", contact.source)
     case.set((*path, "gap"), "measured", contact.source)
@@ -57,8 +57,9 @@ def _add(contact, model, case, journal, faces, taken):
             journal.mark(source, TRANSLATED)
 
 
-def _require_hard(interaction, model, journal, rows, faces):
-    """Refuses a penalty k with k h / E below HARD; h: edge of the faces, E: largest modulus."""
+def _set_stiffness(interaction, model, case, journal, path, rows, faces):
+    """A penalty k is a soft layer if k h / E is below HARD; h: edge of the faces, E: largest
+    modulus."""
     if interaction.stiffness is None:
         journal.choose(f"{interaction.source}: contact is hard; in CalculiX it is a stiff penalty")
         return
@@ -69,10 +70,10 @@ def _require_hard(interaction, model, journal, rows, faces):
         raise Fault("the surface of a contact has no faces or no stiffness")
     ratio = interaction.stiffness * float(np.mean(edges)) / max(moduli)
     if ratio < HARD:
-        journal.refuse(
-            interaction.behavior,
-            f"the penalty is only {ratio:.3g} times as stiff as the cells: a soft layer, not hard"
-            " contact",
+        case.set((*path, "stiffness"), interaction.stiffness, interaction.behavior)
+        journal.choose(
+            f"{interaction.behavior}: the penalty is {ratio:.3g} times as stiff as the cells, and"
+            " becomes a soft layer on the slave"
         )
     else:
         journal.choose(
