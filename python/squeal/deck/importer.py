@@ -5,24 +5,26 @@ from pathlib import Path
 
 from squeal.deck.case.faces import Faces
 from squeal.deck.case.translate import translate
-from squeal.deck.inp.dialect import CALCULIX
+from squeal.deck.inp.dialect import ABAQUS, CALCULIX
 from squeal.deck.inp.reader import read_model
 from squeal.deck.journal import DeckError, Journal
 from squeal.deck.output.account import write_account
 from squeal.deck.output.msh import write_mesh
 from squeal.deck.output.options import MARK, write_options
 
-DIALECTS = {"calculix": CALCULIX}
+DIALECTS = {"abaqus": ABAQUS, "calculix": CALCULIX}
 PARTIAL = "mesh.msh.partial"  # the mesh gets its name when all is written
 FILES = ("mesh.msh", "case.yaml", "import.md", PARTIAL)
 
 
-def import_deck(deck, folder, dialect="calculix", ignored=()):
-    """Writes the case of a deck into a folder, and returns its journal. If the deck is refused,
-    writes only import.md and raises DeckError."""
+def import_deck(deck, folder, dialect="calculix", ignored=(), speed=None):
+    """Writes the case of a deck into a folder, and returns its journal. `speed`: that of a motion
+    of which the deck has only the direction. If the deck is refused, writes only import.md and
+    raises DeckError."""
     folder = Path(folder)
     journal = Journal(ignored)
     model = read_model(deck, DIALECTS[dialect], journal)
+    model.speed = speed
     case = translate(model, journal)
     _prepare(folder)
     try:
@@ -65,10 +67,17 @@ def main(words):
     add("-o", "--output", metavar="FOLDER", help=folder)
     add("--dialect", choices=sorted(DIALECTS), default="calculix", help="program of the deck")
     ignored = "card, parameter, load or type of element to leave out although it is physics"
+    speed = (
+        "speed of a body of whose motion the deck has only the direction, in rad or length per time"
+        " unit of the deck"
+    )
     add("--ignore", metavar="NAME", action="append", default=[], help=ignored)
+    add("--speed", metavar="V", type=float, help=speed)
     given = parser.parse_args(words)
+    if given.speed is not None and not 0 < given.speed < float("inf"):
+        raise DeckError(f"--speed {given.speed:g}: the speed of a motion is positive")
     folder = Path(given.output or Path(given.deck).stem)
-    journal = import_deck(given.deck, folder, given.dialect, given.ignore)
+    journal = import_deck(given.deck, folder, given.dialect, given.ignore, given.speed)
     print(f"{folder / 'case.yaml'}: the case; {folder / 'import.md'}: the account of the deck")
     print(f"  cards: {journal.counted()}")
     for choice in journal.choices:

@@ -51,13 +51,18 @@ OUTPUT = {
 class Dialect:
     """`short_words`, `continued_keywords`: whether the program accepts shortened words, and a
     keyword line that continues after a comma. `integer_digits`, `real_digits`: longer numbers are
-    cut by the program; None: they are not."""
+    cut by the program; None: they are not. `slip_rates`: the second number of *FRICTION is a slip
+    rate, otherwise the stick slope, and *FREQUENCY has frequency limits. `contact_type`: the
+    default of TYPE of *CONTACT PAIR."""
 
     name: str
     short_words: bool
     continued_keywords: bool
     integer_digits: int = None
     real_digits: int = None
+    slip_rates: bool = False
+    contact_type: str = None
 
 
 CALCULIX = Dialect("CalculiX", False, False, 10, 20)
+ABAQUS = Dialect("Abaqus", True, True, slip_rates=True, contact_type="NODETOSURFACE")

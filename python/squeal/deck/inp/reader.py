@@ -5,14 +5,14 @@ from pathlib import Path
 
 import numpy as np
 
-from squeal.deck.inp import contacts, joints, materials, mesh, state  # noqa: F401 (handlers)
+from squeal.deck.inp import contacts, joints, materials, mesh, squeal, state  # noqa: F401
 from squeal.deck.inp.cards import key_of, read_cards
 from squeal.deck.inp.dialect import OUTPUT, PROCEDURES
 from squeal.deck.inp.handlers import TABLE, settle
 from squeal.deck.inp.lines import read_lines
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
 from squeal.deck.model import EMPTY, Model
-from squeal.deck.numbers import integer, is_integer
+from squeal.deck.numbers import integer, is_integer, real
 
 REASONS = {
     **{name: "shells are not supported" for name in ("SHELL SECTION", "MEMBRANE SECTION")},
@@ -21,7 +21,6 @@ REASONS = {
     "GAP": "gap elements are not supported",
     "MPC": "multi-point constraints of this kind are not supported; use *EQUATION",
     "BUCKLE": "buckling loads are not computed",
-    "COMPLEX FREQUENCY": "complex modes of a rotor are not translated",
 }
 
 
@@ -33,13 +32,20 @@ def _reason(card):
     return "this card is not supported" if card.known else "unknown card"
 
 
+MODES = 200  # the number if the deck has an upper limit only
+SUPPORTED = ("STATIC", "FREQUENCY", "COMPLEX FREQUENCY")
+# Cards of a static step that may follow free vibrations: the loads remain.
+CHANGES_OF_FRICTION = {"STEP", "STATIC", "CHANGE FRICTION", "FRICTION", "END STEP", *OUTPUT}
+
+
 @dataclass
 class Step:
     """The step that is read: kinds of cards that it has given already, and places that it has
-    loaded."""
+    loaded. `frequency`: it computes modes; `only_friction`: it changes nothing but friction."""
 
     frequency: bool = False
     after_static: bool = False
+    only_friction: bool = False
     perturbation: bool = False
     renewed: set = field(default_factory=set)
     loaded: set = field(default_factory=set)
@@ -98,14 +104,19 @@ class Reader:
     def _step(self, cards):
         procedure = next((card for card in cards if card.keyword in PROCEDURES), None)
         name = procedure.keyword if procedure else None
-        supported = name in ("STATIC", "FREQUENCY")
+        supported = name in SUPPORTED
         if procedure and not supported and self.journal.ignores(name):
             for card in cards:
                 self.journal.mark(card.source, UNUSED, f"in the step of *{name}, which is ignored")
             return
         if procedure is None:
             self.journal.refuse(cards[0].source, "the step has no procedure")
-        self.step = Step(name == "FREQUENCY", self.model.static is not None)
+        only_friction = all(card.keyword in CHANGES_OF_FRICTION for card in cards)
+        self.step = Step(
+            name in ("FREQUENCY", "COMPLEX FREQUENCY"),
+            self.model.static is not None,
+            only_friction,
+        )
         self._open_step(cards[0], name)
         for card in cards[1:]:
             if card is procedure and supported:
@@ -123,17 +134,30 @@ class Reader:
         journal.mark(card.source, USED)
         for name, value in card.parameters.items():
             if name == "NLGEOM" and (value or "YES").upper() != "NO":
-                journal.refuse(card.source, "large displacements are not supported", name)
-            elif name == "PERTURBATION" and procedure == "FREQUENCY":
+                self._large_displacements(card.source)
+            elif name == "PERTURBATION" and procedure in ("FREQUENCY", "COMPLEX FREQUENCY"):
                 self.step.perturbation = True
-            elif name in ("INC", "INCF", "NAME", "NLGEOM", "AMPLITUDE"):
+            elif name in ("INC", "INCF", "NAME", "NLGEOM", "AMPLITUDE", "UNSYMM", "EXTRAPOLATION"):
                 journal.remark(card.source, f"{name} is not used")
             else:
                 journal.refuse(card.source, "this parameter is not supported", name)
 
+    def _large_displacements(self, source):
+        """Refuses them. If they are ignored, free vibrations have the stress of the static step, as
+        in the program of the deck."""
+        reason = "large displacements are not supported; --ignore NLGEOM takes them as small"
+        if not self.journal.refuse(source, reason, "NLGEOM"):
+            self.model.large_displacements = True
+
     def _procedure(self, card):
         journal = self.journal
-        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION"}
+        if card.keyword == "COMPLEX FREQUENCY":
+            try:
+                squeal.request(card, self)
+            except Fault as fault:
+                journal.refuse(card.source, fault.reason, fault.name, fault.line)
+            return
+        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION", "STABILIZE"}
         for name in card.parameters:
             if name in idle:
                 journal.remark(card.source, f"{name} is not used")
@@ -151,18 +175,36 @@ class Reader:
         rows = list(card.rows())
         if not rows:
             raise Fault("the number of frequencies is missing")
-        line, fields = rows[0]
-        if self.model.frequency and self.model.prestress != self.step.perturbation:
-            raise Fault("steps of free vibrations with and without PERTURBATION")
-        self.model.prestress = self.step.perturbation
-        self.model.frequencies = max(integer(fields[0], line), self.model.frequencies or 0)
-        self.model.frequency = card.source
         if len(rows) > 1:
             raise Fault("this card has one line of data", line=rows[1][0])
-        if len(fields) > 1:
-            self.journal.remark(card.source, "only the number of frequencies is used")
-        if self.model.static and not self.model.prestress:
-            self.journal.choose(f"{card.source}: frequencies without the effect of the static step")
+        line, fields = rows[0]
+        model, abaqus = self.model, card.dialect.slip_rates
+        prestress = model.large_displacements if abaqus else self.step.perturbation
+        if model.frequencies and model.prestress != prestress:
+            raise Fault("steps of free vibrations with and without PERTURBATION")
+        model.prestress = prestress
+        count, model.top = (integer(fields[0], line) if fields[0] else None), None
+        if abaqus and len(fields) > 2 and fields[2]:
+            model.top = real(fields[2], line)
+        if count is None and model.top is None:
+            raise Fault("the number of frequencies is missing", line=line)
+        if len(fields) > (3 if abaqus else 1) or abaqus and any(fields[1:2]):
+            self.journal.remark(card.source, "only the number and the upper limit are used")
+        model.frequencies = max(count or MODES, model.frequencies or 0)
+        if count is None:
+            self.journal.choose(
+                f"{card.source}: the modes up to {model.top:g} Hz; the case computes {MODES}, see"
+                " whether they reach this limit"
+            )
+        model.frequency = card.source
+        if model.static and not prestress:
+            self.journal.choose(
+                f"{card.source}: frequencies without the stress of the static step"
+                if abaqus
+                else f"{card.source}: frequencies without the effect of the static step"
+            )
+        if prestress and not abaqus:
+            squeal.add_request(card.source, self, False, count, None)
         self.journal.mark(card.source, TRANSLATED)
 
     def _static(self, card):
@@ -171,8 +213,11 @@ class Reader:
                 f"{card.source}: the case has the state at the end of this static step, not those"
                 " of earlier ones"
             )
-        if self.model.frequencies is not None:
-            raise Fault("a static step after one of free vibrations is not supported")
+        if self.model.frequencies is not None and not self.step.only_friction:
+            raise Fault(
+                "a static step after one of free vibrations is not supported, unless it only"
+                " changes friction"
+            )
         if card.data:
             self.journal.remark(card.source, "increments are not used: the step is linear")
         self.model.static = card.source
@@ -222,6 +267,6 @@ def read_model(path, dialect, journal):
     """Returns the model of a deck; the journal then has an entry for each card. Raises DeckError if
     a file cannot be read."""
     cards = read_cards(read_lines(path, journal), dialect, journal)
-    model = Model(" ".join(Path(path).name.split()))
+    model = Model(" ".join(Path(path).name.split()), dialect.name)
     Reader(model, journal).read(cards)
     return model
