@@ -78,7 +78,7 @@ class Motion(unittest.TestCase):
 
     def test_a_prescribed_turn_stands_for_a_motion(self):
         """The displacements of a turn by 0.02 about an axis along z through (5, 1)."""
-        one = Imported(turn(0.02, (5.0, 1.0)))
+        one = Imported(turn(0.02, (5.0, 1.0)), dialect="calculix")
         moved = one.options["motion"]["PLATE"]
         self.assertEqual(float(moved["speed"]), 1.0)
         np.testing.assert_allclose(numbers(moved["axis"]), [0, 0, 1], atol=1e-9)
@@ -89,16 +89,19 @@ class Motion(unittest.TestCase):
         self.assertIn("only its direction counts", one.account)
 
     def test_the_sense_of_a_turn(self):
-        moved = Imported(turn(-0.02, (5.0, 1.0))).options["motion"]["PLATE"]
+        moved = Imported(turn(-0.02, (5.0, 1.0)), dialect="calculix").options["motion"]["PLATE"]
         np.testing.assert_allclose(numbers(moved["axis"]), [0, 0, -1], atol=1e-9)
 
     def test_displacements_that_are_no_turn(self):
         text = turn(0.02, (5.0, 1.0)).replace("*END STEP\n", "1, 1, 1, 0.5\n*END STEP\n", 1)
-        self.assertIn("are not those of a rigid turn or shift", " ".join(refused(text)))
+        self.assertIn(
+            "are not those of a rigid turn or shift", " ".join(refused(text, dialect="calculix"))
+        )
 
     def test_a_speed_that_the_deck_does_not_have(self):
         """An exponential law needs the slip rate, so --speed is asked for."""
         text = turn(0.02, (5.0, 1.0), "*FRICTION, EXPONENTIAL DECAY\n0.5, 0.3, 2.\n")
+        text += COMPLEX.format("", "10")
         self.assertIn("give it with --speed", " ".join(refused(text)))
         one = Imported(text, speed=7.0)
         self.assertEqual(float(one.options["motion"]["PLATE"]["speed"]), 7.0)
@@ -160,10 +163,12 @@ class Sweep(unittest.TestCase):
 
     def test_the_second_number_of_calculix_is_no_slip_rate(self):
         """0.3, 5000.: a stick slope, which exact friction does not have."""
-        one = Imported(turn(0.02, (5.0, 1.0), "*FRICTION\n0.3, 5000.\n"))
+        text = turn(0.02, (5.0, 1.0), "*FRICTION\n0.3, 5000.\n")
+        one = Imported(text, dialect="calculix")
         self.assertNotIn("friction", one.options)
         self.assertEqual(one.options["flutter"]["friction"], 0.3)
         self.assertIn("the stick slope is not used", one.account)
+        self.assertIn("choose --dialect", " ".join(refused(text)))
 
     def test_laws_that_are_refused(self):
         for law, reason in (

@@ -3,6 +3,7 @@
 import numpy as np
 
 from squeal.deck.case.bodies import add_bodies
+from squeal.deck.case.bolts import add_bolts
 from squeal.deck.case.checks import check_elements, check_mesh
 from squeal.deck.case.contacts import add_contacts
 from squeal.deck.case.faces import Faces
@@ -29,6 +30,7 @@ def translate(model, journal):
     case.ties = add_ties(model, roles, case, journal, faces)
     frictions, undetermined = add_contacts(model, case, journal, faces)
     add_joints(model, roles, case, journal, faces)
+    add_bolts(model, case, journal, faces)
     add_supports(model, roles, case, journal)
     add_forces(model, roles, case, journal)
     add_pressures(model, case, journal, faces)
@@ -47,6 +49,7 @@ def translate(model, journal):
 
 def _name_idle_nodes(model, roles, journal):
     others = np.setdiff1d(model.nodes.numbers, roles.cell_nodes)
+    others = np.setdiff1d(others, [bolt.node for bolt in model.bolts])
     idle = [number for number in others.tolist() if not roles.is_used(number)]
     if idle:
         journal.choose(

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Cards of contact: pairs of surfaces, their interactions and the laws of friction."""
+from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import Fault
 from squeal.deck.model import Contact, Friction, Interaction
@@ -74,9 +75,11 @@ def _law(card, reader):
         if len(table) != 1 or len(table[0]) != 3:
             raise Fault("EXPONENTIAL DECAY needs one line: two coefficients and the decay")
         return Friction(card.source, tuple(table[0][:2]), decay=table[0][2])
-    if not card.dialect.slip_rates:
+    if len(table) > 1 or len(table[0]) > 1:
+        reader.decide()
+    if reader.dialect is not ABAQUS:
         if len(table) > 1:
-            raise Fault(f"{card.dialect.name} has one line: coefficient and stick slope")
+            raise Fault("CalculiX has one line: coefficient and stick slope")
         if len(table[0]) > 1:
             reader.journal.remark(card.source, "the stick slope is not used: friction is exact")
         return Friction(card.source, (table[0][0],))
@@ -103,7 +106,8 @@ def change_friction(card, reader):
     idle=("NO THICKNESS", "TRACKING", "SUPPLEMENTARY CONSTRAINTS", "MECHANICAL CONSTRAINT"),
 )
 def contact_pair(card, reader):
-    interaction, kind = card.key("INTERACTION"), card.key("TYPE", card.dialect.contact_type)
+    default = "NODETOSURFACE" if reader.dialect is ABAQUS else None
+    interaction, kind = card.key("INTERACTION"), card.key("TYPE", default)
     if kind not in TYPES:
         raise Fault(f"TYPE={card.value('TYPE') or ''} is not supported", "TYPE")
     adjust = None

@@ -2,6 +2,7 @@
 """Cards of a squeal analysis: matter that moves through the mesh, and complex modes."""
 import numpy as np
 
+from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import TRANSLATED, Fault
 from squeal.deck.model import Motion, Squeal
@@ -73,7 +74,8 @@ def _translation(card, reader, line, fields):
 
 def request(card, reader):
     """Reads *COMPLEX FREQUENCY of Abaqus. Raises Fault."""
-    if not card.dialect.slip_rates:
+    reader.decide()
+    if reader.dialect is not ABAQUS:
         raise Fault("complex modes of a rotor are not translated")
     for name in card.parameters:
         if name not in REAL_PARAMETERS:
