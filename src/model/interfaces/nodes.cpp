@@ -214,6 +214,8 @@ std::string describe(const Interfaces& all, int interface) {
                       report.untied);
   else if (report.dropped > 0)
     line += formatted("; %" PetscInt_FMT " nodes at its rim have no condition", report.dropped);
+  if (report.bonded > 0)
+    line += formatted("; %" PetscInt_FMT " more are bonded to it by a tie", report.bonded);
   if (options.layerStiffness > 0)
     line += formatted("; with a soft layer of %.4g N/m3", options.layerStiffness);
   if (!options.separates) line += "; they do not separate";

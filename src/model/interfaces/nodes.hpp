@@ -98,6 +98,7 @@ struct InterfaceReport {
   PetscInt dropped = 0;    ///< touching nodes without a condition: too little covered, or left
                            ///< to another interface
   LossReport loss;
+  PetscInt bonded = 0;  ///< nodes of a contact that a tie binds to what they touch
   // The following apply only to ties.
   PetscInt carried = 0;          ///< held components of tied nodes that the master carries
   PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
