@@ -97,13 +97,14 @@ def rigid_nodes(rigid, model):
     return np.unique(np.concatenate([EMPTY, *parts]))
 
 
-def moving_bodies(model, bodies, case, journal):
+def moving_bodies(model, bodies, case, journal, faces):
     """Returns number of body -> Moving, and sets the options of the motions. Removes prescribed
-    displacements that stand for a motion from the supports of the model."""
+    displacements that stand for a motion from the supports of the model. `faces`: the object that
+    looks faces of elements up."""
     rubbing = _rubbing(model, bodies)
     moving = _given(model, bodies, journal) if model.motions else {}
     if not model.motions and model.squeal:
-        moving = _turned(model, bodies, rubbing, journal)
+        moving = _turned(model, bodies, rubbing, journal, faces)
     for at, one in moving.items():
         _set_motion(case, bodies.names[at], one, model, journal)
     return moving
@@ -181,8 +182,9 @@ def _add_given(motion, bodies, contact_nodes, moving, journal):
         moving[at] = Moving(motion, True)
 
 
-def _turned(model, bodies, rubbing, journal):
-    """Fits the motion of a rigid body to prescribed displacements of each part that rubs."""
+def _turned(model, bodies, rubbing, journal, faces):
+    """Fits the motion of a rigid body to prescribed displacements of each part that rubs. A part
+    that they press onto its contacts does not move."""
     moving = {}
     joined = bodies.joined()
     for at in sorted(rubbing):
@@ -203,6 +205,8 @@ def _turned(model, bodies, rubbing, journal):
         except Fault as fault:
             journal.refuse_fault(source, fault)
             continue
+        if not _slides(motion, model, group, bodies, faces):
+            continue
         moved = [place for place, value in places if value.value]
         for place in moved:
             held = model.state.supports[place]
@@ -214,6 +218,25 @@ def _turned(model, bodies, rubbing, journal):
         )
         moving.update({one: Moving(motion, False) for one in group})
     return moving
+
+
+def _slides(motion, model, group, bodies, faces):
+    """Returns whether a motion is along the contact faces of a part rather than across them."""
+    along = across = 0.0
+    for contact in model.contacts:
+        for key in (contact.slave, contact.master):
+            surface = model.surfaces[key]
+            if surface.nodes is not None or not bodies.of_elements(surface.elements) & group:
+                continue
+            for _, table in faces.tables(np.column_stack([surface.elements, surface.faces])):
+                corners = [model.nodes.at(table[:, at]) for at in range(3)]
+                normals = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+                velocities = np.broadcast_to(motion.amount, normals.shape)
+                if motion.axis is not None:
+                    velocities = np.cross(motion.axis, sum(corners) / 3 - motion.origin)
+                across += np.abs(np.einsum("fi,fi->f", velocities, normals)).sum()
+                along += np.linalg.norm(np.cross(velocities, normals), axis=1).sum()
+    return along > across
 
 
 def _held(model, nodes, group, bodies):
