@@ -12,7 +12,6 @@
 #include "model/elasticity/assembly.hpp"
 #include "model/elasticity/attached_parts.hpp"
 #include "model/elasticity/carried_axes.hpp"
-#include "model/elasticity/carried_masses.hpp"
 #include "model/elasticity/convection.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/ground.hpp"
@@ -158,11 +157,10 @@ void attach(const mesh::Mesh& mesh, const std::vector<attachments::Form>& masses
 /// Collective. Adds the terms of point masses that move with a body.
 void carry(const mesh::Mesh& mesh, Bodies& bodies) {
   const auto& settings = bodies.settings;
-  const auto carried = carriedMasses(mesh, settings, bodies.motions);
-  if (settings.centrifugal && !carried.empty())
-    addCentrifugal(mesh, carried, bodies.motions, bodies.centrifugal);
+  if (settings.centrifugal && !bodies.carried.empty())
+    addCentrifugal(mesh, bodies.carried, bodies.motions, bodies.centrifugal);
   if (!settings.convective) return;
-  const OwnedMat spin = gyroscopicOf(mesh, carried, bodies.motions);
+  const OwnedMat spin = gyroscopicOf(mesh, bodies.carried, bodies.motions);
   if (!spin) return;
   check(MatAXPY(bodies.gyroscopic, 1, spin, DIFFERENT_NONZERO_PATTERN));
   check(MatSetOption(bodies.gyroscopic, MAT_SYMMETRIC, PETSC_FALSE));
@@ -214,6 +212,7 @@ OwnedVec nodalVector(const mesh::Mesh& mesh) {
 }
 
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
+                const std::vector<constraints::CouplingSettings>& couplings,
                 const Settings& settings) {
   Bodies bodies;
   bodies.settings = settings;
@@ -234,6 +233,7 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
   }
   const auto masses = attachments::massesOf(mesh, settings.attachments);
   attach(mesh, masses, bodies);
+  bodies.carried = carriedMasses(mesh, settings, couplings, bodies.motions);
   assembleLoads(mesh, masses, bodies);
   return bodies;
 }

@@ -155,7 +155,6 @@ Settings Settings::given() {
   settings.motions = motionsGiven();
   readBodyForces(settings);
   settings.attachments = attachments::Settings::given();
-  settings.couplings = constraints::Settings::given().couplings;
   settings.ground = groundGiven();
   return settings;
 }

@@ -41,7 +41,8 @@ mesh::Mesh readMesh(MPI_Comm comm, const ModelSettings& settings) {
 
 elasticity::Bodies assembleBodies(const mesh::Mesh& mesh, const ModelSettings& settings) {
   Stage stage(mesh.comm, "elasticity");
-  elasticity::Bodies bodies = elasticity::assemble(mesh, settings.materials, settings.elasticity);
+  elasticity::Bodies bodies = elasticity::assemble(
+      mesh, settings.materials, settings.constraints.couplings, settings.elasticity);
   stage.finish(formatted("stiffness, mass and loads on %" PetscInt_FMT " displacements",
                          mesh.dimension * mesh.totalNodes));
   return bodies;

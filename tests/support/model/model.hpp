@@ -66,7 +66,9 @@ inline std::string messageOfMesh(const std::string& file, const std::string& opt
 
 /// Collective. From the options in force.
 inline elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
-  return elasticity::assemble(mesh, material::Settings::given(), elasticity::Settings::given());
+  return elasticity::assemble(mesh, material::Settings::given(),
+                              constraints::Settings::given().couplings,
+                              elasticity::Settings::given());
 }
 
 /// Collective. From the options in force.
