@@ -118,8 +118,7 @@ void rejectSections(const mesh::Mesh& mesh, const Settings& settings) {
   };
   for (const auto& [name, motion] : settings.motions) reject(name, motion.option);
   for (const auto& [name, spin] : settings.spins) reject(name, spin.option);
-  for (const auto& [name, given] : settings.accelerations)
-    reject(name, "-load_" + name + "_acceleration");
+  for (const auto& [name, given] : settings.accelerations) reject(name, accelerationName(name));
 }
 
 void assembleMatrices(const mesh::Mesh& mesh, Bodies& bodies) {

@@ -63,8 +63,11 @@ std::vector<std::string> movingBodies(const Settings& settings);
 /// dashpots.
 std::vector<mesh::GroupRequest> loadedSurfaces(const Settings& settings);
 std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings);
-/// Returns the option `-ground_<group>_frame`, for messages.
+/// Return names of options with their dash, for messages.
 std::string groundFrameName(const std::string& group);
+std::string accelerationName(const std::string& body);
+std::string axisName(const std::string& body);
+std::string pressureName(const std::string& surface);
 /// Returns the options that give a motion, for messages.
 inline const char* motionOptions() { return "-motion_<body>_*"; }
 
