@@ -183,9 +183,10 @@ void assembleLoads(const mesh::Mesh& mesh, const std::vector<attachments::Form>&
 
 }  // namespace
 
-void addLayers(OwnedMat stiffness, Bodies& bodies) {
+Bodies withLayers(Bodies bodies, OwnedMat stiffness) {
   addMatrix(bodies.stiffness, stiffness);
   bodies.layerStiffness = std::move(stiffness);
+  return bodies;
 }
 
 bool locks(double poisson) { return poisson > leastLocking; }

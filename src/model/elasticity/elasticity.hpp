@@ -51,8 +51,9 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
                 const std::vector<constraints::CouplingSettings>& couplings,
                 const Settings& settings);
 
-/// Collective. Adds the stiffness of compliant contact layers, N×N, N/m, which may be null.
-void addLayers(OwnedMat stiffness, Bodies& bodies);
+/// Collective. Returns the bodies with the stiffness of compliant contact layers, N×N, N/m, which
+/// may be null.
+Bodies withLayers(Bodies bodies, OwnedMat stiffness);
 
 /// Returns true if a material of this Poisson's ratio is so nearly incompressible that linear cells
 /// without incompatible modes lock: such a cell cannot deform at constant volume at each point of
