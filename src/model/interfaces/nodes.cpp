@@ -148,9 +148,10 @@ std::vector<int> interfacesOf(const mesh::Mesh& mesh, const coupling::NodeExchan
   return found;
 }
 
-/// Collective. Moves the gap basis to the layer nodes.
+/// Collective. Sets the layers with a gap, and moves the gap basis to their nodes.
 void moveToLayers(const mesh::Mesh& mesh, Mat periodic, Interfaces& all) {
-  all.layerExchange = layerExchange(mesh, all, periodic);
+  all.layers = layersInContact(mesh, all, periodic);
+  all.layerExchange = layerExchange(mesh, all);
   if (!all.layerExchange || !all.gapBasis) return;
   for (OwnedMat* basis : {&all.gapBasis.matrix, &all.gapBasis.inverse})
     *basis = product(product(all.layerExchange, *basis), all.layerExchange);

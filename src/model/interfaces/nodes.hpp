@@ -136,8 +136,9 @@ struct Interfaces {
   /// [local node] index into `options` of the contact with a gap at the node, −1 if there is none;
   /// includes ghosts and periodic images
   std::vector<int> interfaceOf;
-  int levels = 1;     ///< largest level of a connection of all ranks
-  GapBasis gapBasis;  ///< E
+  int levels = 1;                       ///< largest level of a connection of all ranks
+  GapBasis gapBasis;                    ///< E
+  std::vector<mesh::LayerNode> layers;  ///< those with a gap, images included
   /// N×N, exchanges each node below a compliant layer with its layer node; null without layers
   OwnedMat layerExchange;
 
