@@ -95,7 +95,8 @@ void requireSupports(const Model& model) {
 audit::Audit auditModel(const Model& model, const ModelSettings& settings,
                         const std::string& place) {
   Stage stage(model.mesh->comm, "audit");
-  auto found = audit::auditOf({*model.mesh, model.bodies, model.contact, settings.materials});
+  auto found = audit::auditOf({*model.mesh, model.bodies, model.contact, settings.materials,
+                              settings.constraints.couplings});
   stage.finish(audit::summaryOf(found) + place);
   return found;
 }

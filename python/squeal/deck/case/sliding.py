@@ -12,7 +12,8 @@ from squeal.deck.case.groups import CELLS, clean
 from squeal.deck.journal import TRANSLATED, Fault
 from squeal.deck.model import EMPTY, Motion
 
-PRECISION = 0.02  # of a turn that is taken as a rigid motion: finite turns are not linear
+PRECISION = 0.02  # of a small turn that is taken as a rigid motion: finite turns are not linear
+EXACT = 1e-4  # of a finite turn, whose displacements are written with few digits
 
 
 @dataclass
@@ -256,7 +257,44 @@ def _held(model, nodes, group, bodies):
 
 def _fit(model, places, source):
     """Returns the rigid motion whose displacements at these places are closest to the prescribed
-    ones. Raises Fault if they are not those of a rigid motion."""
+    ones: a finite turn where they are known as whole vectors, otherwise a small one. Raises Fault
+    if they are not those of a rigid motion."""
+    finite = _finite_turn(model, places, source)
+    return finite or _small_motion(model, places, source)
+
+
+def _finite_turn(model, places, source):
+    """Returns the turn that takes each node to its prescribed place, to round-off, or None.
+
+    Source of the method: Kabsch, Acta Cryst. A32 (1976) 922."""
+    known = {}
+    for (number, component), value in places:
+        if component < 3 and number not in model.frames and model.nodes.has([number])[0]:
+            known.setdefault(number, {})[component] = value.value
+    whole = {number: parts for number, parts in known.items() if len(parts) == 3}
+    if len(whole) < 3 or sum(map(len, known.values())) < len(places):
+        return None
+    before = model.nodes.at(list(whole))
+    moves = np.array([[parts[at] for at in range(3)] for parts in whole.values()])
+    centre, shift = before.mean(axis=0), moves.mean(axis=0)
+    arms = before - centre
+    left, _, right = np.linalg.svd(arms.T @ (arms + moves - shift))
+    sense = np.sign(np.linalg.det(left) * np.linalg.det(right))
+    turn = right.T @ np.diag([1.0, 1.0, sense]) @ left.T
+    error = np.abs(arms @ turn.T - arms - moves + shift).max()
+    twice = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    if error > EXACT * np.abs(moves).max() or np.linalg.norm(twice) < 1e-9:
+        return None
+    axis = twice / np.linalg.norm(twice)
+    if abs(np.dot(shift, axis)) > PRECISION * np.abs(moves).max():
+        return None
+    # The axis goes through the points that stay: (turn - 1) (x - centre) = -shift.
+    origin = centre - np.linalg.lstsq(turn - np.eye(3), shift, rcond=1e-9)[0]
+    size = np.abs(before).max()
+    return Motion(EMPTY, 1.0, source, _rounded(axis, 1.0), _rounded(origin, size))
+
+
+def _small_motion(model, places, source):
     rotations = {one.rotation: one.reference for one in model.rigid if one.rotation is not None}
     rows, values = [], []
     for (number, component), value in places:
@@ -265,9 +303,8 @@ def _fit(model, places, source):
         frame = model.frames.get(number)
         axes = np.eye(3) if frame is None else frame.axes_at(point)
         direction = axes[component % 3]
-        rows.append(
-            [*np.zeros(3), *direction] if turns else [*direction, *np.cross(point, direction)]
-        )
+        arm = np.cross(point, direction)
+        rows.append([*np.zeros(3), *direction] if turns else [*direction, *arm])
         values.append(value.value)
     rows, values = np.array(rows), np.array(values)
     size = max(np.abs(rows[:, 3:]).max(), 1e-300)
