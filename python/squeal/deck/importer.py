@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Translates a deck into the folder of a case: mesh.msh, case.yaml and import.md."""
+"""Translates a deck, or matrices of other programs, into the folder of a case."""
 import argparse
 from pathlib import Path
 
@@ -9,12 +9,12 @@ from squeal.deck.inp.dialect import CALCULIX
 from squeal.deck.inp.reader import read_model
 from squeal.deck.journal import DeckError, Journal
 from squeal.deck.output.account import write_account
+from squeal.deck.output.folder import PARTIAL, prepare
 from squeal.deck.output.msh import write_mesh
-from squeal.deck.output.options import MARK, write_options
+from squeal.deck.output.options import write_options
+from squeal.matrices import importer as matrices
 
 DIALECTS = {"calculix": CALCULIX}
-PARTIAL = "mesh.msh.partial"  # the mesh gets its name when all is written
-FILES = ("mesh.msh", "case.yaml", "import.md", PARTIAL)
 
 
 def import_deck(deck, folder, dialect="calculix", ignored=()):
@@ -24,7 +24,7 @@ def import_deck(deck, folder, dialect="calculix", ignored=()):
     journal = Journal(ignored)
     model = read_model(deck, DIALECTS[dialect], journal)
     case = translate(model, journal)
-    _prepare(folder)
+    prepare(folder)
     try:
         accounted = None if journal.refusals else case
         write_account(folder / "import.md", model, accounted, journal, DIALECTS[dialect])
@@ -39,34 +39,22 @@ def import_deck(deck, folder, dialect="calculix", ignored=()):
     return journal
 
 
-def _prepare(folder):
-    """Makes the folder, and removes the files of an earlier import. Raises DeckError if a case is
-    there that was not imported."""
-    case = folder / "case.yaml"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        if case.exists() and not case.read_text(encoding="utf-8", errors="replace").startswith(
-            MARK
-        ):
-            raise DeckError(f"{case} was not made by squeal-import; choose another folder")
-        if not case.exists() and (folder / "mesh.msh").exists():
-            raise DeckError(f"{folder} has a mesh.msh of another origin; choose another folder")
-        for name in FILES:
-            (folder / name).unlink(missing_ok=True)
-    except OSError as error:
-        raise DeckError(f"{error.filename or folder}: {error.strerror}") from None
-
-
 def main(words):
     parser = argparse.ArgumentParser(prog="squeal-import", description=__doc__)
     add = parser.add_argument
-    add("deck", metavar="DECK", help="deck of CalculiX (.inp)")
+    deck = "deck of CalculiX (.inp), or the name of a job with matrices (JOB.sti, .mas, .dof)"
+    add("deck", metavar="DECK", nargs="?", help=deck)
     folder = "folder of the case; default: the name of the deck, in the working folder"
     add("-o", "--output", metavar="FOLDER", help=folder)
     add("--dialect", choices=sorted(DIALECTS), default="calculix", help="program of the deck")
     ignored = "card, parameter, load or type of element to leave out although it is physics"
     add("--ignore", metavar="NAME", action="append", default=[], help=ignored)
+    matrices.add_options(parser)
     given = parser.parse_args(words)
+    if files := matrices.files_of(given):
+        return matrices.run(given, files, parser)
+    if not given.deck or given.rows or given.whole or given.triangle:
+        parser.error("a deck, or a stiffness and a mass matrix, is needed")
     folder = Path(given.output or Path(given.deck).stem)
     journal = import_deck(given.deck, folder, given.dialect, given.ignore)
     print(f"{folder / 'case.yaml'}: the case; {folder / 'import.md'}: the account of the deck")

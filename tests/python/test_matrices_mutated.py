@@ -1,0 +1,235 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
+"""Damaged files of matrices: each is imported or refused in words, and what is imported has the
+entries of the file.
+
+Entries are counted and summed by readers of this test, which take one number after another. With
+SQUEAL_LONG in the environment, 10,000 files in place of 400.
+"""
+import math
+import os
+import random
+import re
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+repository = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/matrices")]
+sys.dont_write_bytecode = True
+import matrix_files as files
+
+from squeal.deck.journal import DeckError
+from squeal.matrices.importer import import_matrices
+
+COUNT = 10000 if os.environ.get("SQUEAL_LONG") else 400
+SIZE = 6
+WORDS = (
+    *("", "0", "-1", "1e400", "nan", "99999999999999999999", "1.5", "*", "**", "$", ",", ",,"),
+    *("1.D3", "2.-1", "inf", "%", "\t", "\0", "é", "DMIG", "DMIG*", "+", "*MATRIX INPUT", "-5"),
+)
+
+
+def seed_matrix():
+    stiffness, _, _ = files.chain(SIZE)
+    stiffness += np.diag(np.arange(SIZE) * 0.25)
+    stiffness[0, 4] = stiffness[4, 0] = -3.5
+    return stiffness
+
+
+def seeds():
+    """Returns for each format its content, its file and the name of the matrix."""
+    matrix = seed_matrix()
+    two = {"KAA": matrix, "MAA": np.eye(SIZE)}
+    found = {
+        "abaqus": (files.abaqus(matrix), "k.mtx", ""),
+        "abaqus_all": (files.abaqus(matrix, "all", header="** comment"), "k.mtx", ""),
+        "coordinates": (files.coordinates(matrix), "k.mtx", ""),
+        "calculix": (files.calculix(matrix), "k.sti", ""),
+        "matrix_market": (files.matrix_market(matrix), "k", ""),
+        "hb": (files.harwell_boeing(matrix, sides=1), "k", ""),
+        "hb_wide": (files.harwell_boeing(matrix, "RUA", per_line=3), "k", ""),
+        "dmig_large": (files.dmig(two), "k", ":KAA"),
+        "dmig_small": (files.dmig({"KAA": matrix}, "small"), "k", ":KAA"),
+        "dmig_free": (files.dmig({"KAA": matrix}, "free", 1), "k", ":KAA"),
+    }
+    for layout in ("dense", "sparse", "bigmat"):
+        found[f"op4_text_{layout}"] = (files.op4_text(two, layout), "k", ":KAA")
+        for order, word in (("<", 4), (">", 8)):
+            data = files.op4_binary(two, layout, order, word)
+            found[f"op4_{layout}_{word}"] = (data, "k", ":KAA")
+    return found
+
+
+def damaged_text(text, rng):
+    lines = text.split("\n")
+    for _ in range(rng.choice([1, 1, 1, 2, 4])):
+        at = rng.randrange(len(lines))
+        kind = rng.randrange(6)
+        if kind == 0 and len(lines) > 1:
+            del lines[at]
+        elif kind == 1:
+            lines.insert(at, rng.choice(lines))
+        elif kind == 2:
+            words = re.split(r"([ ,]+)", lines[at])
+            words[rng.randrange(len(words))] = rng.choice(WORDS)
+            lines[at] = "".join(words)
+        elif kind == 3:
+            lines.insert(at, rng.choice(WORDS))
+        elif kind == 4 and lines[at]:
+            place = rng.randrange(len(lines[at]))
+            letter = rng.choice("0123456789.,-*+= eEdD$\tAZ")
+            lines[at] = lines[at][:place] + letter + lines[at][place + 1 :]
+        else:
+            lines[at] = lines[at][: rng.randrange(len(lines[at]) + 1)]
+    return "\n".join(lines).encode()
+
+
+def damaged_bytes(data, rng):
+    data = bytearray(data)
+    for _ in range(rng.choice([1, 1, 2, 3])):
+        kind, at = rng.randrange(5), rng.randrange(len(data))
+        if kind == 0:
+            data[at] = rng.randrange(256)
+        elif kind == 1:
+            data[at] ^= 1 << rng.randrange(8)
+        elif kind == 2:
+            del data[at:]
+        elif kind == 3:
+            del data[at : at + rng.choice([1, 4, 8, 24])]
+        else:
+            data[at:at] = data[at : at + rng.choice([1, 4, 8, 24])]
+        if not data:
+            break
+    return bytes(data)
+
+
+def number(word):
+    """Returns the number of a word of Fortran."""
+    word = word.strip().upper().replace("D", "E")
+    return float(re.sub(r"(?<=[0-9.])([+-])", r"E\1", word))
+
+
+def values_of(kind, text):
+    """Returns the values of a text whose layout the import has found valid."""
+    lines = [line for line in text.split("\n") if line.strip()]
+    if kind.startswith(("abaqus", "coordinates")):
+        return [number(line.split(",")[-1]) for line in lines if not line.strip().startswith("*")]
+    if kind == "calculix":
+        return [number(line.split()[-1]) for line in lines]
+    if kind == "matrix_market":
+        return [number(line.split()[-1]) for line in lines if "%" not in line][1:]
+    if kind.startswith("hb"):
+        return _harwell_boeing(text.split("\n"))
+    if kind.startswith("dmig"):
+        return _dmig(lines)
+    return _op4(text.split("\n"))
+
+
+def _harwell_boeing(lines):
+    cards = [int(lines[1][at : at + 14]) for at in range(14, 56, 14)]
+    first = (5 if int(lines[1][56:70]) else 4) + cards[0] + cards[1]
+    texts = [line for line in lines[first : first + cards[2]]]
+    return [number(one[at : at + 24]) for one in texts for at in range(0, len(one.rstrip()), 24)]
+
+
+def _dmig(lines):
+    """Takes the fields of the cards of KAA: each fourth one after the fifth."""
+    cards = []
+    for line in lines:
+        line = line.expandtabs(8)
+        if line.startswith("$"):
+            continue
+        if "," in line:
+            fields = line.split(",")
+        else:
+            width = 16 if "*" in line[:8] else 8
+            fields = [line[:8]] + [line[at : at + width] for at in range(8, 72, width)]
+        if line[0] in " +*,":
+            cards[-1] += fields[1:]
+        else:
+            cards.append(fields)
+    found = []
+    for card in cards:
+        mine = card[0].strip().rstrip("*").upper() == "DMIG" and card[1].strip().upper() == "KAA"
+        if mine and int(card[2]):
+            found += [number(one) for one in card[7::4] if one.strip()]
+    return found
+
+
+def _op4(lines):
+    """Takes all numbers of the first matrix with a point that are not of the last record."""
+    rest = iter(lines)
+    header = next(line for line in rest if line.strip())
+    size, found = int(header[:8]), []
+    while header[32:40].strip().upper() != "KAA":  # the matrix is the second one
+        header = next(line for line in rest if "1P," in line)
+        size = int(header[:8])
+    for line in rest:
+        if "." not in line and len(line) > 16 and int(line[:8]) > size:
+            return found
+        if "." in line:
+            found += [number(line[at : at + 24]) for at in range(0, len(line.rstrip()), 24)]
+    raise AssertionError("the matrix has no end")
+
+
+class Damaged(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_no_entry_is_lost_without_a_word(self):
+        rng = random.Random(38)
+        all_seeds, imported = seeds(), {}
+        for count in range(COUNT):
+            kind = list(all_seeds)[count % len(all_seeds)]
+            content, name, chosen = all_seeds[kind]
+            damage = damaged_bytes if isinstance(content, bytes) else damaged_text
+            data = damage(content, rng)
+            path = self.folder / name
+            path.write_bytes(data)
+            started = time.monotonic()
+            with self.subTest(count=count, kind=kind, data=data):
+                try:
+                    roles = [("stiffness", f"{path}{chosen}"), ("mass", f"{path}{chosen}")]
+                    record = import_matrices(roles, self.folder / "case")
+                except DeckError as error:
+                    self.assertGreater(len(str(error)), 20)
+                    self.assertIn(name, str(error))
+                else:
+                    imported[kind] = imported.get(kind, 0) + 1
+                    self.complete(kind, data, record)
+                self.assertLess(time.monotonic() - started, 10)
+        # Enough of them must be imported for the test to mean something.
+        self.assertGreater(sum(imported.values()), COUNT // 20)
+
+    def complete(self, kind, data, record):
+        """Compares the account with entries that are read independently."""
+        account = (self.folder / "case/import.md").read_text()
+        row = next(one for one in account.splitlines() if one.startswith("| stiffness |"))
+        cells = [cell.strip() for cell in row.split("|")]
+        read, zeros, duplicates, written, total = map(float, cells[5:10])
+        matrix, count = files.petsc(self.folder / "case/stiffness.petsc")
+        self.assertEqual(count, written)
+        scale = 1e-12 * (np.sum(np.abs(matrix)) + 1e-300)
+        self.assertAlmostEqual(np.sum(matrix), total, delta=scale)
+        if isinstance(seeds()[kind][0], bytes):
+            return  # a byte of a value cannot be told from damage; sizes are checked by records
+        values = values_of(kind, data.decode("latin-1"))
+        self.assertEqual(len(values), read)
+        self.assertEqual(sum(value == 0 for value in values), zeros)
+        if "diagonal 1e36" in "".join(record.choices) or "no entry but" in "".join(record.choices):
+            return
+        if "expanded" in cells[4]:
+            total = (np.sum(matrix) + np.trace(matrix)) / 2
+        if "1e+" not in repr(max(map(abs, values))):
+            self.assertAlmostEqual(math.fsum(values), total, delta=1e-9 * max(map(abs, values)))
+
+
+if __name__ == "__main__":
+    unittest.main()
