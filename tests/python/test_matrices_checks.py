@@ -86,7 +86,7 @@ class Together(Imported):
         np.testing.assert_array_equal(found["damping"], UNIT)
         self.assertIn("give the nodes by --rows", self.refused(*paths, ("damping", named)))
         for text, words in (
-            ("1,7,2\n2,5,1\n", "3 rows, but names for 2"),
+            ("1,7,2\n2,5,1\n", "table.csv has names for 2"),
             ("1,7,2\n2,7,2\n3,6,3\n", "node 7 component 2 occurs twice"),
             ("1,7,2\n3,5,1\n", "table.csv:2: equation 3 follows 1"),
             ("1,7,2\n2,5\n", "table.csv:2"),

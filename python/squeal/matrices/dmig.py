@@ -107,12 +107,12 @@ class _Cards:
         """Reads a line that is not starred, and returns what a continuation continues."""
         if words[0] in " +*," and state is not None:
             if state[0] == "column":
-                self._odd_entries(state[1], _fields(words)[1:], line)
+                self._odd_entries(state[1], _fields(words, line + 1)[1:], line)
                 self._continued(state, line + 1, end)
             elif state[0] == "header":
                 raise Fault("a header of more than two lines", line=line + 1)
             return state
-        fields = _fields(words)
+        fields = _fields(words, line + 1)
         name = fields[0].strip().upper().rstrip("*")
         if name != "DMIG":
             if words[0] in "+*,":
@@ -133,7 +133,9 @@ class _Cards:
         if large:
             if end - line > 2:
                 raise Fault("a header of more than two lines", line=line + 3)
-            fields = fields[:5] + (_fields(self.text.text(line + 1))[1:] if end - line == 2 else [])
+            fields = fields[:5] + (
+                _fields(self.text.text(line + 1), line + 2)[1:] if end - line == 2 else []
+            )
         elif end - line > 1:
             raise Fault("a continuation without its card", line=line + 2)
         self.headers[title] = _Header(fields[2:], line + 1)
@@ -206,6 +208,9 @@ class _Cards:
         components = integers_of(self.text.fields(lines, 24, 16), line_of, blank=0)
         _require_point(nodes, components, line_of)
         values = reals_of(self.text.fields(lines, 40, 16), line_of)
+        if np.any(self.text.ends[lines] - self.text.starts[lines] > 80):
+            for line in lines[self.text.ends[lines] - self.text.starts[lines] > 80]:
+                _fields(self.text.text(line), int(line) + 1)
         imaginary = np.char.strip(self.text.fields(lines, 56, 16)) != b""
         if np.any(imaginary):
             raise Fault("an imaginary part in a real matrix", line=line_of(np.argmax(imaginary)))
@@ -235,11 +240,18 @@ def _require_point(nodes, components, line_of):
         raise Fault(f"{nodes[at]}, {components[at]} is not a node and component", line=line_of(at))
 
 
-def _fields(line):
-    """Returns the fields of a line; the first is that of the name, the last one not a marker."""
-    if "," in line:
-        fields = line.split(",")
-        return fields[: 5 if fields[0].strip().endswith("*") else 9]
-    width = 16 if "*" in line[:8] else 8
+def _fields(words, line):
+    """Returns the fields of a line, numbered from 1; the first is that of the name, the last one
+    not a marker. Raises Fault for data after the last field."""
+    if "," in words:
+        fields = words.split(",")
+        most = 5 if fields[0].strip().endswith("*") else 9
+        marker, *rest = [one.strip() for one in fields[most:]] or [""]
+        if any(rest) or re.match(r"[-.\d]|\+[.\d]", marker):
+            raise Fault(f"more than {most} fields and a marker", line=line)
+        return fields[:most]
+    if words[80:].strip():
+        raise Fault(f"'{words[80:].strip()[:40]}' after column 80", line=line)
+    width = 16 if "*" in words[:8] else 8
     count = 64 // width
-    return [line[:8]] + [line[8 + width * at : 8 + width * (at + 1)] for at in range(count)]
+    return [words[:8]] + [words[8 + width * at : 8 + width * (at + 1)] for at in range(count)]

@@ -2,11 +2,13 @@
 """Imports matrices of other programs into the folder of a case."""
 from pathlib import Path
 
+import numpy as np
+
 from squeal.deck.journal import DeckError, Fault
 from squeal.deck.output.folder import prepare
 from squeal.matrices import output, sources
 from squeal.matrices.coordinate import TRIANGLE, WHOLE
-from squeal.matrices.system import MASS, ROLES, STIFFNESS, Part, Record, build
+from squeal.matrices.system import MASS, ROLES, STIFFNESS, Names, Part, Record, build
 
 
 def import_matrices(files, folder, rows=None, forms=None):
@@ -19,10 +21,10 @@ def import_matrices(files, folder, rows=None, forms=None):
     system = None
     try:
         _read(parts, record)
-        keys = _keys(rows, parts, record)
+        names = _names(rows, parts, record)
         record.require(str(parts[0].source))
         record.choose("the units are those of the files, which do not state them")
-        system = build(parts, keys, forms or {}, record)
+        system = build(parts, names, forms or {}, record)
         output.require_size(system, record)
         record.require(str(parts[0].source))
         _choose(system, record)
@@ -67,13 +69,13 @@ def _read(parts, record):
                 record.choose(f"{part.source}: {remark}")
 
 
-def _keys(rows, parts, record):
+def _names(rows, parts, record):
     """Returns the names of the rows of matrices without them, or None."""
     numbered = [part for part in parts if part.matrix and part.matrix.size is not None]
     found = [Path(rows)] if rows else []
     if not found:
         found = sources.rows_next_to([part.source.path for part in numbered])
-    keys = None
+    names = None
     for path in found:
         try:
             one = sources.read_rows(path)
@@ -81,15 +83,15 @@ def _keys(rows, parts, record):
             place = f"{path}:{fault.line}" if fault.line else str(path)
             record.refuse(f"{place}: {fault.reason}")
             continue
-        if keys is not None and not (len(one) == len(keys) and all(one == keys)):
-            record.refuse(f"{path}: other rows than in {found[0]}")
-        keys = one
+        if names and not np.array_equal(one, names.keys):
+            record.refuse(f"{path}: other rows than in {names.file}")
+        names = Names(one, str(path))
         record.choose(f"{path}: names of the rows")
     if rows and not numbered and not record.faults:
         record.refuse(f"{rows}: all matrices have names of their rows")
     if numbered and not found:
         record.choose("no file of the rows: nodes and components are not known, --rows gives them")
-    return keys
+    return names
 
 
 def _choose(system, record):

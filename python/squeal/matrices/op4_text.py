@@ -110,7 +110,7 @@ class _Reader:
         if line >= len(self.text):
             raise Fault("the file ends within a matrix: cut short", line=len(self.text))
         reals_of(self.text.fields(np.array([line]), 0, self.width), lambda at: line + 1)
-        self.text.require_blank_after(np.array([line]), self.width)
+        self.text.require_lengths(np.array([line]), self.width)
 
     def matrix(self, others):
         string, within = self.strings.within()
@@ -119,7 +119,7 @@ class _Reader:
             raise Fault("the file ends within a matrix: cut short", line=len(self.text))
         places = within % self.per_line
         last = np.flatnonzero(np.append(lines[1:] != lines[:-1], True)[: len(lines)])
-        self.text.require_blank_after(lines[last], (places[last] + 1) * self.width)
+        self.text.require_lengths(lines[last], (places[last] + 1) * self.width)
         fields = self.text.fields(lines, places * self.width, self.width)
         values = reals_of(fields, lambda at: int(lines[at]) + 1, self.scaled)
         return self.strings.matrix(string, within, values, others)

@@ -66,13 +66,20 @@ class System:
         return [part for part in self.parts if part.role == STIFFNESS]
 
 
-def build(parts, keys, forms, record):
-    """Assembles the matrices of a case. `keys`: names of the rows of matrices without names, or
-    None; `forms`: whether a role has all entries (WHOLE) or one triangle, where a file does not
+@dataclass
+class Names:
+    """Keys of the rows of matrices that have only numbers, and the file that they are from."""
+
+    keys: np.ndarray
+    file: str
+
+
+def build(parts, names, forms, record):
+    """Assembles the matrices of a case. `names`: Names or None; `forms`: whether a role has all entries (WHOLE) or one triangle, where a file does not
     declare it. Raises DeckError with all faults."""
     system = System(parts)
     title = str(parts[0].source)
-    _number(system, keys, record)
+    _number(system, names, record)
     record.require(title)
     for part in parts:
         form = forms.get(part.role)
@@ -101,7 +108,7 @@ def _whole(role):
     return f"--whole {role}"
 
 
-def _number(system, keys, record):
+def _number(system, names, record):
     """Replaces the rows and columns of all matrices by numbers from 0."""
     numbered = [part for part in system.parts if part.matrix.size is not None]
     for part in numbered[1:]:
@@ -111,17 +118,18 @@ def _number(system, keys, record):
                 f" {numbered[0].matrix.size}"
             )
     named = [part for part in system.parts if part.matrix.size is None]
-    if keys is None and numbered:
+    if names is None and numbered:
         for part in named:
             record.refuse(
                 f"{part.source}: rows are nodes and components, but those of"
                 f" {numbered[0].source} numbers: give the nodes by --rows"
             )
     elif numbered and not record.faults:
-        _check_names(numbered[0], keys, record)
+        _check_names(numbered[0], names, record)
     if record.faults:
         return
     if numbered:
+        keys = names and names.keys
         system.rows = Rows(numbered[0].matrix.size, keys)
     else:
         found = [np.unique(np.concatenate(_keys(part))) for part in system.base]
@@ -131,17 +139,19 @@ def _number(system, keys, record):
         _match(part, keys, record)
 
 
-def _check_names(part, keys, record):
+def _check_names(part, names, record):
     """Requires a name for each row of a matrix with numbers of rows, each once."""
-    size = part.matrix.size
+    size, keys = part.matrix.size, names.keys
     if len(keys) != size:
         hint = ""
         if 2 * len(keys) == size:
             hint = "; twice as many rows are the real and imaginary parts of cyclic symmetry"
-        record.refuse(f"{part.source}: {size} rows, but names for {len(keys)}{hint}")
+        record.refuse(
+            f"{part.source}: {size} rows, but {names.file} has names for {len(keys)}{hint}"
+        )
     elif len(np.unique(keys)) < len(keys):
         unique, counts = np.unique(keys, return_counts=True)
-        record.refuse(f"the names of rows: {words_of_key(unique[counts > 1][0])} occurs twice")
+        record.refuse(f"{names.file}: {words_of_key(unique[counts > 1][0])} occurs twice")
 
 
 def _match(part, keys, record):

@@ -11,6 +11,7 @@ from squeal.deck.journal import Fault
 CHUNK = 8 << 20
 ALLOWED = b"0123456789+-.eEdD \t\r\n,"
 PLAIN = bytes.maketrans(b",dD", b" EE")
+EXPONENTS = bytes.maketrans(b"dDe", b"EEE")
 SPACES = b" \t\r\n,"
 IS_SPACE = bytes(one in SPACES for one in range(256))
 NUMBER = re.compile(rb"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+|[+-]\d+)?")
@@ -75,7 +76,7 @@ def _chunks(path):
                     raise Fault("the line is not one of a text file", line=lines + 1)
     except OSError as error:
         raise Fault(error.strerror) from None
-    if rest.strip(b"\0 \t\r\x1a"):
+    if rest.strip():
         raise Fault("the file ends within a line: cut short", line=lines + 1)
 
 
@@ -205,12 +206,17 @@ class Lines:
             found[at : at + 200000] = np.ascontiguousarray(taken).view(f"S{width}").ravel()
         return found
 
-    def require_blank_after(self, lines, lengths):
-        """Raises Fault unless lines are blank after their numbers."""
-        longer = np.flatnonzero(self.ends[lines] - self.starts[lines] > lengths)
-        for at in longer:
+    def require_lengths(self, lines, lengths):
+        """Raises Fault unless lines are as long as their numbers, which Fortran writes flush right,
+        and blank after them."""
+        lengths = np.broadcast_to(lengths, len(lines))
+        have = self.ends[lines] - self.starts[lines]
+        if np.any(have < lengths):
+            line = int(lines[np.argmax(have < lengths)])
+            raise Fault("the line is shorter than its numbers: cut short", line=line + 1)
+        for at in np.flatnonzero(have > lengths):
             line = int(lines[at])
-            rest = self.text(line)[int(np.broadcast_to(lengths, len(lines))[at]) :]
+            rest = self.text(line)[int(lengths[at]) :]
             if rest.strip():
                 raise Fault(f"'{rest.strip()[:40]}' follows the numbers", line=line + 1)
 
@@ -224,7 +230,7 @@ class Lines:
         numbers = np.full(needed, per_line)
         if needed:
             numbers[-1] = count - per_line * (needed - 1)
-        self.require_blank_after(lines, numbers * width)
+        self.require_lengths(lines, numbers * width)
         found = np.empty((needed, per_line), f"S{width}")
         for at in range(per_line):
             found[:, at] = self.fields(lines, at * width, width)
@@ -236,7 +242,7 @@ def reals_of(fields, line_of, scaled=False):
     numbers without a point would have another meaning in Fortran, and with a scale factor (1P)
     those without an exponent. Raises Fault."""
     width = fields.dtype.itemsize
-    fields = np.frombuffer(fields.tobytes().translate(PLAIN), fields.dtype)
+    fields = np.frombuffer(fields.tobytes().translate(EXPONENTS), fields.dtype)
     if len(fields) == 0:
         return np.zeros(0)
     codes = fields.view(np.uint8).reshape(-1, width)
