@@ -158,8 +158,11 @@ class Entries(Imported):
         path = self.write("k.mtx", files.abaqus(SMALL, "lower"))
         found = self.case(path, mass, forms={"stiffness": WHOLE})
         np.testing.assert_array_equal(found["stiffness"], np.tril(SMALL))
-        found = self.case(path, mass, ("friction", path), forms={"friction": TRIANGLE})
+        self.assertIn("half of a symmetric matrix", self.refused(path, mass, ("friction", path)))
+        two = (("friction", path), ("friction", path))
+        found = self.case(path, mass, *two, forms={"friction": TRIANGLE, "friction_2": WHOLE})
         np.testing.assert_array_equal(found["friction"], SMALL)
+        np.testing.assert_array_equal(found["friction_2"], np.tril(SMALL))
         head = "*MATRIX INPUT, TYPE=SYMMETRIC"
         for text, words in (
             (files.abaqus(SMALL + np.triu(SMALL, 1), "all", header=head), "two triangles differ"),

@@ -61,7 +61,7 @@ class Text(Checked):
         stiffness = self.write("k.mtx", files.abaqus(random_matrix(2)))
         mass = self.write("m.mtx", files.abaqus(np.eye(SIZE)))
         friction = random_matrix(3, symmetric=False)
-        for part in (friction, np.triu(friction), np.tril(friction)):
+        for part in (friction, np.triu(friction, 1), np.tril(friction, -1)):
             path = self.write("f.mtx", files.abaqus(part, "all"))
             found = self.case(stiffness, mass, ("friction", path))
             np.testing.assert_array_equal(found["friction"], part)
@@ -129,6 +129,7 @@ class Nastran(Checked):
         for layout in ("dense", "sparse", "bigmat"):
             with self.subTest(layout=layout):
                 self.check(layout, lambda one: files.op4_text({"KGG": one}, layout))
+        self.check("two words", lambda one: files.op4_text({"KGG": one}, words=2))
 
     def test_op4_binary(self):
         for layout in ("dense", "sparse", "bigmat"):

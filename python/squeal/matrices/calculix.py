@@ -3,9 +3,11 @@
 
 .sti and .mas contain the upper triangle by columns, one line an entry: row, column, value with 14
 digits. The diagonal is complete, so that the last entry is that of the last row and column. .dof
-contains for each row node.direction. Source: CalculiX 2.20, matrixstorage.c, and its files.
+contains for each row node.direction. The second triangle of an unsymmetric stiffness is not stored.
+Source: CalculiX 2.20, matrixstorage.c and arpack.c, and its files.
 """
 import re
+from pathlib import Path
 
 import numpy as np
 
@@ -47,7 +49,10 @@ def read(path):
             " or damaged",
             line=last,
         )
-    return Matrix(NAME, rows, columns, values, size, TRIANGLE)
+    found = Matrix(NAME, rows, columns, values, size, TRIANGLE)
+    if Path(path).suffix.lower() == ".sti":
+        found.remarks.append("CalculiX stores one triangle: friction of contacts is not in it")
+    return found
 
 
 def read_dof(path):

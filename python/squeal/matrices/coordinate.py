@@ -133,6 +133,11 @@ def _expanded(keys, values, size, form, whole_if_unknown):
             + (" (--whole: the file contains all entries)" if form == UNKNOWN else "")
         )
     if form == UNKNOWN and whole_if_unknown:
+        if not np.all(off):
+            raise Fault(
+                "entries on the diagonal and in one triangle: all entries of a friction, or half of"
+                " a symmetric matrix? (--whole or --triangle)"
+            )
         return keys, values, "all entries, although only one of (i, j) and (j, i) is given"
     sign = -1 if form == SKEW else 1
     keys, values = _sorted(

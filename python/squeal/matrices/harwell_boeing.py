@@ -19,6 +19,7 @@ from squeal.matrices.text import Lines, integers_of, read_bytes, reals_of
 
 NAME = "Harwell-Boeing"
 TYPE = re.compile(r"[RCPI][SUHZR][AE]")
+SEPARATED = r"(?:[ \t]+|[ \t]*,[ \t]*)"
 FORMAT = re.compile(r"\(((?:(\d+)P,?)?(\d*)([IEDFG])(\d+)(?:\.\d+)?(?:E\d+)?)\)")
 REFUSED = {
     "C": "complex entries",
@@ -148,7 +149,8 @@ def _block(text, line, count, form, cards):
 def read_mapping(path):
     """Returns the keys of the rows by the mapping file of HBMAT. Raises Fault."""
     text = Lines(read_bytes(path))
-    pattern = re.compile(r"\s*(\d{1,15})[\s,]+(\d{1,15})[\s,]+(\w+)\s*")
+    integer, word = r"(\d{1,15})", r"(\w+)"
+    pattern = re.compile(rf"\s*{SEPARATED.join((integer, integer, word))}[ \t]*")
     keys = []
     for line in range(len(text)):
         words = text.text(line)

@@ -14,7 +14,7 @@ from squeal.matrices.system import MASS, ROLES, STIFFNESS, Names, Part, Record, 
 def import_matrices(files, folder, rows=None, forms=None):
     """Writes the case of matrices into a folder, and returns its record. If the matrices are
     refused, writes only import.md and raises DeckError. `files`: pairs of a role of ROLES and a
-    file; `rows`: file with the names of the rows; `forms`: WHOLE or TRIANGLE by role."""
+    file; `rows`: file with the names of the rows; `forms`: WHOLE or TRIANGLE by role or name."""
     folder, record = Path(folder), Record()
     parts = _parts(files)
     title = ", ".join(str(part.source) for part in parts)
@@ -117,7 +117,7 @@ def add_options(parser):
     text = "names of the rows: .dof of CalculiX, mapping file of Ansys, or row,node,component"
     group.add_argument("--rows", metavar="FILE", help=text)
     for form, words in (("whole", "all entries"), ("triangle", "one triangle")):
-        text = f"role, such as {STIFFNESS}, of files that contain {words}"
+        text = f"role or name of a matrix, such as {STIFFNESS}, whose file contains {words}"
         group.add_argument(f"--{form}", metavar="ROLE", action="append", default=[], help=text)
 
 
@@ -136,10 +136,11 @@ def run(given, files, parser):
         parser.error("--ignore is for decks")
     forms = {role: WHOLE for role in given.whole}
     forms |= {role: TRIANGLE for role in given.triangle}
-    roles = {role for role, _ in files}
-    for role in [*given.whole, *given.triangle]:
-        if role not in roles or (role in given.whole and role in given.triangle):
-            parser.error(f"--whole and --triangle take the role of a matrix, not '{role}'")
+    parts = _parts(files)
+    known = {part.role for part in parts} | {part.name for part in parts}
+    for name in [*given.whole, *given.triangle]:
+        if name not in known or (name in given.whole and name in given.triangle):
+            parser.error(f"--whole and --triangle take the role of a matrix, not '{name}'")
     stem = next((sources.Source(word).path.stem for role, word in files if role == STIFFNESS), "")
     folder = Path(given.output or stem or "matrices")
     record = import_matrices(files, folder, given.rows, forms)

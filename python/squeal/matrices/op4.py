@@ -5,8 +5,8 @@ A header gives columns, rows, form, type and name. A column follows as a record 
 first row and its number of words: dense from the first to the last entry, or as strings of entries,
 each with its own first row. The record of a column beyond the last ends the matrix. There are two
 ways to pack length and first row of a string; a negative number of rows, or one above 65535,
-stands for the wider one ("bigmat"). Sources: MSC Nastran DMAP Programmer's Guide, OUTPUT4; the
-public descriptions of the readers of pyYeti and pyNastran.
+stands for the wider one ("bigmat"). Sources: NX Nastran DMAP Programmer's Guide, OUTPUT4; for
+words of 8 bytes and the layout of strings in text, the documentation of pyYeti's reader.
 """
 from dataclasses import dataclass
 

@@ -44,8 +44,8 @@ class _Reader:
         self.word = HEADERS[end - begin]
         self.kind = "i" if self.word == 4 else "q"
         numbers = struct.unpack_from(f"{order}4{self.kind}", data, begin)
-        name = data[begin + 4 * self.word : end].replace(b"\0", b" ").decode("latin-1")
-        self.header = Header(*numbers, "".join(name.split()).upper())
+        name = data[begin + 4 * self.word : end].translate(None, b" \0").decode("latin-1")
+        self.header = Header(*numbers, name.upper())
         self.header.require_plausible()
         self.next = end + 4
         self.strings = Strings(self.header)

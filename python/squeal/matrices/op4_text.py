@@ -65,13 +65,25 @@ class _Reader:
             if words < 1:
                 raise Fault(f"column {column} has {words} words", line=line + 1)
             if row > 0:
-                line = self._add(line + 1, words, row)
+                line = self._add(line + 1, self._count(line + 1, words), row)
             else:
                 line = self._sparse(line + 1, words)
         if column != self.header.columns + 1:
             raise Fault(f"column {column} of {self.header.columns}", line=line + 1)
         self._value(line + 1)
         return line + 2
+
+    def _count(self, line, words):
+        """Returns the number of values of a dense column. NW counts words by the guide, two for a
+        number of double precision, but other writers count numbers; the last line decides."""
+        if self.header.type in (2, 4) and words % 2 == 0:
+            count = words // 2
+            last = line + -(-count // self.per_line) - 1
+            filled = (count - 1) % self.per_line + 1
+            if last + 1 < len(self.text) and "." not in self.text.text(last + 1):
+                if len(self.text.text(last).rstrip()) == filled * self.width:
+                    return count
+        return words
 
     def _sparse(self, line, words):
         per_value = 2 if self.header.type % 2 == 0 else 1

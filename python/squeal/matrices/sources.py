@@ -108,7 +108,7 @@ def job_of(word):
     and path, or None."""
     path = Path(word)
     if path.suffix.lower() not in (*calculix.SUFFIXES, ".dof"):
-        if path.exists() or not Path(f"{word}.sti").is_file():
+        if path.is_file() or not Path(f"{word}.sti").is_file():
             return None
         path = Path(f"{word}.sti")
     return [(role, path.with_suffix(suffix)) for suffix, role in calculix.SUFFIXES.items()]

@@ -75,14 +75,15 @@ class Names:
 
 
 def build(parts, names, forms, record):
-    """Assembles the matrices of a case. `names`: Names or None; `forms`: whether a role has all entries (WHOLE) or one triangle, where a file does not
-    declare it. Raises DeckError with all faults."""
+    """Assembles the matrices of a case. `names`: Names or None; `forms`: by role or by name in the
+    case, whether files contain all entries (WHOLE) or a TRIANGLE, where they do not declare it.
+    Raises DeckError with all faults."""
     system = System(parts)
     title = str(parts[0].source)
     _number(system, names, record)
     record.require(title)
     for part in parts:
-        form = forms.get(part.role)
+        form = forms.get(part.name, forms.get(part.role))
         if form and part.matrix.form == (TRIANGLE if form == WHOLE else WHOLE):
             record.refuse(f"{part.source}: declared {part.matrix.form}, not {form}")
             continue
@@ -92,7 +93,10 @@ def build(parts, names, forms, record):
             whole = part.role.startswith("friction")
             part.sparse = assemble(part.matrix, system.rows.size, whole)
         except Fault as fault:
-            record.refuse(f"{part.source}: {fault.reason.replace('--whole', _whole(part.role))}")
+            reason = fault.reason
+            for word in ("--whole", "--triangle"):
+                reason = reason.replace(word, f"{word} {part.name}")
+            record.refuse(f"{part.source}: {reason}")
         part.matrix.rows = part.matrix.columns = part.matrix.values = None
     record.require(title)
     _remove_held(system, record)
@@ -102,10 +106,6 @@ def build(parts, names, forms, record):
         record.refuse("no row is left")
     record.require(title)
     return system
-
-
-def _whole(role):
-    return f"--whole {role}"
 
 
 def _number(system, names, record):

@@ -176,6 +176,9 @@ class Lines:
         if not data.endswith(b"\n"):
             count = data.count(b"\n") + 1
             raise Fault("the file ends within a line: cut short", line=count)
+        if b"\0" in data:
+            count = data.count(b"\n", 0, data.index(b"\0")) + 1
+            raise Fault("the line is not one of a text file", line=count)
         self.data = data
         self.codes = np.frombuffer(data, np.uint8)
         self.ends = np.flatnonzero(self.codes == 10)

@@ -114,8 +114,8 @@ def _runs(column, dense):
     return [(int(part[0]), column[part]) for part in np.split(filled, cuts)]
 
 
-def op4_text(matrices, layout="dense", form=6):
-    """`matrices`: by name; layout: dense, sparse or bigmat."""
+def op4_text(matrices, layout="dense", form=6, words=1):
+    """`matrices`: by name; layout: dense, sparse or bigmat; `words` of a value in dense columns."""
     lines = []
     for name, matrix in matrices.items():
         size = len(matrix)
@@ -124,10 +124,11 @@ def op4_text(matrices, layout="dense", form=6):
         for j in range(size):
             runs = _runs(matrix[:, j], layout == "dense")
             extra = {"dense": 0, "sparse": 1, "bigmat": 2}[layout]
-            words = sum((1 if layout == "dense" else 2) * len(run) + extra for _, run in runs)
+            each = words if layout == "dense" else 2
+            total = sum(each * len(run) + extra for _, run in runs)
             if not runs:
                 continue
-            lines.append(f"{j + 1:8d}{runs[0][0] + 1 if layout == 'dense' else 0:8d}{words:8d}")
+            lines.append(f"{j + 1:8d}{runs[0][0] + 1 if layout == 'dense' else 0:8d}{total:8d}")
             for first, run in runs:
                 if layout == "sparse":
                     lines.append(f"{first + 1 + 65536 * (2 * len(run) + 1):12d}")
