@@ -143,7 +143,8 @@ class _Cards:
 
     def _column(self, title, fields, line, end, large):
         node, component = _integer(fields, 2, line + 1), _integer(fields, 3, line + 1, 0)
-        _require_point(np.array([node]), np.array([component]), lambda at: line + 1)
+        if not (0 < node < LARGEST_NODE and 0 <= component <= 6):
+            raise Fault(f"{node}, {component} is not a node and component", line=line + 1)
         self.columns.append((title, int(keys_of(node, component)), line + 1))
         if len(fields) > 4 and fields[4].strip():
             raise Fault(f"'{fields[4].strip()}' in field 5, which is empty", line=line + 1)

@@ -9,6 +9,9 @@ from squeal.matrices.op4 import Header, Strings, chosen
 from squeal.matrices.text import Lines, read_bytes, reals_of
 
 FORMAT = re.compile(r"(?:(\d+)P,?)?(\d+)[ED](\d+)\.\d+(?:E\d+)?")
+# Lines of integers by their number: columns of 8, or a single one of up to 12.
+INTEGERS = {1: re.compile(rb"([ \d-]{1,12}) *\r?\n")}
+INTEGERS |= {count: re.compile(rb"([ \d-]{8})" * count + rb" *\r?\n") for count in (2, 3)}
 
 
 def is_header(line):
@@ -109,13 +112,12 @@ class _Reader:
     def _integers(self, line, count):
         if line >= len(self.text):
             raise Fault("the file ends within a matrix: cut short", line=len(self.text))
-        words = self.text.text(line)
-        width = 12 if count == 1 else 8
-        found = [words[at : at + width] for at in range(0, width * count, width)]
-        rest = words[width * count :]
-        if rest.strip() or not all(re.fullmatch(r" *-?\d+ *", one) for one in found):
-            raise Fault(f"'{words.strip()[:40]}' is not {count} integer numbers", line=line + 1)
-        return [int(one) for one in found]
+        match = INTEGERS[count].match(self.text.data, self.text.starts[line])
+        try:
+            return [int(one) for one in match.groups()]
+        except (AttributeError, ValueError):  # no match, or blanks within a number
+            shown = self.text.text(line).strip()[:40]
+            raise Fault(f"'{shown}' is not {count} integer numbers", line=line + 1) from None
 
     def _value(self, line):
         """Requires the value that follows the last record."""

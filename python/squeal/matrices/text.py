@@ -197,16 +197,27 @@ class Lines:
     def fields(self, lines, offsets, width):
         """Returns the bytes of a field of each of some lines, filled up with blanks. `offsets`: one
         for all lines, or one for each."""
-        found = np.empty(len(lines), f"S{width}")
-        offsets = np.broadcast_to(offsets, len(lines))
-        for at in range(0, len(lines), 200000):
-            part = lines[at : at + 200000]
-            begins = self.starts[part] + offsets[at : at + 200000]
-            places = begins[:, None] + np.arange(width)
-            inside = places < self.ends[part][:, None]
+        begins = self.starts[lines] + offsets
+        room = self.ends[lines] - begins
+        if len(self.codes) < width or len(lines) == 0:
+            return self._short_fields(begins, room, width)
+        # The last bytes of the file cannot begin a field of this width.
+        windows = np.lib.stride_tricks.sliding_window_view(self.codes, width)
+        found = np.ascontiguousarray(windows[np.minimum(begins, len(windows) - 1)])
+        found = found.view(f"S{width}").ravel()
+        short = np.flatnonzero((room < width) | (begins >= len(windows)))
+        found[short] = self._short_fields(begins[short], room[short], width)
+        return found
+
+    def _short_fields(self, begins, room, width):
+        """Returns fields of which some are cut by the end of their line."""
+        found = np.empty(len(begins), f"S{width}")
+        for at in range(0, len(begins), 200000):
+            part = slice(at, at + 200000)
+            places = begins[part, None] + np.arange(width)
             taken = self.codes[np.minimum(places, len(self.codes) - 1)]
-            taken[~inside] = 32
-            found[at : at + 200000] = np.ascontiguousarray(taken).view(f"S{width}").ravel()
+            taken[np.arange(width) >= room[part, None]] = 32
+            found[part] = np.ascontiguousarray(taken).view(f"S{width}").ravel()
         return found
 
     def require_lengths(self, lines, lengths):
