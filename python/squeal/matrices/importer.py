@@ -132,8 +132,9 @@ def run(given, files, parser):
     """Imports the matrices of the command line, and prints the choices."""
     if given.deck and not sources.job_of(given.deck):
         parser.error("a deck and matrices at once")
-    if given.ignore:
-        parser.error("--ignore is for decks")
+    for name in ("ignore", "dialect", "speed"):
+        if getattr(given, name):
+            parser.error(f"--{name} is for decks")
     forms = {role: WHOLE for role in given.whole}
     forms |= {role: TRIANGLE for role in given.triangle}
     parts = _parts(files)
