@@ -134,9 +134,39 @@ class Solved(unittest.TestCase):
         text = (self.folder / "belt/case.yaml").read_text().replace("0:1:0.1", "1.5")
         (self.folder / "belt/case.yaml").write_text(text)
         found = self.solve("belt")
+        self.flutters(found)
+        # The same by the stiffness without friction and that with friction 0.5.
+        whole = belt["stiffness"] + 0.5 * belt["friction"]
+        self.write("k0.mtx", files.abaqus(belt["stiffness"]))
+        self.write("k5.mtx", files.abaqus(whole, "all"))
+        words = ("--stiffness", "k0.mtx", "--mass", "mass.mtx", "--friction", "k5.mtx")
+        self.call(*words, "--friction", "k0.mtx", "--triangle", "friction_2", "-o", "two")
+        text = (self.folder / "two/case.yaml").read_text().replace("0:1:0.1", "1.5")
+        for name, factor in (("friction", 2), ("friction_2", -2)):
+            text = text.replace(f"  {name}:\n", f"  {name}:\n    factor: {factor}\n")
+        (self.folder / "two/case.yaml").write_text(text)
+        self.flutters(self.solve("two"))
+
+    def flutters(self, found):
+        """Requires the roots at the friction 1.5, s^2 = -3 +- i sqrt(0.5)."""
         exact = np.sqrt(-3 + 1j * np.sqrt(0.5))
         self.assertAlmostEqual(found.growth_rate_1_per_s.max(), abs(exact.real), delta=1e-10)
         np.testing.assert_allclose(found.angular_frequency_rad_per_s, abs(exact.imag), rtol=1e-10)
+
+    def test_gyroscopic_of_two_unknowns(self):
+        """s^2 + s v G + k with the skew-symmetric G: sqrt(k + (v g / 2)^2) -+ v g / 2."""
+        for role, text in (
+            ("stiffness", files.abaqus(5.0 * np.eye(2))),
+            ("mass", files.abaqus(np.eye(2))),
+            ("gyroscopic", files.abaqus(np.array([[0, 4.0], [-4.0, 0]]), "all")),
+        ):
+            self.write(f"{role}.mtx", text)
+        roles = ("stiffness", "mass", "gyroscopic")
+        self.call(*(word for one in roles for word in (f"--{one}", f"{one}.mtx")), "-o", "spin")
+        for speed in (1.0, 0.5):
+            found = self.solve("spin", "-flutter_speed", str(speed))
+            exact = [3 - 2, 3 + 2] if speed == 1 else np.sqrt(6) + np.array([-1, 1])
+            np.testing.assert_allclose(found.angular_frequency_rad_per_s, exact, rtol=1e-10)
 
     @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed")
     def test_cantilever_of_calculix(self):

@@ -28,6 +28,21 @@ class Together(Imported):
         mass = self.write("m", files.matrix_market(np.eye(4)))
         self.assertIn("4 rows, but", self.refused(stiffness, mass))
 
+    def test_headers_that_are_too_large_for_their_entries(self):
+        for name, text in (
+            ("k.mm", files.matrix_market(SMALL).replace("3 3 5", "2000000000 2000000000 5")),
+            ("k.mtx", files.coordinates(SMALL) + "2000000000, 2000000000, 1.\n"),
+        ):
+            path = self.write(name, text)
+            self.assertIn("2000000000 rows, but only", self.refused(path, path))
+
+    def test_names_of_files_in_any_bytes(self):
+        path = self.folder / b"k\xff\n.mtx".decode("utf-8", "surrogateescape")
+        path.write_text(files.abaqus(SMALL))
+        self.case(path, path)
+        text = (self.folder / "case/case.yaml").read_text()
+        self.assertIn("k\\udcff .mtx\n    role: stiffness", text)
+
     def test_rows_that_the_stiffness_does_not_have(self):
         stiffness = self.write("k.mtx", files.abaqus(SMALL))
         mass = self.write("m.mtx", files.abaqus(np.eye(5)))

@@ -13,6 +13,8 @@ sys.dont_write_bytecode = True
 import matrix_files as files
 from imported import Imported
 
+from squeal.matrices import text as reader
+
 SIZE = 12
 
 
@@ -51,6 +53,17 @@ class Text(Checked):
                 title, rows = self.rows()
                 self.assertEqual(title, "row,node,component")
                 self.assertEqual([row[1:] for row in rows], files.names(SIZE))
+
+    def test_files_are_read_in_chunks(self):
+        whole = reader.CHUNK
+        self.addCleanup(setattr, reader, "CHUNK", whole)
+        for reader.CHUNK in (100, 137, 1000):
+            self.check("chunks", lambda one: files.abaqus(one, header="** a"), suffix=".mtx")
+            lines = files.abaqus(np.eye(SIZE)).splitlines()
+            for at in (0, 5, SIZE - 1):
+                bad = [*lines[:at], "** comment", "", "1,1, 1,1, 1e", *lines[at:]]
+                path = self.write("k.mtx", "\n".join(bad) + "\n")
+                self.assertIn(f"k.mtx:{at + 3}: '1e'", self.refused(path, path))
 
     def test_abaqus_with_a_header_and_comments(self):
         head = "** a comment\n*MATRIX INPUT, NAME=K, TYPE=SYMMETRIC\n** another"

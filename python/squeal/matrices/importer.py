@@ -60,7 +60,8 @@ def _read(parts, record):
         try:
             part.matrix = part.source.read()
         except Fault as fault:
-            place = f"{part.source.path}:{fault.line}" if fault.line else str(part.source)
+            name = sources.shown(part.source.path)
+            place = f"{name}:{fault.line}" if fault.line else str(part.source)
             record.refuse(f"{place}: {fault.reason}")
         except MemoryError:
             record.refuse(f"{part.source}: not enough memory")
@@ -80,13 +81,13 @@ def _names(rows, parts, record):
         try:
             one = sources.read_rows(path)
         except Fault as fault:
-            place = f"{path}:{fault.line}" if fault.line else str(path)
+            place = sources.shown(path) + (f":{fault.line}" if fault.line else "")
             record.refuse(f"{place}: {fault.reason}")
             continue
         if names and not np.array_equal(one, names.keys):
-            record.refuse(f"{path}: other rows than in {names.file}")
-        names = Names(one, str(path))
-        record.choose(f"{path}: names of the rows")
+            record.refuse(f"{sources.shown(path)}: other rows than in {names.file}")
+        names = Names(one, sources.shown(path))
+        record.choose(f"{names.file}: names of the rows")
     if rows and not numbered and not record.faults:
         record.refuse(f"{rows}: all matrices have names of their rows")
     if numbered and not found:

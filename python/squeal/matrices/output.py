@@ -74,7 +74,7 @@ def write_options(path, system, title):
     lines += ["# rows.csv: node and component of each row.", "", "matrices:"]
     for part in system.parts:
         power, exponents = ROLES[part.role]
-        lines += [f"  {part.name}:", f"    file: {file_of(part)}  # {_plain(part.source)}"]
+        lines += [f"  {part.name}:", f"    file: {file_of(part)}  # {part.source}"]
         lines.append(f"    role: {power}")
         lines += [f"    {key}: {value}" for key, value in exponents.items()]
     lines += ["", "flutter:", f'  friction: "{friction_of(system)}"']
@@ -88,10 +88,6 @@ def friction_of(system):
     """Returns the sweep of friction: a point if no matrix depends on it."""
     swept = any("friction_exponent" in ROLES[part.role][1] for part in system.parts)
     return "0:1:0.1" if swept else "0.0"
-
-
-def _plain(source):
-    return " ".join(str(source).split())
 
 
 def write_account(path, system, record, title):
@@ -130,7 +126,7 @@ def _matrices(system):
 
 
 def _cell(source):
-    return _plain(source).replace("|", "\\|")
+    return str(source).replace("|", "\\|")
 
 
 def write_case(folder, system, record, title):

@@ -17,6 +17,11 @@ OWN = (
 NASTRAN = (".pch", ".bdf", ".dat", ".nas", ".asm", ".blk")
 
 
+def shown(path):
+    """Returns a path as text that can be printed, whatever bytes its name has."""
+    return " ".join(str(path).encode("utf-8", "backslashreplace").decode().split())
+
+
 class Source:
     """A file of the command line, PATH or PATH:NAME for one of several matrices."""
 
@@ -28,7 +33,7 @@ class Source:
             self.path, self.name = Path(head), name
 
     def __str__(self):
-        return f"{self.path}:{self.name}" if self.name else str(self.path)
+        return f"{shown(self.path)}:{self.name}" if self.name else shown(self.path)
 
     def read(self):
         """Returns the matrix. Raises Fault."""

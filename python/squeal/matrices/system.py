@@ -11,6 +11,7 @@ from squeal.matrices.coordinate import TRIANGLE, WHOLE, assemble
 from squeal.matrices.labels import Rows, words_of_key
 
 STIFFNESS, MASS = "stiffness", "mass"
+MANY = 10**7  # rows
 # Role for the user → power of s, and exponents of options, for the program.
 ROLES = {
     STIFFNESS: ("stiffness", {}),
@@ -117,6 +118,10 @@ def _number(system, names, record):
                 f"{part.source}: {part.matrix.size} rows, but {numbered[0].source} has"
                 f" {numbered[0].matrix.size}"
             )
+    for part in numbered:
+        size, count = part.matrix.size, len(part.matrix.values)
+        if size > MANY and count < size // 10:  # before memory is taken for the rows
+            record.refuse(f"{part.source}: {size} rows, but only {count} entries")
     named = [part for part in system.parts if part.matrix.size is None]
     if names is None and numbered:
         for part in named:
