@@ -34,6 +34,18 @@ WORDS = (
     *("1.D3", "2.-1", "inf", "%", "\t", "\0", "é", "DMIG", "DMIG*", "+", "*MATRIX INPUT", "-5"),
 )
 
+# Beginnings of files of each format, and what may follow in any of them.
+HEADS = (
+    *(b"", b"t\nt\nRSA", b"1,1, 1,1, 2.\n", b"*MATRIX INPUT\n", b"DMIG    K       "),
+    *(b"%%MatrixMarket matrix coordinate real general\n", struct.pack("<i", 24)),
+    *(b"       3       3       6       2KAA     1P,3E23.16\n", struct.pack(">i", 48)),
+)
+TOKENS = (
+    *(b"1", b"2", b" ", b",", b"\n", b"-1", b"1.5", b"E+05", b"*", b"\0", b"\xff", b"\t", b"\r\n"),
+    *(b"        ", b"       1       1       3\n", b"2147483647", b"*       ", b" 1.000E+00"),
+    *(b"DMIG*   K               ", struct.pack("<i", 12), struct.pack("<i", 2**31 - 1)),
+)
+
 
 def seed_matrix():
     stiffness, _, _ = files.chain(SIZE)
@@ -282,6 +294,21 @@ class Damaged(unittest.TestCase):
             total = (np.sum(matrix) + np.trace(matrix)) / 2
         largest = max(map(abs, values), default=0)
         self.assertAlmostEqual(math.fsum(values), total, delta=1e-9 * largest)
+
+    def test_random_words_are_refused_in_words(self):
+        rng = random.Random(6)
+        for count in range(COUNT):
+            path = self.folder / rng.choice(("k", "k.mtx", "k.sti", "k.pch", "k.op4"))
+            words = [rng.choice(HEADS)]
+            words += [rng.choice(TOKENS) for _ in range(rng.randrange(100))]
+            if rng.random() < 0.2:
+                words.append(bytes(rng.randrange(256) for _ in range(rng.randrange(300))))
+            path.write_bytes(b"".join(words) + rng.choice((b"", b"\n")))
+            with self.subTest(count=count, data=path.read_bytes()):
+                try:
+                    import_matrices([("stiffness", path), ("mass", path)], self.folder / "case")
+                except DeckError as error:
+                    self.assertIn(path.name, str(error))
 
     def test_no_name_of_a_row_is_lost(self):
         rng = random.Random(5)

@@ -48,7 +48,7 @@ def tables(path, widths, marks, on_mark):
         if np.any(wrong):
             at = int(np.argmax(wrong))
             raise Fault(f"{counts[at]} numbers, not {width}", line=line + at)
-        _require_commas(chunk, starts, width, line)
+        _require_commas(chunk, starts, width or widths[0], line)
         if np.any(filled):
             yield _numbers(chunk, len(starts), line).reshape(-1, width), line + np.flatnonzero(
                 filled
@@ -151,7 +151,7 @@ def _numbers(chunk, count, line):
         warnings.simplefilter("error")
         try:
             found = np.fromstring(text, sep=" ")
-        except DeprecationWarning:  # a word that is not a number
+        except (DeprecationWarning, ValueError):  # a word that is not a number
             raise _fault_of(chunk, line) from None
     if len(found) != count or not np.all(np.isfinite(found)):
         raise _fault_of(chunk, line)
