@@ -187,6 +187,10 @@ class Entries(Imported):
         path = self.write("k.mtx", files.abaqus(SMALL, header=head))
         self.assertIn("declared symmetric", self.refused(path, mass, forms={"stiffness": WHOLE}))
 
+    def test_coordinates_with_a_line_of_sizes(self):
+        path = self.write("k.mtx", "3, 3, 5\n" + files.coordinates(SMALL))
+        self.assertIn("the first line is one of sizes", self.refused(path, path))
+
     def test_keywords_of_abaqus(self):
         body = files.abaqus(SMALL)
         for head, words in (

@@ -40,7 +40,8 @@ def import_deck(deck, folder, dialect=None, ignored=(), speed=None):
 
 
 def main(words):
-    parser = argparse.ArgumentParser(prog="squeal-import", description=__doc__)
+    pages = "docs/decks.md lists the cards, docs/matrices_import.md the formats of matrices."
+    parser = argparse.ArgumentParser(prog="squeal-import", description=__doc__, epilog=pages)
     add = parser.add_argument
     deck = (
         "deck of Abaqus or CalculiX (.inp), or the name of a job of CalculiX that stored matrices"

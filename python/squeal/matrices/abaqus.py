@@ -32,6 +32,11 @@ def read(path):
     rows, columns, values = (np.concatenate(part) for part in zip(*(one[:3] for one in parts)))
     labelled = parts[0][3]
     size = None if labelled else int(max(rows.max(), columns.max())) + 1
+    if not labelled and rows[0] == columns[0] == size - 1 and values[0] == len(rows) - 1:
+        raise Fault(
+            "the first line is one of sizes, as in Matrix Market: add the header of that format, or"
+            " remove the line"
+        )
     found = Matrix(NAME if labelled else f"{NAME}, COORDINATE", rows, columns, values, size)
     found.form = header.form
     found.remarks = header.remarks()
