@@ -205,6 +205,9 @@ class Solved(unittest.TestCase):
             ["case.yaml", "import.md", "mass.petsc", "rows.csv", "stiffness.petsc"]
             + ["stiffness_2.petsc"],
         )
+        shutil.copy(path, self.folder / "plain")
+        self.call("--stiffness", "plain", "--mass", "plain")
+        self.assertTrue((self.folder / "plain_case/case.yaml").is_file())
         found = self.solve("k")
         np.testing.assert_allclose(found.angular_frequency_rad_per_s, np.sqrt(2), rtol=1e-12)
 

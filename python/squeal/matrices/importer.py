@@ -24,7 +24,10 @@ def import_matrices(files, folder, rows=None, forms=None):
         names = _names(rows, parts, record)
         record.require(str(parts[0].source))
         record.choose("the units are those of the files, which do not state them")
-        system = build(parts, names, forms or {}, record)
+        try:
+            system = build(parts, names, forms or {}, record)
+        except MemoryError:
+            raise DeckError(f"{title}: not enough memory") from None
         output.require_size(system, record)
         record.require(str(parts[0].source))
         _choose(system, record)
@@ -144,7 +147,7 @@ def run(given, files, parser):
         if name not in known or (name in given.whole and name in given.triangle):
             parser.error(f"--whole and --triangle take the role of a matrix, not '{name}'")
     stem = next((sources.Source(word).path.stem for role, word in files if role == STIFFNESS), "")
-    folder = Path(given.output or stem or "matrices")
+    folder = Path(given.output or (f"{stem}_case" if Path(stem).is_file() else stem))
     record = import_matrices(files, folder, given.rows, forms)
     print(f"{folder / 'case.yaml'}: the case; {folder / 'import.md'}: the account of the matrices")
     for choice in record.choices:
