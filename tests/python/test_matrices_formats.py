@@ -178,6 +178,20 @@ class Nastran(Checked):
             self.assertIn("give one as FILE:NAME: KGG, MGG, FRIC", self.refused(path, path))
             self.assertIn("no matrix KAA", self.refused(f"{path}:KAA", path))
 
+    def test_op4_with_equal_names(self):
+        first, second = random_matrix(9), random_matrix(10)
+        data = files.op4_binary({"KAA": first}) + files.op4_binary({"KAA": second})
+        text = files.op4_text({"KAA": first}) + files.op4_text({"KAA": second})
+        for path in (self.write("b", data), self.write("t", text)):
+            found = self.case(f"{path}:KAA#1", f"{path}:kaa#2")
+            np.testing.assert_array_equal(found["stiffness"], first)
+            np.testing.assert_array_equal(found["mass"], second)
+            self.assertIn("2 matrices KAA; give one as", self.refused(f"{path}:KAA", path))
+            self.assertIn("2 matrices KAA; give one as", self.refused(f"{path}:KAA#3", path))
+
+    def test_op4_with_a_name_that_begins_with_a_digit(self):
+        self.check("digit", lambda one: files.op4_text({"1MAT": one}, "bigmat"))
+
     def test_op4_of_partial_columns(self):
         stiffness, _, _ = files.chain(SIZE)
         stiffness[:, 4] = stiffness[4, :] = 0  # a column that the file does not have
@@ -201,6 +215,18 @@ class Nastran(Checked):
                 self.assertEqual([row[1:] for row in self.rows()[1]], files.names(SIZE))
         for form in (1, 9):
             self.check("form", lambda one: files.dmig({"KAAX": one}, "large", form), 6)
+
+    def test_dmig_with_a_number_of_columns(self):
+        """NCOL has a meaning only for rectangular matrices."""
+        for form in (1, 6):
+            head = f"DMIG    KAAX           0{form:8d}       2       0"
+            self.check(
+                "NCOL",
+                lambda one: files.dmig({"KAAX": one}, "large", form).replace(
+                    head, f"{head}{'':8}{SIZE:8d}"
+                ),
+                6,
+            )
 
     def test_dmig_of_partial_columns(self):
         stiffness = random_matrix(8, digits=6)

@@ -3,7 +3,7 @@
 
 DMIG, NAME, 0, IFO, TIN, TOUT, POLAR, , NCOL heads a matrix: IFO is 1 (square), 6 (symmetric, each
 entry given once) or 9 (rectangular, columns in the order of their nodes and components; 2 is the
-same with numbers of columns); TIN is 1 or 2 for real entries, 3 or 4 for complex ones. The columns
+same with numbers of columns; NCOL has a meaning only for these); TIN is 1 or 2 for real entries, 3 or 4 for complex ones. The columns
 follow: DMIG, NAME, GJ, CJ, , G1, C1, A1, B1 and continued G2, C2, A2, B2 … Source: MSC Nastran
 Quick Reference Guide and Altair OptiStruct Reference Guide, DMIG.
 
@@ -39,7 +39,7 @@ def read(path, wanted):
     header = cards.headers[name]
     if header.complex:
         raise Fault(f"{name}: complex matrices are not supported", line=header.line)
-    if header.form not in FORMS or header.width:
+    if header.form not in FORMS or (header.form == 9 and header.width):
         reason = f"IFO {header.form} is unknown"
         if header.form in (2, 9):
             reason = "a rectangular matrix (IFO 2, or NCOL) has numbers of columns, not their nodes"

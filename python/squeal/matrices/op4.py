@@ -107,9 +107,13 @@ def chosen(headers, wanted):
     if not wanted and len(names) > 1:
         listed = ", ".join(names)
         raise Fault(f"the file has {len(names)} matrices; give one as FILE:NAME: {listed}")
-    places = [at for at, name in enumerate(names) if not wanted or name == wanted.upper()]
+    wanted, _, number = wanted.upper().partition("#")
+    places = [at for at, name in enumerate(names) if not wanted or name == wanted]
     if not places:
         raise Fault(f"the file has no matrix {wanted}; it has {', '.join(names)}")
-    if len(places) > 1:
-        raise Fault(f"the file has {len(places)} matrices {wanted}")
+    if number.isdecimal() and 0 < int(number) <= len(places):
+        return places[int(number) - 1]
+    if len(places) > 1 or number:
+        hint = f"; give one as FILE:{wanted}#1 and so on"
+        raise Fault(f"the file has {len(places)} matrices {wanted}{hint}")
     return places[0]

@@ -18,7 +18,8 @@ def is_header(line):
     """Returns whether a line is a header of this format."""
     words = [line[at : at + 8] for at in range(0, 32, 8)]
     integers = all(re.fullmatch(r" *-?\d+ *", word) for word in words)
-    return integers and re.fullmatch(r" *[A-Za-z]\w* *", line[32:40].ljust(8)) is not None
+    name = r" *\w+ *" if "E" in line[40:] else r" *[A-Za-z]\w* *"  # a fifth integer otherwise
+    return integers and re.fullmatch(name, line[32:40].ljust(8)) is not None
 
 
 def read(path, wanted):
