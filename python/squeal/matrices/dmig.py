@@ -3,9 +3,9 @@
 
 DMIG, NAME, 0, IFO, TIN, TOUT, POLAR, , NCOL heads a matrix: IFO is 1 (square), 6 (symmetric, each
 entry given once) or 9 (rectangular, columns in the order of their nodes and components; 2 is the
-same with numbers of columns; NCOL has a meaning only for these); TIN is 1 or 2 for real entries, 3 or 4 for complex ones. The columns
-follow: DMIG, NAME, GJ, CJ, , G1, C1, A1, B1 and continued G2, C2, A2, B2 … Source: MSC Nastran
-Quick Reference Guide and Altair OptiStruct Reference Guide, DMIG.
+same with numbers of columns; only these have an NCOL); TIN is 1 or 2 for real entries, 3 or 4 for
+complex ones. The columns follow: DMIG, NAME, GJ, CJ, , G1, C1, A1, B1 and continued G2, C2, A2, B2
+and so on. Source: MSC Nastran Quick Reference Guide and Altair OptiStruct Reference Guide, DMIG.
 
 Punch files are in large field: after the first line of a card, each line that begins with a star is
 one entry. numpy reads these lines; the others are read one by one.
