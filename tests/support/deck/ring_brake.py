@@ -8,8 +8,8 @@ under three conditions:
     interpolation, and those below the limit would stick.
   - Across the sliding direction friction holds a point with the stick slope. It is small against the
     stiffness of the lining, E / h = 7e11 N/m3, and large enough for the limit to be reached.
-  - The turn is small against the cells, since penalties between faces that no longer match let go of
-    points where they are stiff.
+  - The turn is small against the cells: stiff penalties between faces that no longer match let go of
+    points.
 """
 import itertools
 
