@@ -96,7 +96,7 @@ audit::Audit auditModel(const Model& model, const ModelSettings& settings,
                         const std::string& place) {
   Stage stage(model.mesh->comm, "audit");
   auto found = audit::auditOf({*model.mesh, model.bodies, model.contact, settings.materials,
-                              settings.constraints.couplings});
+                               settings.constraints.couplings});
   stage.finish(audit::summaryOf(found) + place);
   return found;
 }

@@ -6,10 +6,10 @@ under three conditions:
   - The hub turns, so that all points slide. Friction is 0.45 in that step and 0.3 in that of the
     modes: CalculiX gives the points of the second step the friction forces of the first by
     interpolation, and those below the limit would stick.
-  - Across the sliding direction friction holds a point with the stick slope. It is small against the
-    stiffness of the lining, E / h = 7e11 N/m3, and large enough for the limit to be reached.
-  - The turn is small against the cells: stiff penalties between faces that no longer match let go of
-    points.
+  - Across the sliding direction friction holds a point with the stick slope. It is small against
+    the stiffness of the lining, E / h = 7e11 N/m3, and large enough for the limit to be reached.
+  - The turn is small against the cells: stiff penalties between faces that no longer match let go
+    of points.
 """
 import itertools
 
