@@ -16,7 +16,9 @@ class Case:
     def __init__(self):
         self.options = {}
         self.groups = {NODES: {}, FACES: {}, CELLS: {}}
+        self.bodies = {}  # name -> numbers of their cells
         self._names = {}
+        self._reserved = set()
 
     def set(self, path, value, source=None):
         """Sets an option: `path` is a prefix, a name and a key, or a prefix and a key. Raises Fault
@@ -51,9 +53,15 @@ class Case:
             self.set((*path, "xy"), frame.b, frame.source)
         return path[1]
 
+    def reserve(self, wanted, dimension):
+        """Returns a name that no group has or will get."""
+        name = self.free_name(wanted, dimension)
+        self._reserved.add(name)
+        return name
+
     def free_name(self, wanted, dimension):
         """Returns a name that no group has; of a blank it makes an underscore."""
-        taken = set().union(*self.groups.values())
+        taken = self._reserved.union(*self.groups.values())
         name = clean(wanted)
         if name.startswith("reference_"):  # names of reference nodes
             name = f"set_{name}"

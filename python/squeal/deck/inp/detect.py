@@ -59,7 +59,8 @@ def _decide(marks):
     for dialect, found in marks.items():
         first = {}
         for mark, place in found:
-            first.setdefault(place, mark)
+            if mark not in first.values():
+                first.setdefault(place, mark)
         shown = [f"{mark} ({place})" for place, mark in list(first.items())[:SHOWN]]
         if shown:
             reasons[dialect] = ", ".join(shown)

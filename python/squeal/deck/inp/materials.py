@@ -2,10 +2,11 @@
 """Cards of materials, sections and axes."""
 import numpy as np
 
+from squeal.deck.axes import Frame
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import UNUSED, Fault
-from squeal.deck.model import Frame, Material, Section
+from squeal.deck.model import Material, Section
 from squeal.deck.numbers import real
 
 # Law, number of constants and lines of one temperature.

@@ -2,12 +2,13 @@
 """Cards of the mesh: nodes, elements, sets and surfaces."""
 import numpy as np
 
+from squeal.deck.axes import orthonormal
 from squeal.deck.inp.cards import fields_of, key_of
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.inp.types import ADVICE, BECOMES, DISCRETE, SOLIDS
 from squeal.deck.journal import UNUSED, Fault
-from squeal.deck.model import EMPTY, Block, orthonormal
+from squeal.deck.model import EMPTY, Block
 from squeal.deck.numbers import LONGEST, integer, is_integer, real
 
 
