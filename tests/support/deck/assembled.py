@@ -64,6 +64,10 @@ def _numbers(numbers):
     return "".join(f"{number},\n" for number in numbers)
 
 
+def _labels(box, side, offset):
+    return "".join(f"{one + offset}, S{FACES[side]}\n" for one in box.sides[side])
+
+
 def assembly():
     """Returns the deck and its further files."""
     files = {
@@ -75,7 +79,7 @@ def assembly():
 *PART, name=Block
 {_mesh(BLOCK, "All")}*nset, NSET=Foot
 {_numbers(BLOCK.at(2, 0.0))}*Surface, type=ELEMENT, name=Right
-{"".join(f"{one}, S{FACES[0, 1]}{chr(10)}" for one in BLOCK.sides[0, 1])}*Solid Section, elset=ALL, material=Steel
+{_labels(BLOCK, (0, 1), 0)}*Solid Section, elset=ALL, material=Steel
 ,
 *End Part
 *Part, name="Long arm"
@@ -161,8 +165,7 @@ def flat():
     ]
 
     def surface(name, side, box, offset):
-        rows = "".join(f"{one + offset}, S{FACES[side]}\n" for one in box.sides[side])
-        return f"*SURFACE, NAME={name}\n{rows}"
+        return f"*SURFACE, NAME={name}\n{_labels(box, side, offset)}"
 
     def nodes(name, numbers, offset):
         return f"*NSET, NSET={name}\n" + _numbers(np.add(numbers, offset))

@@ -117,7 +117,7 @@ def _coupled_nodes(rigid, model, faces):
     """Returns the nodes of a rigid body or of a coupling, and a name for their group."""
     if rigid.surface is None:
         sets = model.node_sets if rigid.label in model.node_sets else model.element_sets
-        return rigid.nodes.tolist(), sets.spelled[rigid.label]
+        return rigid.nodes.tolist(), sets.spelled.get(rigid.label, rigid.label)
     surface = model.surfaces[rigid.surface]
     if surface.nodes is not None:
         return surface.nodes.tolist(), surface.name

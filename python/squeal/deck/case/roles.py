@@ -36,6 +36,25 @@ class Roles:
                 range(3) if number in model.frames else {component}
             )
             self.references[number] = f"reference_{number}"
+        for rigid in model.rigid:
+            self._join_loose(rigid)
+
+    def _join_loose(self, rigid):
+        """Loose nodes that a coupling moves: those that something else refers to become reference
+        nodes, which need no support."""
+        nodes = rigid.nodes if rigid.surface is None else self.model.surfaces[rigid.surface].nodes
+        if nodes is None or not rigid.components or rigid.distributed:
+            return
+        state = self.model.state
+        referred = {number for table in (state.forces, state.supports) for number, _ in table}
+        for number in np.setdiff1d(nodes, self.cell_nodes).tolist():
+            if number in referred - {*self.references, *self.rotations}:
+                self.references[number] = f"reference_{number}"
+                self.used[number] = set()
+            if number in self.used:
+                turned = rigid.frame is not None
+                self.used[number].update(range(3) if turned else rigid.components)
+                self.used[number].update(() if rigid.pinned else (3, 4, 5))
 
     def _rigid(self, rigid):
         others = [one for one in self.model.rigid if one.reference == rigid.reference]
