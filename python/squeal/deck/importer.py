@@ -16,13 +16,14 @@ PARTIAL = "mesh.msh.partial"  # the mesh gets its name when all is written
 FILES = ("mesh.msh", "case.yaml", "import.md", PARTIAL)
 
 
-def import_deck(deck, folder, dialect=None, ignored=()):
+def import_deck(deck, folder, dialect=None, ignored=(), speed=None):
     """Writes the case of a deck into a folder, and returns its journal. `dialect` None: the one
-    that is detected. If the deck is refused,
-    writes only import.md and raises DeckError."""
+    that is detected. `speed`: that of a motion of which the deck has only the direction. If the
+    deck is refused, writes only import.md and raises DeckError."""
     folder = Path(folder)
     journal = Journal(ignored)
     model = read_model(deck, DIALECTS.get(dialect), journal)
+    model.speed = speed
     case = translate(model, journal)
     _prepare(folder)
     try:
@@ -66,10 +67,17 @@ def main(words):
     dialect = "program of the deck; default: the one whose words the deck has"
     add("--dialect", choices=sorted(DIALECTS), help=dialect)
     ignored = "card, parameter, load or type of element to leave out although it is physics"
+    speed = (
+        "speed of a body of whose motion the deck has only the direction, in rad or length per time"
+        " unit of the deck"
+    )
     add("--ignore", metavar="NAME", action="append", default=[], help=ignored)
+    add("--speed", metavar="V", type=float, help=speed)
     given = parser.parse_args(words)
+    if given.speed is not None and not 0 < given.speed < float("inf"):
+        raise DeckError(f"--speed {given.speed:g}: the speed of a motion is positive")
     folder = Path(given.output or Path(given.deck).stem)
-    journal = import_deck(given.deck, folder, given.dialect, given.ignore)
+    journal = import_deck(given.deck, folder, given.dialect, given.ignore, given.speed)
     print(f"{folder / 'case.yaml'}: the case; {folder / 'import.md'}: the account of the deck")
     print(f"  cards: {journal.counted()}")
     for choice in journal.choices:

@@ -227,14 +227,51 @@ class Tie:
 
 
 @dataclass
+class Friction:
+    """A coefficient of friction over the slip rate: constant, the value `coefficients[0]`; a table
+    with the slip rates `speeds`; or, if `decay` is given, (μs, μk) with μk + (μs − μk) e^(−decay w)
+    at the slip rate w. Without coefficients no slip is possible."""
+
+    source: Source
+    coefficients: tuple = ()
+    speeds: tuple = ()
+    decay: float = None
+
+
+@dataclass
 class Interaction:
     """How two surfaces in contact act on each other: `stiffness` is that of a penalty, per area,
-    None for hard contact."""
+    None for hard contact; `frictions`: the first law, and those to which later steps change it."""
 
     source: Source
     behavior: Source = None
     stiffness: float = None
-    friction: Source = None
+    separation: bool = True
+    frictions: list = field(default_factory=list)
+
+
+@dataclass
+class Motion:
+    """Matter that moves through the mesh at these nodes: with the velocity `amount` (vector), or,
+    if `axis` is given, with the speed `amount` about the axis through `origin`."""
+
+    nodes: np.ndarray
+    amount: object
+    source: Source
+    axis: np.ndarray = None
+    origin: np.ndarray = None
+
+
+@dataclass
+class Squeal:
+    """A request for complex modes with friction: `friction` are the laws by interaction at that
+    step, `top` the upper frequency limit, Hz, or None, `count` the number of modes, or None."""
+
+    source: Source
+    friction: dict
+    friction_damping: bool
+    count: int = None
+    top: float = None
 
 
 @dataclass
@@ -245,6 +282,7 @@ class Contact:
     master: str
     interaction: str
     source: Source
+    adjust: float = None  # slave nodes within this distance start on the master
 
 
 @dataclass
@@ -356,7 +394,12 @@ class Model:
     static: Source = None  # the last static step
     frequencies: int = None  # number of free modes, None: none requested
     frequency: Source = None
+    top: float = None  # upper limit of the free modes, Hz, None: none given
     prestress: bool = False
+    large_displacements: bool = False  # the static steps have them, and the user ignores that
+    motions: list = field(default_factory=list)
+    squeal: list = field(default_factory=list)  # requests for complex modes
+    speed: float = None  # of a motion whose speed the deck does not have, given by the user
     _lookup: tuple = None
 
     def merge_blocks(self):

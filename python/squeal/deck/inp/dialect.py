@@ -103,6 +103,10 @@ ABAQUS_PARAMETERS = (
     *(("RIGID BODY", name, None) for name in ("PIN NSET", "TIE NSET", "POSITION")),
     ("DISTRIBUTING", "WEIGHTING METHOD", None),
     ("SOLID SECTION", "CONTROLS", None),
+    ("COMPLEX FREQUENCY", "FRICTION DAMPING", None),
+    *(("FRICTION", name, None) for name in ("EXPONENTIAL DECAY", "ROUGH", "SLIP TOLERANCE")),
+    ("SURFACE BEHAVIOR", "NO SEPARATION", None),
+    *(("STEP", name, None) for name in ("UNSYMM", "EXTRAPOLATION")),
 )
 CALCULIX_PARAMETERS = (
     ("RIGID BODY", "ROT NODE", None),

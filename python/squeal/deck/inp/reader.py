@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from squeal.deck.inp import contacts, couplings, generate, joints  # noqa: F401 (handlers)
-from squeal.deck.inp import materials, mesh, state, surfaces  # noqa: F401
+from squeal.deck.inp import materials, mesh, squeal, state, surfaces  # noqa: F401
 from squeal.deck.inp.assembly import Structure
 from squeal.deck.inp.cards import read_cards
 from squeal.deck.inp.detect import detect
@@ -14,7 +14,7 @@ from squeal.deck.inp.lines import read_lines
 from squeal.deck.inp.names import Names
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
 from squeal.deck.model import Instance, Model
-from squeal.deck.numbers import integer
+from squeal.deck.numbers import integer, real
 
 REASONS = {
     **{name: "shells are not supported" for name in ("SHELL SECTION", "MEMBRANE SECTION")},
@@ -25,7 +25,6 @@ REASONS = {
     "NMAP": "mapped nodes are not supported; write their coordinates into the deck",
     "CONNECTOR SECTION": "connectors are not supported; use springs, dashpots or a coupling",
     "BUCKLE": "buckling loads are not computed",
-    "COMPLEX FREQUENCY": "complex modes of a rotor are not translated",
 }
 
 
@@ -37,13 +36,20 @@ def _reason(card):
     return "this card is not supported" if card.known else "unknown card"
 
 
+MODES = 200  # the number if the deck has an upper limit only
+SUPPORTED = ("STATIC", "FREQUENCY", "COMPLEX FREQUENCY")
+# Cards of a static step that may follow free vibrations: the loads remain.
+CHANGES_OF_FRICTION = {"STEP", "STATIC", "CHANGE FRICTION", "FRICTION", "END STEP", *OUTPUT}
+
+
 @dataclass
 class Step:
     """The step that is read: kinds of cards that it has given already, and places that it has
-    loaded."""
+    loaded. `frequency`: it computes modes; `only_friction`: it changes nothing but friction."""
 
     frequency: bool = False
     after_static: bool = False
+    only_friction: bool = False
     perturbation: bool = False
     renewed: set = field(default_factory=set)
     loaded: set = field(default_factory=set)
@@ -130,14 +136,19 @@ class Reader(Names):
     def _step(self, cards):
         procedure = next((card for card in cards if card.keyword in PROCEDURES), None)
         name = procedure.keyword if procedure else None
-        supported = name in ("STATIC", "FREQUENCY")
+        supported = name in SUPPORTED
         if procedure and not supported and self.journal.ignores(name):
             for card in cards:
                 self.journal.mark(card.source, UNUSED, f"in the step of *{name}, which is ignored")
             return
         if procedure is None:
             self.journal.refuse(cards[0].source, "the step has no procedure")
-        self.step = Step(name == "FREQUENCY", self.model.static is not None)
+        only_friction = all(card.keyword in CHANGES_OF_FRICTION for card in cards)
+        self.step = Step(
+            name in ("FREQUENCY", "COMPLEX FREQUENCY"),
+            self.model.static is not None,
+            only_friction,
+        )
         self._open_step(cards[0], name)
         for card in cards[1:]:
             if card is procedure and supported:
@@ -155,17 +166,30 @@ class Reader(Names):
         journal.mark(card.source, USED)
         for name, value in card.parameters.items():
             if name == "NLGEOM" and (value or "YES").upper() != "NO":
-                journal.refuse(card.source, "large displacements are not supported", name)
-            elif name == "PERTURBATION" and procedure == "FREQUENCY":
+                self._large_displacements(card.source)
+            elif name == "PERTURBATION" and procedure in ("FREQUENCY", "COMPLEX FREQUENCY"):
                 self.step.perturbation = True
-            elif name in ("INC", "INCF", "NAME", "NLGEOM", "AMPLITUDE"):
+            elif name in ("INC", "INCF", "NAME", "NLGEOM", "AMPLITUDE", "UNSYMM", "EXTRAPOLATION"):
                 journal.remark(card.source, f"{name} is not used")
             else:
                 journal.refuse(card.source, "this parameter is not supported", name)
 
+    def _large_displacements(self, source):
+        """Refuses them. If they are ignored, free vibrations have the stress of the static step, as
+        in the program of the deck."""
+        reason = "large displacements are not supported; --ignore NLGEOM takes them as small"
+        if not self.journal.refuse(source, reason, "NLGEOM"):
+            self.model.large_displacements = True
+
     def _procedure(self, card):
         journal = self.journal
-        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION"}
+        if card.keyword == "COMPLEX FREQUENCY":
+            try:
+                squeal.request(card, self)
+            except Fault as fault:
+                journal.refuse(card.source, fault.reason, fault.name, fault.line)
+            return
+        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION", "STABILIZE"}
         for name in card.parameters:
             if name in idle:
                 journal.remark(card.source, f"{name} is not used")
@@ -183,21 +207,38 @@ class Reader(Names):
         rows = list(card.rows())
         if not rows:
             raise Fault("the number of frequencies is missing")
-        line, fields = rows[0]
-        prestress = self.step.perturbation and self.dialect is not ABAQUS
-        if prestress and self.model.static:
-            self.decide()
-        if self.model.frequency and self.model.prestress != prestress:
-            raise Fault("steps of free vibrations with and without PERTURBATION")
-        self.model.prestress = prestress
-        self.model.frequencies = max(integer(fields[0], line), self.model.frequencies or 0)
-        self.model.frequency = card.source
         if len(rows) > 1:
             raise Fault("this card has one line of data", line=rows[1][0])
-        if len(fields) > 1:
-            self.journal.remark(card.source, "only the number of frequencies is used")
-        if self.model.static and not self.model.prestress:
-            self.journal.choose(f"{card.source}: frequencies without the effect of the static step")
+        line, fields = rows[0]
+        model, abaqus = self.model, self.dialect is ABAQUS
+        if model.static and self.step.perturbation:
+            self.decide()
+        prestress = model.large_displacements if abaqus else self.step.perturbation
+        if model.frequencies and model.prestress != prestress:
+            raise Fault("steps of free vibrations with and without PERTURBATION")
+        model.prestress = prestress
+        count, model.top = (integer(fields[0], line) if fields[0] else None), None
+        if abaqus and len(fields) > 2 and fields[2]:
+            model.top = real(fields[2], line)
+        if count is None and model.top is None:
+            raise Fault("the number of frequencies is missing", line=line)
+        if len(fields) > (3 if abaqus else 1) or abaqus and any(fields[1:2]):
+            self.journal.remark(card.source, "only the number and the upper limit are used")
+        model.frequencies = max(count or MODES, model.frequencies or 0)
+        if count is None:
+            self.journal.choose(
+                f"{card.source}: the modes up to {model.top:g} Hz; the case computes {MODES}, see"
+                " whether they reach this limit"
+            )
+        model.frequency = card.source
+        if model.static and not prestress:
+            self.journal.choose(
+                f"{card.source}: frequencies without the stress of the static step"
+                if abaqus
+                else f"{card.source}: frequencies without the effect of the static step"
+            )
+        if prestress and not abaqus:
+            squeal.add_request(card.source, self, False, count, None)
         self.journal.mark(card.source, TRANSLATED)
 
     def _static(self, card):
@@ -206,8 +247,11 @@ class Reader(Names):
                 f"{card.source}: the case has the state at the end of this static step, not those"
                 " of earlier ones"
             )
-        if self.model.frequencies is not None:
-            raise Fault("a static step after one of free vibrations is not supported")
+        if self.model.frequencies is not None and not self.step.only_friction:
+            raise Fault(
+                "a static step after one of free vibrations is not supported, unless it only"
+                " changes friction"
+            )
         if card.data:
             self.journal.remark(card.source, "increments are not used: the step is linear")
         self.model.static = card.source
