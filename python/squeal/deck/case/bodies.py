@@ -5,7 +5,7 @@ import numpy as np
 from squeal.deck.case.groups import CELLS
 from squeal.deck.case.pieces import Piece, bodies_of, instances_of
 from squeal.deck.journal import TRANSLATED, UNUSED, Fault
-from squeal.deck.model import EMPTY
+from squeal.deck.mesh import EMPTY
 
 REDUCED = {"C3D20R"}
 # Cells that CalculiX integrates with fewer points, and the largest differences of results, measured

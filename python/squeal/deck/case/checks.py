@@ -2,7 +2,7 @@
 """Checks of a model before it is translated."""
 import numpy as np
 
-from squeal.deck.model import EMPTY
+from squeal.deck.mesh import EMPTY
 
 
 def check_mesh(model, journal):

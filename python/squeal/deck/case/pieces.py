@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from squeal.deck.model import EMPTY
+from squeal.deck.mesh import EMPTY
 
 
 @dataclass

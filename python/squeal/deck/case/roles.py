@@ -8,7 +8,7 @@ import numpy as np
 
 from squeal.deck.case.groups import NODES
 from squeal.deck.journal import TRANSLATED, Fault, Missing
-from squeal.deck.model import EMPTY
+from squeal.deck.mesh import EMPTY
 
 
 class Roles:

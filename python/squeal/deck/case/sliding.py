@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from squeal.deck.case.groups import CELLS, clean
+from squeal.deck.case.groups import clean
 from squeal.deck.journal import TRANSLATED, Fault
-from squeal.deck.model import EMPTY, Motion
+from squeal.deck.mesh import EMPTY
+from squeal.deck.model import Motion
 
 PRECISION = 0.02  # of a turn that is taken as a rigid motion: finite turns are not linear
 
@@ -28,8 +29,8 @@ class Bodies:
 
     def __init__(self, model, case):
         self.model = model
-        self.names = list(case.groups[CELLS])
-        self.cells = [case.groups[CELLS][name] for name in self.names]
+        self.names = list(case.bodies)
+        self.cells = list(case.bodies.values())
         self.nodes = [self._nodes_of(cells) for cells in self.cells]
 
     def _nodes_of(self, cells):

@@ -12,7 +12,7 @@ import numpy as np
 from squeal.deck.inp.cards import key_of
 from squeal.deck.inp.handlers import Handler, settle
 from squeal.deck.journal import UNUSED, USED, Fault
-from squeal.deck.model import Nodes
+from squeal.deck.mesh import Nodes
 from squeal.deck.numbers import real
 
 ENDS = {"END PART": "PART", "END INSTANCE": "INSTANCE", "END ASSEMBLY": "ASSEMBLY"}

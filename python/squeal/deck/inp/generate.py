@@ -6,7 +6,7 @@ from squeal.deck.inp.assembly import position_of
 from squeal.deck.inp.handlers import handles
 from squeal.deck.inp.mesh import define
 from squeal.deck.journal import Fault
-from squeal.deck.model import EMPTY, Block
+from squeal.deck.mesh import EMPTY, Block
 from squeal.deck.numbers import LONGEST, integer
 
 

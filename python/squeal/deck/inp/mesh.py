@@ -8,7 +8,7 @@ from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.inp.types import ADVICE, BECOMES, DISCRETE, SOLIDS
 from squeal.deck.journal import UNUSED, Fault
-from squeal.deck.model import EMPTY, Block
+from squeal.deck.mesh import EMPTY, Block
 from squeal.deck.numbers import LONGEST, integer, is_integer, real
 
 

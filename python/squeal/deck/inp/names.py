@@ -5,7 +5,7 @@ import numpy as np
 from squeal.deck.inp.assembly import Scope
 from squeal.deck.inp.cards import key_of
 from squeal.deck.journal import Fault
-from squeal.deck.model import EMPTY
+from squeal.deck.mesh import EMPTY
 from squeal.deck.numbers import integer, is_integer
 from squeal.deck.topology import free_faces
 

@@ -13,7 +13,8 @@ from squeal.deck.inp.handlers import TABLE, settle
 from squeal.deck.inp.lines import read_lines
 from squeal.deck.inp.names import Names
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
-from squeal.deck.model import Instance, Model
+from squeal.deck.mesh import Instance
+from squeal.deck.model import Model
 from squeal.deck.numbers import integer, real
 
 REASONS = {
