@@ -241,6 +241,12 @@ class Sets(unittest.TestCase):
         self.assertEqual(one.options["load"]["CUBE_nodes"]["force"], "4.0,0.0,0.0")
         self.assertEqual(list(one.options["material"]), ["CUBE"])
 
+    def test_names_that_python_reads_as_numbers(self):
+        members, _ = self.members("*NSET, NSET=1_2\n7\n*NSET, NSET=S\n1_2, 5\n", "S")
+        self.assertEqual(members, [7, 5])
+        self.assertIn("'1_0' is not", refused(cube().replace("\n7, 1.", "\n1_0, 1."))[0])
+        self.assertIn("'0_5' is not", refused(cube().replace("\n7, 1.", "\n7, 0_5"))[0])
+
     def test_sets_that_are_wrong(self):
         for text, reason in (
             ("*NSET, NSET=S, GENERATE\n5, 3\n", "the range 5, 3, 1 is empty"),

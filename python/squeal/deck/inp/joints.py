@@ -47,11 +47,17 @@ def _add_equation(card, reader, fields, line):
         )
 
 
-@handles("TIE", used=("NAME", "POSITION TOLERANCE", "ADJUST"))
+@handles(
+    "TIE",
+    used=("NAME", "POSITION TOLERANCE", "ADJUST", "TYPE"),
+    idle=("NO ROTATION", "NO THICKNESS"),
+)
 def tie(card, reader):
     stem = reader.defined(card, "NAME")[1] if "NAME" in card.parameters else "tie"
     tolerance = card.value("POSITION TOLERANCE")
     adjust = card.key("ADJUST", "YES")
+    if card.key("TYPE", "NODETOSURFACE") not in ("NODETOSURFACE", "SURFACETOSURFACE"):
+        raise Fault(f"TYPE={card.value('TYPE')} is not supported", "TYPE")
     if adjust not in ("YES", "NO"):
         raise Fault(f"ADJUST={adjust} is not supported", "ADJUST")
     for line, fields in card.rows():

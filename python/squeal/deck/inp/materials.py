@@ -3,11 +3,12 @@
 import numpy as np
 
 from squeal.deck.axes import Frame
+from squeal.deck.inp.assembly import rotation_about
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import UNUSED, Fault
 from squeal.deck.model import Material, Section
-from squeal.deck.numbers import real
+from squeal.deck.numbers import integer, real
 
 # Law, number of constants and lines of one temperature.
 LAWS = {
@@ -154,9 +155,23 @@ def orientation(card, reader):
         raise Fault("only DEFINITION=COORDINATES is supported", "DEFINITION")
     key, name = reader.defined(card, "NAME")
     frame, more = _frame(card, name, system == "CYLINDRICAL", reader.scope)
-    if any(len(fields) > 1 and real(fields[1], line) != 0 for line, fields in more):
-        raise Fault("an additional rotation is not supported", line=more[0][0])
+    for line, fields in more:
+        _turn(frame, fields, line)
     reader.model.orientations[key] = frame
+
+
+def _turn(frame, fields, line):
+    """Turns rectangular axes about one of them, by an angle in degrees."""
+    axis = integer(fields[0], line) - 1 if fields[0] else 0
+    angle = real(fields[1], line) if len(fields) > 1 and fields[1] else 0.0
+    if axis not in range(3) or len(fields) > 2:
+        raise Fault("the second line has an axis, 1 to 3, and an angle", line=line)
+    if angle == 0:
+        return
+    if frame.cylindrical:
+        raise Fault("an additional rotation of cylindrical axes is not supported", line=line)
+    axes = frame.axes_at(np.zeros(3))
+    frame.a, frame.b = axes[:2] @ rotation_about(axes[axis], angle).T
 
 
 @handles("TRANSFORM", used=("NSET", "TYPE"), lines=1)

@@ -9,7 +9,7 @@ from squeal.deck.inp.handlers import handles
 from squeal.deck.inp.types import ADVICE, BECOMES, DISCRETE, SOLIDS
 from squeal.deck.journal import UNUSED, Fault
 from squeal.deck.mesh import EMPTY, Block
-from squeal.deck.numbers import LONGEST, integer, is_integer, real
+from squeal.deck.numbers import LONGEST, integer, is_integer, real, table
 
 
 @handles("NODE", used=("NSET", "SYSTEM"), phase=0)
@@ -74,13 +74,13 @@ def _fast_nodes(card):
     if not texts or any(text.count(",") != 3 for text in texts):
         return None
     try:
-        table = np.array(",".join(texts).split(","), dtype=float).reshape(-1, 4)
+        values = table(",".join(texts).split(","), float).reshape(-1, 4)
     except ValueError:
         return None
     with np.errstate(invalid="ignore"):
-        numbers = table[:, 0].astype(np.int64)
-    plain = np.all(np.isfinite(table)) and np.all(numbers == table[:, 0])
-    return (numbers, table[:, 1:]) if plain else None
+        numbers = values[:, 0].astype(np.int64)
+    plain = np.all(np.isfinite(values)) and np.all(numbers == values[:, 0])
+    return (numbers, values[:, 1:]) if plain else None
 
 
 def _slow_nodes(card, reader):
@@ -111,12 +111,12 @@ def element(card, reader):
         return
     shape = SOLIDS.get(kind)
     size = shape.size if shape else DISCRETE[kind]
-    table = _records(card, size, reader)
-    if len(table):
-        reader.model.blocks.append(Block(kind, shape, table[:, 0], table[:, 1:], card.source))
+    rows = _records(card, size, reader)
+    if len(rows):
+        reader.model.blocks.append(Block(kind, shape, rows[:, 0], rows[:, 1:], card.source))
     else:
         reader.journal.mark(card.source, UNUSED, "there are no lines of data")
-    define(card, reader, "ELSET", reader.model.element_sets, table[:, 0])
+    define(card, reader, "ELSET", reader.model.element_sets, rows[:, 0])
 
 
 def _records(card, size, reader):
@@ -128,7 +128,7 @@ def _records(card, size, reader):
         counts.append(len(fields))
         words.extend(fields)
     try:
-        flat = np.array(words, dtype=np.int64) if words else np.zeros(0, np.int64)
+        flat = table(words, np.int64) if words else np.zeros(0, np.int64)
         flat[np.arange(len(flat)) % (size + 1) != 0] += reader.scope.node_offset
     except (ValueError, OverflowError):
         flat = [
@@ -198,6 +198,9 @@ def _generated(card):
 
 
 def _listed(card, reader, sets, scope, offset):
+    plain = _plain_numbers(card)
+    if plain is not None and not any(is_integer(key[len(scope.prefix) :]) for key in sets):
+        return [plain + offset]
     parts, numbers = [], []
     for line, fields in card.rows():
         for word in fields:
@@ -212,6 +215,15 @@ def _listed(card, reader, sets, scope, offset):
                 numbers = []
                 parts.append(_part(word, line, card, reader, sets, scope))
     return [*parts, np.array(numbers, np.int64)]
+
+
+def _plain_numbers(card):
+    """Returns the numbers of lines that have nothing else, otherwise None."""
+    words = ",".join(text.rstrip(",") for _, text in card.data).split(",")
+    try:
+        return table(words, np.int64)
+    except (ValueError, OverflowError):
+        return None
 
 
 def _part(word, line, card, reader, sets, scope):
