@@ -15,7 +15,7 @@ from small_decks import CUBE, STATIC, STEEL, Imported, model_of, refused
 
 # Names of groups and of other things in both decks.
 SAME = {
-    **{"Block-1": "block", "Arm-1": "arm", "Arm-2": "arm2", "reference_71": "reference_9000"},
+    **{"Block-1": "block", "Arm-1": "arm", "Arm-2": "arm2", "reference_1": "reference_9000"},
     **{"Root1": "ROOT1", "Root2": "ROOT2", "Block-1.Right": "RIGHT", "Upper": "UPPER"},
     **{"Tip": "TIP1", "Arm-2.tip": "TIP2", "Block-1.Foot": "FOOT"},
     **{"First": "FIRST", "Second": "SECOND", "End": "reference_9000"},
@@ -187,7 +187,7 @@ class NamesOfInstances(unittest.TestCase):
         inside = "*ELEMENT, TYPE=SPRINGA, ELSET=S\n1, I.6, J.5\n*SPRING, ELSET=S\n\n7.\n"
         one = Imported(assembly(self.TWO, inside=inside))
         (spring,) = one.options["spring"].values()
-        self.assertEqual(spring, {"from": "node_6", "to": "node_13", "stiffness": 7.0})
+        self.assertEqual(spring, {"from": "node_I.6", "to": "node_J.5", "stiffness": 7.0})
 
     def test_free_faces(self):
         """A surface without labels of faces has those that no other cell has."""
@@ -224,6 +224,8 @@ class NamesOfInstances(unittest.TestCase):
         ):
             rows = refused(text + CUBE)
             self.assertTrue(any(reason in row for row in rows), (text, rows))
+        (row,) = refused(assembly(self.TWO, inside="*EQUATION\n1\nJ.99, 1, 1.\n"))
+        self.assertIn("there is no node 99 of J", row)
         one = Imported(assembly(self.TWO) + "*PART, NAME=SPARE\n*NODE\n1, 0.\n*END PART\n")
         self.assertIn("no instance has this part", one.account)
 

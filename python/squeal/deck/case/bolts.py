@@ -17,7 +17,9 @@ def add_bolts(model, case, journal, faces):
 
 def _bolt(bolt, model, case, journal, faces):
     if bolt.force is None:
-        raise Fault(f"no *CLOAD gives the tension at component 1 of node {bolt.node}")
+        raise Fault(
+            f"no *CLOAD gives the tension at component 1 of node {model.node_label(bolt.node)}"
+        )
     surface = model.surfaces[bolt.surface]
     rows = np.column_stack([surface.elements, surface.faces])
     nodes = faces.nodes(rows)

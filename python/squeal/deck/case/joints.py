@@ -190,4 +190,4 @@ def _require_masses(model, places, journal):
             continue
         for _, nodes in elements_in(model, mass.label):
             if places.masses.get(nodes[0], (1.0, None))[0] == 0:
-                journal.refuse(mass.source, f"node {nodes[0]} has no *MASS")
+                journal.refuse(mass.source, f"node {model.node_label(nodes[0])} has no *MASS")

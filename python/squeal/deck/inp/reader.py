@@ -68,12 +68,13 @@ class Reader(Names):
     def read(self, cards):
         """Reads the nodes, elements and sets of all scopes, then their surfaces, then the rest."""
         self.structure = Structure(cards, self.journal)
+        self.model.nodes.label = self.model.node_label
         scopes = [*self.structure.instances, self.structure.model]
         for scope in scopes:
             self._number(scope)
             self._apply_all(self._phase(scope, 0))
             self.model.nodes.add_all(scope.nodes, scope.placed)
-            if scope.name:
+            if self.structure.instances:
                 offsets = scope.node_offset, scope.element_offset
                 last = self._largest_element()
                 self.model.instances.append(Instance(scope.name, *offsets, last))
