@@ -199,6 +199,29 @@ class NamesOfInstances(unittest.TestCase):
         self.assertEqual(list(zip(one.elements.tolist(), one.faces.tolist())), faces)
         self.assertEqual(len(model.surfaces["S"].faces), 10)
 
+    def test_numbers_do_not_reach_other_instances(self):
+        """The numbers 9 to 16 of I would be those of J, if they were not named before."""
+        two, everything = self.TWO, "*NSET, NSET=MANY, GENERATE\n1, 16\n"
+        model, _ = model_of(assembly(two, everything))
+        self.assertEqual(model.node_sets.members("I.MANY").tolist(), list(range(1, 17)))
+        self.assertEqual(model.blocks[0].nodes[1].tolist(), list(range(21, 29)))
+        for part, inside, reason in (
+            ("", "*NSET, NSET=S, INSTANCE=I\n9\n", "*NSET: there is no node 9 of I"),
+            ("", "*NSET, NSET=S\nI.9\n", "*NSET: there is no node 9 of I"),
+            ("", "*ELSET, ELSET=S, INSTANCE=I\n2\n", "*ELSET: there is no element 2 of I"),
+            ("", "*NSET, NSET=S, INSTANCE=J\n0\n", "node 0: numbers are 1 or more"),
+            ("*NSET, NSET=S\n0\n", "", "node 0: numbers are 1 or more"),
+            ("*ELGEN\n1, 2, 4\n", "", "element 2 of I: there is no node 9 of I"),
+            (
+                "*NCOPY, CHANGE NUMBER=-4, OLD SET=TOP, SHIFT\n1.\n"
+                "*NCOPY, CHANGE NUMBER=-8, OLD SET=TOP, SHIFT\n1.\n",
+                "",
+                "node -3: numbers are 1 or more",
+            ),
+        ):
+            rows = refused(assembly(two, part, inside))
+            self.assertTrue(any(reason in row for row in rows), (part, inside, rows))
+
     def test_structures_that_are_wrong(self):
         part = "*PART, NAME=P\n*END PART\n"
         for text, reason in (

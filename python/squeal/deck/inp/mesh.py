@@ -18,7 +18,7 @@ def node(card, reader):
     kind = card.key("SYSTEM", "R")
     if kind not in ("R", "C", "S"):
         raise Fault(f"SYSTEM={kind} is not supported", "SYSTEM")
-    numbers = numbers + reader.scope.node_offset
+    numbers = reader.scope.node_numbers.shifted(numbers)
     reader.scope.nodes.add(numbers, in_axes(_cartesian(places, kind), reader.scope.system))
     define(card, reader, "NSET", reader.model.node_sets, numbers)
 
@@ -129,14 +129,15 @@ def _records(card, size, reader):
         words.extend(fields)
     try:
         flat = table(words, np.int64) if words else np.zeros(0, np.int64)
-        flat[np.arange(len(flat)) % (size + 1) != 0] += reader.scope.node_offset
+        of_nodes = np.arange(len(flat)) % (size + 1) != 0
+        flat[of_nodes] = reader.scope.node_numbers.shifted(flat[of_nodes])
     except (ValueError, OverflowError):
         flat = [
             reader.node_number(word) if at % (size + 1) else integer(word)
             for at, word in enumerate(words)
         ]
         flat = np.array(flat, np.int64)
-    flat[:: size + 1] += reader.scope.element_offset
+    flat[:: size + 1] = reader.scope.element_numbers.shifted(flat[:: size + 1])
     starts = np.concatenate([[0], np.cumsum(counts)]).astype(int)
     wanted = np.arange(0, len(flat), size + 1)
     lines = np.searchsorted(starts, wanted)
@@ -163,22 +164,22 @@ def node_set(card, reader):
             raise Fault("a node set of an element set has no lines of data", line=card.data[0][0])
         define(card, reader, "NSET", sets, lambda: reader.nodes_of_element_set(key))
         return
-    _set(card, reader, "NSET", sets, scope, scope.node_offset)
+    _set(card, reader, "NSET", sets, scope, scope.node_numbers)
 
 
 @handles("ELSET", used=("ELSET", "GENERATE", "INSTANCE"), idle=("INTERNAL",), phase=0)
 def element_set(card, reader):
     scope = reader.scope_of(card)
-    _set(card, reader, "ELSET", reader.model.element_sets, scope, scope.element_offset)
+    _set(card, reader, "ELSET", reader.model.element_sets, scope, scope.element_numbers)
 
 
-def _set(card, reader, parameter, sets, scope, offset):
-    """`scope`: that of numbers and names in the lines, `offset`: that of its numbers."""
+def _set(card, reader, parameter, sets, scope, own):
+    """`scope`: that of the names in the lines, `own`: its numbers."""
     key, spelled = reader.defined(card, parameter)
     if "GENERATE" in card.parameters:
-        parts = [numbers + offset for numbers in _generated(card)]
+        parts = [own.shifted(numbers, line) for line, numbers in _generated(card)]
     else:
-        parts = _listed(card, reader, sets, scope, offset)
+        parts = _listed(card, reader, sets, scope, own)
     sets.add(key, spelled, card.source, parts)
 
 
@@ -193,19 +194,19 @@ def _generated(card):
             raise Fault(f"the range {first}, {last}, {step} is empty", line=line)
         if (last - first) // step > LONGEST:
             raise Fault(f"the range {first}, {last}, {step} is longer than {LONGEST}", line=line)
-        parts.append(np.arange(first, last + 1, step, dtype=np.int64))
+        parts.append((line, np.arange(first, last + 1, step, dtype=np.int64)))
     return parts
 
 
-def _listed(card, reader, sets, scope, offset):
+def _listed(card, reader, sets, scope, own):
     plain = _plain_numbers(card)
     if plain is not None and not any(is_integer(key[len(scope.prefix) :]) for key in sets):
-        return [plain + offset]
+        return [own.shifted(plain)]
     parts, numbers = [], []
     for line, fields in card.rows():
         for word in fields:
             if is_integer(word):
-                numbers.append(integer(word, line) + offset)
+                numbers.append(own.one(integer(word, line), line))
                 if scope.prefix + word in sets:
                     reader.journal.choose(
                         f"{card.source.file}:{line}: {word} is read as a number, not as a set"
