@@ -81,7 +81,7 @@ def _mean(mean, model, roles, case, places):
 
 
 def _rigid(rigid, model, roles, case, places):
-    if not rigid.components:
+    if not rigid.components or rigid.reference not in roles.references:
         return  # refused with its role
     numbers, wanted = _coupled_nodes(rigid, model, places.faces)
     if roles.in_cells(rigid.reference) and rigid.reference not in numbers:
