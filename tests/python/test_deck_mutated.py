@@ -6,6 +6,7 @@ With SQUEAL_LONG in the environment, 20,000 decks in place of 600.
 """
 import os
 import random
+import re
 import sys
 import tempfile
 import time
@@ -15,6 +16,7 @@ from pathlib import Path
 repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
+import assembled
 from small_decks import cube, read_mesh
 
 from squeal.deck.importer import import_deck
@@ -58,8 +60,19 @@ FREQUENCY = "*STEP, PERTURBATION\n*FREQUENCY\n4\n*END STEP\n"
 SEED = cube(JOINTS, LOADS, FREQUENCY)
 
 
+def one_file():
+    """Returns the deck of an assembly with its included files in place of their cards."""
+    text, files = assembled.assembly()
+    for name, content in files.items():
+        text = re.sub(rf"(?i)\*include, input={name}\n", lambda _: content, text)
+    return text
+
+
+SEEDS = (SEED, SEED, one_file())
+
+
 def damaged(rng):
-    lines = SEED.split("\n")
+    lines = rng.choice(SEEDS).split("\n")
     for _ in range(rng.choice([1, 1, 2, 3, 6])):
         at = rng.randrange(len(lines))
         kind = rng.randrange(6)
@@ -95,6 +108,11 @@ def blocks(text):
     yield card, fields
 
 
+def name_of(card, parameter):
+    words = [word for word in card.replace('"', "").split(",") if word.startswith(parameter)]
+    return words[0][len(parameter) :] if words else ""
+
+
 class Damaged(unittest.TestCase):
     def test_no_deck_is_lost_without_a_word(self):
         rng = random.Random(20)
@@ -120,10 +138,18 @@ class Damaged(unittest.TestCase):
     def complete(self, text, journal, case):
         """Compares the mesh with a count of the fields of the deck."""
         cells = cards = 0
+        parts, part = {}, None
         for card, fields in blocks(text):
             cards += bool(card)
-            if card.startswith("*ELEMENT,") and "TYPE=C3D8" in card:
-                cells += len(fields) // 9
+            if card.startswith("*PART,"):
+                part = name_of(card, "NAME=")
+            elif card.startswith("*ENDPART"):
+                part = None
+            elif card.startswith("*ELEMENT,") and "TYPE=C3D8" in card:
+                parts[part] = parts.get(part, 0) + len(fields) // 9
+            elif card.startswith("*INSTANCE,"):
+                cells += parts.get(name_of(card, "PART="), 0)
+        cells += parts.get(None, 0)
         groups, nodes, _ = read_mesh(case / "mesh.msh")
         bodies = [
             rows for rows in groups.values() if isinstance(rows[0], tuple) and len(rows[0]) == 8
