@@ -105,20 +105,22 @@ class Roles:
     def place(self, number, component):
         """Returns the name of a reference node, or None for a node of cells, and the component
         there. Raises Fault for a component without a meaning."""
-        label = self.model.node_label(number)
+        label = self.model.node_label
         if number in self.rotations:
             if component > 2:
-                raise Fault(f"node {label} has the components 1 to 3, which are rotations")
+                raise Fault(f"node {label(number)} has the components 1 to 3, which are rotations")
             if number in self.model.frames:
-                raise Fault(f"node {label}, whose components are rotations, has a *TRANSFORM")
+                raise Fault(
+                    f"node {label(number)}, whose components are rotations, has a *TRANSFORM"
+                )
             return self.rotations[number], component + 3
         if number in self.references:
             return self.references[number], component
         if not self.in_cells(number):
             self.model.nodes.at([number])
-            raise Missing(f"node {label} belongs to no element that is translated")
+            raise Missing(f"node {label(number)} belongs to no element that is translated")
         if component > 2:
-            raise Fault(f"node {label} of solid cells has no rotations")
+            raise Fault(f"node {label(number)} of solid cells has no rotations")
         return None, component
 
     def name(self, number):
