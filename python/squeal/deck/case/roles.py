@@ -50,7 +50,8 @@ class Roles:
             return
         state = self.model.state
         referred = {number for table in (state.forces, state.supports) for number, _ in table}
-        for number in np.setdiff1d(nodes, self.cell_nodes).tolist():
+        loose = np.setdiff1d(nodes, self.cell_nodes)
+        for number in loose[self.model.nodes.has(loose)].tolist():
             if number in referred - {*self.references, *self.rotations}:
                 self.references[number] = self._reference(number)
                 self.used[number] = set()
