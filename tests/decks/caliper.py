@@ -159,8 +159,9 @@ class Caliper:
             key = frozenset(triangles[0][:3])
             self.owners[name] = next(p for p in self.parts.values() if key in p.labels)
 
-    def deck(self, friction):
-        """Returns the deck and its further files. `friction`: from 0 in the first steps."""
+    def deck(self, friction, divided=()):
+        """Returns the deck and its further files. `friction`: from 0 in the first steps; `divided`:
+        bodies with two sections, of the lower and the upper half of the numbers of their cells."""
         files, parts, instances, materials = {}, "", "", ""
         for name, part in self.parts.items():
             text = part.mesh()
@@ -179,7 +180,14 @@ class Caliper:
                 parts += "*Orientation, name=Plane\n"
                 parts += ", ".join(repr(float(one)) for one in (*a, *b)) + "\n3, 0.\n"
                 more = ", ORIENTATION=plane"
-            parts += f"*solid section, elset=CELLS, material={name}{more}\n,\n*End Part\n"
+            count = len(part.cells)
+            halves = {"Lower": (1, count // 2), "Upper": (count // 2 + 1, count)}
+            for half, (first, last) in halves.items() if name in divided else ():
+                parts += f"*elset, elset={half}, generate\n{first}, {last}\n"
+                parts += f"*solid section, elset={half}, material={name}{more}\n,\n"
+            if name not in divided:
+                parts += f"*solid section, elset=CELLS, material={name}{more}\n,\n"
+            parts += "*End Part\n"
             instances += f"*Instance, name={part.instance}, part={part.name.upper()}\n"
             instances += f"{part.position()}*End Instance\n"
             materials += _material(name, options)

@@ -37,15 +37,21 @@ class FloatingCaliper(unittest.TestCase):
         )
         cls.options = yaml.safe_load(OPTIONS.read_text())
         cls.mesh = caliper.Mesh(cls.folder / "mesh.msh")
-        text, files = caliper.Caliper(cls.options, cls.mesh).deck(0.6)
-        (cls.folder / "Parts").mkdir()
-        for name, content in {"brake.inp": text, **files}.items():
-            (cls.folder / name).write_text(content)
-        cls.journal = import_deck(cls.folder / "brake.inp", cls.folder / "case")
-        cls.case = yaml.safe_load((cls.folder / "case/case.yaml").read_text())
+        cls.case = cls.imported("case")
+
+    @classmethod
+    def imported(cls, name, **words):
+        """Writes the deck and imports it into a folder; returns the options."""
+        text, files = caliper.Caliper(cls.options, cls.mesh).deck(0.6, **words)
+        (cls.folder / "Parts").mkdir(exist_ok=True)
+        for file, content in {"brake.inp": text, **files}.items():
+            (cls.folder / file).write_text(content)
+        import_deck(cls.folder / "brake.inp", cls.folder / name)
+        return yaml.safe_load((cls.folder / name / "case.yaml").read_text())
 
     def eigenvalues(self, words, ranks):
-        folder = self.folder / f"results_{ranks}"
+        """Returns the eigenvalues of a run and the number of unstable ones."""
+        folder = Path(tempfile.mkdtemp(dir=self.folder))
         command = [*(MPIEXEC.split() + [str(ranks)] if ranks > 1 else []), PROGRAM]
         command += ["-options_file", *words, *WORDS.split(), "-checkpoint", "off"]
         command += ["-report_dir", folder]
@@ -79,11 +85,13 @@ class FloatingCaliper(unittest.TestCase):
     def test_all_eigenvalues_agree(self):
         wanted, unstable = self.eigenvalues([OPTIONS, "-mesh_file", self.folder / "mesh.msh"], 1)
         self.assertGreater(unstable, 0)
-        for ranks in (1, 2):
-            found, count = self.eigenvalues([self.folder / "case/case.yaml"], ranks)
+        divided = self.imported("divided", divided=("disc", "lining_inner", "caliper"))
+        self.assertEqual(divided["material"]["disc-1"], {"sections": "disc-1.Lower,disc-1.Upper"})
+        for case, ranks in (("case", 1), ("case", 2), ("divided", 2)):
+            found, count = self.eigenvalues([self.folder / case / "case.yaml"], ranks)
             self.assertEqual((len(found), count), (len(wanted), unstable))
             difference = np.max(np.abs(found - wanted) / np.abs(wanted))
-            print(f"{len(found)} eigenvalues, {ranks} ranks: difference {difference:.1e}")
+            print(f"{len(found)} eigenvalues, {case}, {ranks} ranks: difference {difference:.1e}")
             self.assertLess(difference, 1e-9)
 
 

@@ -50,9 +50,10 @@ class Roles:
             return
         state = self.model.state
         referred = {number for table in (state.forces, state.supports) for number, _ in table}
+        referred -= {*self.references, *self.rotations}
         loose = np.setdiff1d(nodes, self.cell_nodes)
         for number in loose[self.model.nodes.has(loose)].tolist():
-            if number in referred - {*self.references, *self.rotations}:
+            if number in referred:
                 self.references[number] = self._reference(number)
                 self.used[number] = set()
             if number in self.used:

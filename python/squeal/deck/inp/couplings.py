@@ -14,6 +14,7 @@ FREE = "rotations that some nodes share with a reference node, and others do not
 @handles(
     "RIGID BODY",
     used=("NSET", "ELSET", "PIN NSET", "TIE NSET", "REF NODE", "ROT NODE", "POSITION"),
+    idle=("ISOTHERMAL",),
     lines=0,
 )
 def rigid_body(card, reader):

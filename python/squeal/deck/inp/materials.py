@@ -154,6 +154,8 @@ def orientation(card, reader):
     if card.key("DEFINITION", "COORDINATES") != "COORDINATES":
         raise Fault("only DEFINITION=COORDINATES is supported", "DEFINITION")
     key, name = reader.defined(card, "NAME")
+    if key in reader.model.orientations:
+        raise Fault(f"the orientation '{name}' is defined twice")
     frame, more = _frame(card, name, system == "CYLINDRICAL", reader.scope)
     for line, fields in more:
         _turn(frame, fields, line)
