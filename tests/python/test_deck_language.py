@@ -42,6 +42,11 @@ class Lines(unittest.TestCase):
         self.assertEqual(one.options["load"]["TOP"]["force"], "0.0,0.0,8.0")
         self.assertEqual(list(one.nodes), list(range(1, 9)))
 
+    def test_faults_in_data_of_another_file_name_that_file(self):
+        text = cube().replace("5, 0., 0., 1.\n", "*INCLUDE, INPUT=part.inp\n")
+        (row, *_) = refused(text, {"part.inp": "** a comment\n5, 0., x, 1.\n"})
+        self.assertEqual(row, "part.inp:2: *NODE: 'x' is not a number")
+
     def test_included_files_that_are_missing_or_endless(self):
         (row,) = refused(cube() + "*INCLUDE, INPUT=sub/none.inp\n")
         self.assertRegex(row, r"^deck.inp:\d+: \*INCLUDE: there is no file .*sub/none.inp")

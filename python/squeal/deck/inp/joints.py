@@ -3,7 +3,7 @@
 import numpy as np
 
 from squeal.deck.inp.handlers import handles
-from squeal.deck.journal import Fault
+from squeal.deck.journal import Fault, place_of
 from squeal.deck.model import Bolt, Equation, Joint, PointMass, Tie
 from squeal.deck.numbers import integer, real
 
@@ -101,11 +101,11 @@ def _joint(card, reader, what):
     value = real(fields[0], line)
     if "." not in fields[0] and what == "stiffness" and not card.dialect.short_words:
         reader.journal.choose(
-            f"{card.source.file}:{line}: {fields[0]} is read as a stiffness;"
+            f"{place_of(card.source, line)}: {fields[0]} is read as a stiffness;"
             " CalculiX reads a number without a point as a component"
         )
     if len(fields) > 1:
-        reader.journal.choose(f"{card.source.file}:{line}: only the first number is used")
+        reader.journal.choose(f"{place_of(card.source, line)}: only the first number is used")
     values = {"stiffness": 0.0, "damping": 0.0, what: value}
     reader.model.joints.append(Joint(kind, label, components, source=card.source, **values))
 

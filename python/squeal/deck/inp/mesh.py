@@ -7,7 +7,7 @@ from squeal.deck.inp.cards import fields_of, key_of
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.inp.types import ADVICE, BECOMES, DISCRETE, SOLIDS
-from squeal.deck.journal import UNUSED, Fault
+from squeal.deck.journal import UNUSED, Fault, place_of
 from squeal.deck.mesh import EMPTY, Block
 from squeal.deck.numbers import LONGEST, integer, is_integer, real, table
 
@@ -91,7 +91,7 @@ def _slow_nodes(card, reader):
         places.append(coordinates + [0.0] * (3 - len(coordinates)))
         if len(fields) > 4:
             reader.journal.choose(
-                f"{card.source.file}:{line}: the fields after the third coordinate are not used"
+                f"{place_of(card.source, line)}: the fields after the third coordinate are not used"
             )
     return np.array(numbers, np.int64), np.array(places, float).reshape(-1, 3)
 
@@ -209,7 +209,7 @@ def _listed(card, reader, sets, scope, own):
                 numbers.append(own.one(integer(word, line), line))
                 if scope.prefix + word in sets:
                     reader.journal.choose(
-                        f"{card.source.file}:{line}: {word} is read as a number, not as a set"
+                        f"{place_of(card.source, line)}: {word} is read as a number, not as a set"
                     )
             elif word:
                 parts.append(np.array(numbers, np.int64))
@@ -237,7 +237,7 @@ def _part(word, line, card, reader, sets, scope):
             return np.array([number], np.int64)
         if not card.dialect.short_words:
             reader.journal.choose(
-                f"{card.source.file}:{line}: set '{word}' is defined later; it is used as"
+                f"{place_of(card.source, line)}: set '{word}' is defined later; it is used as"
                 " defined there, CalculiX would take it as empty"
             )
     return key
