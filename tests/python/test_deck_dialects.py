@@ -175,6 +175,25 @@ class Readings(unittest.TestCase):
         held = {"clamped": "xyz", "clamped_rotation": "xyz"}
         self.assertEqual(one.options["constraint"]["reference_20"], held)
 
+    def test_a_radius_of_influence(self):
+        """The corners 5 and 6 of the top are at 1 from (0.5, 0, 1.866), the others at 1.5."""
+        cards = "*NODE\n20, 0.5, 0., 1.8660\n*NSET, NSET=R\n20\n" + UP
+        cards += COUPLING.replace("UP\n", "UP, INFLUENCE RADIUS=1.1\n") + "*KINEMATIC\n1, 6\n"
+        one = self.read(cards)
+        self.assertEqual(one.groups[one.options["coupling"]["C"]["nodes"]], [5, 6])
+
+    def test_turned_axes_of_materials(self):
+        """Axes are turned about one of them: plies of a wound tube."""
+        law = "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n3.,2.,1.,.1,.2,.3,4.,5.,\n6.\n"
+        text = cube().replace("*ELASTIC\n210000., 0.3\n", law)
+        text = text.replace("MATERIAL=STEEL", "MATERIAL=STEEL, ORIENTATION=PLY")
+        text += "*ORIENTATION, NAME=PLY, SYSTEM=CYLINDRICAL\n2., 0., 0., 2., 0., 1.\n1, 55.\n"
+        options = Imported(text, dialect="abaqus").options
+        self.assertEqual(options["material"]["CUBE"]["frame"], "PLY")
+        frame = options["frame"]["PLY"]
+        self.assertEqual((frame["turn"], frame["turn_about"]), (55.0, "x"))
+        self.assertEqual((frame["origin"], frame["axis"]), ("2.0,0.0,0.0", "0.0,0.0,1.0"))
+
     def test_rotations_of_coupled_reference_nodes(self):
         """A loose node with a mass follows, with its rotations unless it is pinned."""
         cards = LOOSE + "*NSET, NSET=PART\n5, 6, 7, 21\n*ELEMENT, TYPE=MASS, ELSET=M\n9, 21\n"

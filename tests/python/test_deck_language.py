@@ -42,6 +42,17 @@ class Lines(unittest.TestCase):
         self.assertEqual(one.options["load"]["TOP"]["force"], "0.0,0.0,8.0")
         self.assertEqual(list(one.nodes), list(range(1, 9)))
 
+    def test_lines_of_data_in_another_file(self):
+        head, rows = cube(step=FORCE).split("*NODE, NSET=ALL\n")
+        nodes, rest = rows.split("*ELEMENT", 1)
+        one = Imported(
+            head + "*NODE, NSET=ALL, INPUT=nodes.inp\n*ELEMENT" + rest, {"nodes.inp": nodes}
+        )
+        self.assertEqual(list(one.nodes), list(range(1, 9)))
+        self.assertEqual(one.remarks("NODE")[0], "used")
+        rows = refused(head + "*Node, Input = none.inp\n*ELEMENT" + rest)
+        self.assertRegex(rows[0], r"^deck.inp:1: \*NODE: there is no file .*none.inp")
+
     def test_faults_in_data_of_another_file_name_that_file(self):
         text = cube().replace("5, 0., 0., 1.\n", "*INCLUDE, INPUT=part.inp\n")
         (row, *_) = refused(text, {"part.inp": "** a comment\n5, 0., x, 1.\n"})

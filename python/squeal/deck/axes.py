@@ -10,16 +10,25 @@ from squeal.deck.journal import Fault, Source
 @dataclass
 class Frame:
     """Axes: rectangular with directions a, b (axis 1 along a, b in the plane 1-2), or cylindrical
-    about the line from point a to point b."""
+    about the line from point a to point b. `turn`: axis from 0 and angle in degrees by which the
+    local axes are then turned about one of them."""
 
     name: str
     cylindrical: bool
     a: np.ndarray
     b: np.ndarray
     source: Source
+    turn: tuple = None
 
     def axes_at(self, place):
         """Returns the local axes at a point as rows. Raises Fault."""
+        axes = self._axes_at(place)
+        if self.turn is None:
+            return axes
+        about, degrees = self.turn
+        return axes @ rotation_about(axes[about], degrees).T
+
+    def _axes_at(self, place):
         if not self.cylindrical:
             return orthonormal(self.a, self.b)
         axis = self.b - self.a
@@ -44,3 +53,16 @@ def orthonormal(a, b):
     x = a / lengths[0]
     z = normal / np.linalg.norm(normal)
     return np.array([x, np.cross(z, x), z])
+
+
+def rotation_about(axis, degrees):
+    """Returns the matrix of a right-handed rotation; multiples of 90° about axes are exact."""
+    x, y, z = axis / np.linalg.norm(axis)
+    quarter, rest = divmod(degrees, 90.0)
+    angle = np.radians(rest)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    for _ in range(int(quarter) % 4):
+        cosine, sine = -sine, cosine
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    line = np.outer([x, y, z], [x, y, z])
+    return cosine * np.eye(3) + sine * cross + (1 - cosine) * line

@@ -58,7 +58,8 @@ class Rigid:
     surface of this key, otherwise of the set `label`. `name`: of a coupling, None for a body.
     `distributed`: the reference node follows the mean motion of the nodes, with equal weights.
     `pinned`: rotations of reference nodes among them stay free; `mixed`: some of their components
-    do."""
+    do. `radius`: that of a sphere about the reference node outside of which nodes are not coupled.
+    """
 
     label: str
     nodes: np.ndarray
@@ -72,6 +73,7 @@ class Rigid:
     distributed: bool = False
     pinned: bool = False
     mixed: bool = False
+    radius: float = None
 
 
 @dataclass

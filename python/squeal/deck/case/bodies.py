@@ -153,6 +153,9 @@ def _orientation(model, case, journal, path, section, material):
         journal.refuse(section.source, f"there is no orientation '{section.orientation}'")
     elif material.law == "isotropic":
         journal.mark(frame.source, UNUSED, "without effect on an isotropic material")
+    elif frame.turn:
+        journal.mark(frame.source, TRANSLATED)
+        case.set((*path, "frame"), case.frame(frame), frame.source)
     elif frame.cylindrical:
         journal.mark(frame.source, TRANSLATED)
         case.set((*path, "cylindrical"), [*frame.a, *(frame.b - frame.a)], frame.source)

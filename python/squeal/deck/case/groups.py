@@ -51,6 +51,9 @@ class Case:
         else:
             self.set((*path, "x"), frame.a, frame.source)
             self.set((*path, "xy"), frame.b, frame.source)
+        if frame.turn:
+            self.set((*path, "turn"), frame.turn[1], frame.source)
+            self.set((*path, "turn_about"), "xyz"[frame.turn[0]], frame.source)
         return path[1]
 
     def reserve(self, wanted, dimension):

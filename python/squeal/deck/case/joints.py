@@ -120,12 +120,20 @@ def _coupled_nodes(rigid, model, faces):
         return rigid.nodes.tolist(), sets.spelled.get(rigid.label, rigid.label)
     surface = model.surfaces[rigid.surface]
     if surface.nodes is not None:
-        return surface.nodes.tolist(), surface.name
+        return _within(surface.nodes, rigid, model), surface.name
     rows = np.column_stack([surface.elements, surface.faces])
     tables = [table.ravel() for _, table in faces.tables(rows)]
     if not tables:
         raise Fault(f"the surface '{surface.name}' has no faces")
-    return np.unique(np.concatenate(tables)).tolist(), surface.name
+    return _within(np.unique(np.concatenate(tables)), rigid, model), surface.name
+
+
+def _within(nodes, rigid, model):
+    """Returns the nodes in the radius of influence of a coupling."""
+    if rigid.radius is not None:
+        away = model.nodes.at(nodes) - model.nodes.at([rigid.reference])
+        nodes = nodes[np.linalg.norm(away, axis=1) <= rigid.radius]
+    return nodes.tolist()
 
 
 def _joint(joint, model, roles, case, places):

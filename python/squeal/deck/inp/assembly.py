@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from squeal.deck.axes import rotation_about
 from squeal.deck.inp.cards import key_of
 from squeal.deck.inp.handlers import Handler, settle
 from squeal.deck.journal import UNUSED, USED, Fault
@@ -229,16 +230,3 @@ def position_of(card):
         raise Fault("the two points of the axis coincide", line=line)
     matrix = rotation_about(b - a, numbers[6])
     return matrix @ (shift - a) + a, matrix
-
-
-def rotation_about(axis, degrees):
-    """Returns the matrix of a right-handed rotation; multiples of 90° about axes are exact."""
-    x, y, z = axis / np.linalg.norm(axis)
-    quarter, rest = divmod(degrees, 90.0)
-    angle = np.radians(rest)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    for _ in range(int(quarter) % 4):
-        cosine, sine = -sine, cosine
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    line = np.outer([x, y, z], [x, y, z])
-    return cosine * np.eye(3) + sine * cross + (1 - cosine) * line

@@ -3,7 +3,6 @@
 import numpy as np
 
 from squeal.deck.axes import Frame
-from squeal.deck.inp.assembly import rotation_about
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import UNUSED, Fault
@@ -163,17 +162,13 @@ def orientation(card, reader):
 
 
 def _turn(frame, fields, line):
-    """Turns rectangular axes about one of them, by an angle in degrees."""
+    """Reads the axis about which the others are turned, and the angle in degrees."""
     axis = integer(fields[0], line) - 1 if fields[0] else 0
     angle = real(fields[1], line) if len(fields) > 1 and fields[1] else 0.0
     if axis not in range(3) or len(fields) > 2:
         raise Fault("the second line has an axis, 1 to 3, and an angle", line=line)
-    if angle == 0:
-        return
-    if frame.cylindrical:
-        raise Fault("an additional rotation of cylindrical axes is not supported", line=line)
-    axes = frame.axes_at(np.zeros(3))
-    frame.a, frame.b = axes[:2] @ rotation_about(axes[axis], angle).T
+    if angle:
+        frame.turn = axis, angle
 
 
 @handles("TRANSFORM", used=("NSET", "TYPE"), lines=1)

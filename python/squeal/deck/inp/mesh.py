@@ -12,7 +12,7 @@ from squeal.deck.mesh import EMPTY, Block
 from squeal.deck.numbers import LONGEST, integer, is_integer, real, table
 
 
-@handles("NODE", used=("NSET", "SYSTEM"), phase=0)
+@handles("NODE", used=("NSET", "SYSTEM", "INPUT"), phase=0)
 def node(card, reader):
     numbers, places = _fast_nodes(card) or _slow_nodes(card, reader)
     kind = card.key("SYSTEM", "R")
@@ -96,7 +96,7 @@ def _slow_nodes(card, reader):
     return np.array(numbers, np.int64), np.array(places, float).reshape(-1, 3)
 
 
-@handles("ELEMENT", used=("TYPE", "ELSET"), phase=0)
+@handles("ELEMENT", used=("TYPE", "ELSET", "INPUT"), phase=0)
 def element(card, reader):
     kind = card.key("TYPE")
     if kind in BECOMES and (kind != "C3D8R" or reader.dialect is ABAQUS):
@@ -151,7 +151,7 @@ def _records(card, size, reader):
 
 @handles(
     "NSET",
-    used=("NSET", "GENERATE", "ELSET", "INSTANCE"),
+    used=("NSET", "GENERATE", "ELSET", "INSTANCE", "INPUT"),
     idle=("UNSORTED", "INTERNAL"),
     phase=0,
 )
@@ -167,7 +167,7 @@ def node_set(card, reader):
     _set(card, reader, "NSET", sets, scope, scope.node_numbers)
 
 
-@handles("ELSET", used=("ELSET", "GENERATE", "INSTANCE"), idle=("INTERNAL",), phase=0)
+@handles("ELSET", used=("ELSET", "GENERATE", "INSTANCE", "INPUT"), idle=("INTERNAL",), phase=0)
 def element_set(card, reader):
     scope = reader.scope_of(card)
     _set(card, reader, "ELSET", reader.model.element_sets, scope, scope.element_numbers)
