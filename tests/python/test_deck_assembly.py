@@ -11,6 +11,7 @@ repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
 import assembled
+import brake_of_cae
 from small_decks import CUBE, STATIC, STEEL, Imported, model_of, refused
 
 # Names of groups and of other things in both decks.
@@ -251,6 +252,26 @@ class NamesOfInstances(unittest.TestCase):
         self.assertIn("there is no node 99 of J", row)
         one = Imported(assembly(self.TWO) + "*PART, NAME=SPARE\n*NODE\n1, 0.\n*END PART\n")
         self.assertIn("no instance has this part", one.account)
+
+
+class FormOfCae(unittest.TestCase):
+    def test_a_brake_is_translated(self):
+        one = Imported(brake_of_cae.TEXT)
+        options = one.options
+        self.assertEqual(list(options["material"]), ["Disc-1", "Pad-1"])
+        self.assertEqual(options["material"]["Disc-1"]["rayleigh_mass"], 1.0)
+        self.assertEqual(options["motion"]["Disc-1"]["speed"], 3.0)
+        (contact,) = options["contact"].values()
+        self.assertEqual((contact["pad"], contact["disc"]), ("Pad-1.Low", "Disc-1.Top"))
+        self.assertEqual(contact["role"], "sliding")
+        self.assertEqual(options["spring"]["element_1"]["from"], "node_Disc-1.30")
+        self.assertEqual(options["coupling"]["Constraint-1"]["reference"], "reference_1")
+        held = {"clamped": "xy", "clamped_rotation": "xyz"}
+        self.assertEqual(options["constraint"]["reference_1"], held)
+        self.assertEqual(options["flutter"]["friction"], "0.0:0.4:0.04")
+        self.assertEqual(len(one.groups["Disc-1"]), 16)
+        outcomes = {entry.status for entry in one.journal.entries.values()}
+        self.assertEqual(outcomes, {"used", "translated", "not used"})
 
 
 class Generated(unittest.TestCase):

@@ -269,10 +269,15 @@ class Model:
 
     def node_name(self, number):
         """Returns the number of a node in its part, behind the name of the instance, if any."""
-        for one in reversed(self.instances):
-            if number > one.node_offset:
-                start = f"{one.name}." if one.name else ""
-                return f"{start}{number - one.node_offset}"
+        return self._name(number, [one.node_offset for one in self.instances])
+
+    def element_name(self, number):
+        return self._name(number, [one.element_offset for one in self.instances])
+
+    def _name(self, number, offsets):
+        for one, offset in zip(reversed(self.instances), reversed(offsets)):
+            if number > offset:
+                return f"{one.name}.{number - offset}" if one.name else str(number - offset)
         return str(number)
 
     def element_label(self, number):

@@ -143,7 +143,7 @@ def _joint(joint, model, roles, case, places):
             continue
         for node in nodes:
             roles.place(node, 0)
-        path = ("spring", f"element_{number}")
+        path = ("spring", _element(number, model))
         case.set((*path, "from"), roles.name(nodes[0]), joint.source)
         case.set((*path, "to"), roles.name(nodes[1]), joint.source)
         for key, value in (("stiffness", joint.stiffness), ("damping", joint.damping)):
@@ -151,22 +151,27 @@ def _joint(joint, model, roles, case, places):
                 case.set((*path, key), value, joint.source)
 
 
+def _element(number, model):
+    return f"element_{clean(model.element_name(number))}"
+
+
 def _of_components(joint, number, nodes, roles, case):
     """A spring of one component, or between two: as a bushing to the ground if that component is
     global, otherwise by a reference node whose displacement x is the elongation."""
     terms = [(node, at, sign) for node, at, sign in zip(nodes, joint.components, (1.0, -1.0))]
     found = roles.global_terms(terms)
+    element = _element(number, roles.model)
     if len(found) == 1:
         ((name, component, _),) = found
     else:
-        name, component = f"reference_element_{number}", 0
+        name, component = f"reference_{element}", 0
         equation = [(name, 0, 1.0), *((place, at, -value) for place, at, value in found)]
-        set_equation(case, f"element_{number}", equation, joint.source)
+        set_equation(case, element, equation, joint.source)
         position = roles.model.nodes.at([nodes[0]])[0]
         case.set(("reference", name, "position"), position, joint.source)
         case.set(("constraint", name, "clamped"), "yz", joint.source)
         case.set(("constraint", name, "clamped_rotation"), "xyz", joint.source)
-    path = ("bushing", f"element_{number}")
+    path = ("bushing", element)
     case.set((*path, "from"), name, joint.source)
     for key, value in (("stiffness", joint.stiffness), ("damping", joint.damping)):
         if value:

@@ -180,6 +180,8 @@ class Reader(Names):
     def _open_step(self, card, procedure):
         journal = self.journal
         journal.mark(card.source, USED)
+        if card.data:
+            journal.remark(card.source, "the title of the step is not used")
         for name, value in card.parameters.items():
             if name == "NLGEOM" and (value or "YES").upper() != "NO":
                 self._large_displacements(card.source)
@@ -205,7 +207,8 @@ class Reader(Names):
             except Fault as fault:
                 journal.refuse(card.source, fault.reason, fault.name, fault.line)
             return
-        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION", "STABILIZE"}
+        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION", "STABILIZE", "SIM"}
+        idle.add("ACOUSTIC COUPLING")
         for name in card.parameters:
             if name in idle:
                 journal.remark(card.source, f"{name} is not used")
