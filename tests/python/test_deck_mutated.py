@@ -17,6 +17,8 @@ repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
 import assembled
+import brake_of_cae
+import many_cards
 from small_decks import cube, read_mesh
 
 from squeal.deck.importer import import_deck
@@ -26,6 +28,7 @@ COUNT = 20000 if os.environ.get("SQUEAL_LONG") else 600
 WORDS = (
     *("", "0", "-1", "1e400", "nan", "99999999999999999999", "1.5", "*", "**", '"', "=", ",,"),
     *("GENERATE", "*NSET, NSET=A", "*STEP", "*END STEP", "NLGEOM", "\t", "\0", "é", "1,,", "-"),
+    *("I.1", "J.99", "*END PART", "*SYSTEM", "C3D20R", "SPRING1", "BEAM", "ENCASTRE", "1., 1., 1."),
     *("1-3", "S7", "P9", "GRAV", "TYPE=", "*INCLUDE, INPUT=x", "CUBE", "TOP", "*ELEMENT", "*NODE"),
 )
 JOINTS = """*NODE
@@ -68,11 +71,11 @@ def one_file():
     return text
 
 
-SEEDS = (SEED, SEED, one_file())
+SEEDS = (SEED, SEED, SEED, one_file(), brake_of_cae.TEXT)
 
 
-def damaged(rng):
-    lines = rng.choice(SEEDS).split("\n")
+def damaged(rng, seeds):
+    lines = rng.choice(seeds).split("\n")
     for _ in range(rng.choice([1, 1, 2, 3, 6])):
         at = rng.randrange(len(lines))
         kind = rng.randrange(6)
@@ -120,7 +123,7 @@ class Damaged(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             deck, case = Path(folder) / "deck.inp", Path(folder) / "case"
             for number in range(COUNT):
-                text = damaged(rng)
+                text = damaged(rng, SEEDS)
                 deck.write_text(text, encoding="utf-8")
                 started = time.monotonic()
                 with self.subTest(number=number, text=text):
@@ -134,6 +137,22 @@ class Damaged(unittest.TestCase):
                     self.assertLess(time.monotonic() - started, 10)
         # Enough of them must get as far as the mesh for the test to mean something.
         self.assertGreater(translated, COUNT // 20)
+
+    def test_decks_with_many_cards(self):
+        """Each ends with a case or in words."""
+        rng = random.Random(21)
+        with tempfile.TemporaryDirectory() as folder:
+            deck, case = Path(folder) / "deck.inp", Path(folder) / "case"
+            deck.write_text(many_cards.TEXT)
+            import_deck(deck, case)
+            for number in range(COUNT // 4):
+                text = damaged(rng, [many_cards.TEXT])
+                deck.write_text(text, encoding="utf-8")
+                with self.subTest(number=number, text=text):
+                    try:
+                        import_deck(deck, case)
+                    except DeckError as error:
+                        self.assertGreater(len(str(error)), 20)
 
     def complete(self, text, journal, case):
         """Compares the mesh with a count of the fields of the deck."""

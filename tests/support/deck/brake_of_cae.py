@@ -73,7 +73,7 @@ TEXT = f"""*Heading
 *Element, type=MASS, elset=Inertia-1_MASS_
 2, 1
 *Mass, elset=Inertia-1_MASS_
-0.5, 
+0.5,
 ** Constraint: Constraint-1
 *Coupling, constraint name=Constraint-1, ref node=m_Set-2, surface=Pad-1.Top
 *Kinematic
@@ -84,15 +84,15 @@ TEXT = f"""*Heading
 5, 5
 6, 6
 *End Assembly
-** 
+**
 ** ELEMENT CONTROLS
-** 
+**
 *Section Controls, name=EC-1, ELEMENT DELETION=NO, hourglass=ENHANCED
 1., 1., 1.
 *Amplitude, name=Amp-1
              0.,              0.,              1.,              1.
 ** MATERIALS
-** 
+**
 *Material, name=Iron
 *Damping, alpha=1., beta=1e-07
 *Density
@@ -151,10 +151,10 @@ Disc-1.Set-1, 3., 0., 0., 0., 0., 0., 1.
 *End Step
 *Step, name=Step-4, nlgeom=NO, perturbation, unsymm=YES
 *Frequency, eigensolver=Lanczos, sim=NO, acoustic coupling=on, normalization=displacement
-10, , , , , 
+10, , , , ,
 *End Step
 *Step, name=Step-5, nlgeom=NO, perturbation, unsymm=YES
 *Complex Frequency, friction damping=NO
-10, , , 
+10, , ,
 *End Step
 """

@@ -61,8 +61,9 @@ def _pieces(model, solids, numbers, journal):
         chosen = tuple(np.flatnonzero(acts).tolist())
         piece = Piece(section, bool(fully), instance, chosen, numbers[inverse == number])
         material = model.materials.get(model.sections[section].material)
-        if material and any(loads[one].kind in BY_VOLUME for one in chosen):
-            piece.density = material.density or 1.0
+        if any(loads[one].kind in BY_VOLUME for one in chosen):
+            # A material without density is refused.
+            piece.density = material.density if material and material.density else 1.0
         pieces.append(piece)
     return pieces
 

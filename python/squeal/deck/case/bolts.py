@@ -48,4 +48,7 @@ def _normal(points):
     """Returns the outward normal of a face at its first corner."""
     corners = 3 if len(points) in (3, 6) else 4
     normal = np.cross(points[1] - points[0], points[corners - 1] - points[0])
-    return normal / np.linalg.norm(normal)
+    length = np.linalg.norm(normal)
+    if length == 0:
+        raise Fault("a face of the section of a bolt has no area")
+    return normal / length

@@ -90,12 +90,7 @@ def rigid_nodes(rigid, model):
     surface = model.surfaces[rigid.surface]
     if surface.nodes is not None:
         return surface.nodes
-    blocks, rows = model.find_elements(surface.elements)
-    parts = [
-        model.blocks[block].nodes[row, list(model.blocks[block].shape.faces[face])]
-        for block, row, face in zip(blocks, rows, surface.faces)
-    ]
-    return np.unique(np.concatenate([EMPTY, *parts]))
+    return _surface_nodes(model, rigid.surface)
 
 
 def moving_bodies(model, bodies, case, journal):

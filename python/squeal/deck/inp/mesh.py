@@ -62,9 +62,9 @@ def system(card, reader):
         plane = np.cross([0, 0, 1.0], x)
     if len(rows) == 2:
         line, fields = rows[1]
-        plane = np.array([real(field, line) for field in fields]) - origin
-        if len(plane) != 3:
+        if len(fields) != 3:
             raise Fault("the second line has a point in the plane of x and y", line=line)
+        plane = np.array([real(field, line) for field in fields]) - origin
     reader.scope.system = origin, orthonormal(x, plane)
 
 
