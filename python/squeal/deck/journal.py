@@ -24,6 +24,15 @@ class Fault(Exception):
         self.reason, self.name, self.line = reason, name, line
 
 
+class LineOfFile(int):
+    """The number of a line of data in another file than the keyword line of its card."""
+
+    def __new__(cls, number, file):
+        one = super().__new__(cls, number)
+        one.file = file
+        return one
+
+
 class Missing(Fault):
     """Something that the deck refers to and that was not translated."""
 
@@ -38,6 +47,11 @@ class Source:
 
     def __str__(self):
         return f"{self.file}:{self.line}"
+
+
+def place_of(source, line):
+    """Returns file and number of a line of data of a card."""
+    return f"{getattr(line, 'file', source.file)}:{line}"
 
 
 @dataclass
@@ -60,7 +74,7 @@ class Refusal:
         subject = f"*{self.source.card}"
         if self.name != self.source.card:
             subject += f", {self.name}"
-        return f"{self.source.file}:{self.line}: {subject}: {self.reason}"
+        return f"{place_of(self.source, self.line)}: {subject}: {self.reason}"
 
 
 class Journal:
