@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""A deck of a million nodes: nothing of it is lost, with at most 4 GB of memory. Prints the time."""
+"""A deck of a million nodes: nothing is lost, with at most 4 GB of memory. Prints the time."""
 import resource
 import struct
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
