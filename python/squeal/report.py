@@ -149,7 +149,7 @@ def _data(results, with_shapes):
     data = {
         "case": results.folder.resolve().name,
         "version": summary.get("version", ""),
-        "verdict": verdict(results),
+        "verdict": " ".join([verdict(results), *_notes(results)]),
         "certificate": certificate(results),
         "parameters": list(PARAMETERS),
         "swept": results.swept(),
@@ -225,6 +225,12 @@ def verdict(results):
     tables."""
     given = results.summary.get("verdict")
     return given["sentence"] if given else _verdict_of_merge(results)
+
+
+def _notes(results):
+    """Returns the remark of the user (-report_note) as a sentence, if there is one."""
+    note = results.summary.get("options", {}).get("report_note", "none")
+    return [] if note == "none" else [f"Note: {note.rstrip('.')}."]
 
 
 def _verdict_of_merge(results):

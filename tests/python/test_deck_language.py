@@ -118,7 +118,8 @@ class Cards(unittest.TestCase):
         )
         one = Imported(text, ignored=["amplitude", "WHEN"])
         self.assertIn("ignored by --ignore AMPLITUDE", one.remarks("CLOAD")[1])
-        self.assertIn("# Left out by --ignore: amplitude, WHEN.\n", one.text)
+        note = one.options["report"]["note"]
+        self.assertEqual(note, "left out of deck.inp by --ignore: amplitude, WHEN")
         self.assertEqual(one.options["load"]["TOP"]["force"], "0.0,0.0,8.0")
 
     def test_thirty_unsupported_cards_are_named_at_once(self):

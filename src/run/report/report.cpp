@@ -74,9 +74,10 @@ void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::stri
 
 void write(const analysis::Analysis& analysis, const Settings& settings, Directory& directory) {
   const MPI_Comm comm = analysis.comm;
+  const std::string note = settings.note.empty() ? "" : "\nNote: " + settings.note;
   if (!analysis.interrupted()) {
     writeInto(analysis, settings, directory);
-    printLine(comm, stabilityTable(analysis));
+    printLine(comm, stabilityTable(analysis) + note);
     return;
   }
   const std::string how = analysis.checkpoint.exists() ? "; -resume continues it" : "";
@@ -94,7 +95,7 @@ void write(const analysis::Analysis& analysis, const Settings& settings, Directo
     return printWarning(comm, std::string("interrupted; the results so far cannot be written: ") +
                                   error.what() + how);
   }
-  printLine(comm, stabilityTable(analysis));
+  printLine(comm, stabilityTable(analysis) + note);
   printWarning(comm,
                "interrupted: the results so far are in " + directory.interrupted().string() + how);
 }

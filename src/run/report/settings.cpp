@@ -12,6 +12,9 @@ namespace {
 const TextOption directoryOption("report", "report_dir", "results",
                                  "folder for the results: a new or empty one, or one with earlier "
                                  "results, which are replaced when the new ones are complete");
+const TextOption noteOption("report", "report_note", "none",
+                            "remark that the log, the summary and the report repeat, such as what "
+                            "an import has left out");
 const FlagOption fieldsOption("report", "report_fields", true,
                               "write fields: results.h5 and the VTK files");
 const IntegerOption modesOption("report", "report_modes", 10, 0, 100'000,
@@ -44,6 +47,7 @@ Settings Settings::given(bool isReduced, bool ofMesh, const std::string& eventLo
   settings.eventLog = eventLog;
   settings.folder = directoryOption.get();
   settings.folderOfCase = isOfCase(settings.folder);
+  settings.note = noteOption.get() == "none" ? "" : noteOption.get();
   settings.fields = fieldsOption.get();
   if (isReduced) settings.modes = modesOption.get();
   if (settings.fields && ofMesh) {

@@ -8,6 +8,7 @@ namespace squeal::report {
 struct Settings {
   std::string folder = "results";  ///< `-report_dir`
   bool folderOfCase = false;       ///< the case names the folder, so it may contain any files
+  std::string note;                ///< `-report_note`: a remark of the user; empty = none
   bool fields = true;              ///< `-report_fields`: write results.h5 and the VTK files
   int modes = 10;                  ///< `-report_modes`: number of free modes written as fields
   int animated = 1;                ///< `-report_animated`: number of animated modes

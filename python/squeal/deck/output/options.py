@@ -6,11 +6,12 @@ MARK = "# Made by squeal-import from"
 
 
 def write_options(path, case, model, ignored):
-    """`ignored`: names of what the user has left out. Raises OSError."""
+    """`ignored`: names of what the user has left out, which the results of the case repeat. Raises
+    OSError."""
     lines = [f"{MARK} {model.title} ({model.program}). The units are those of the deck."]
     if ignored:
         names = ", ".join(" ".join(name.split()) for name in ignored)
-        lines.append(f"# Left out by --ignore: {names}.")
+        case.set(("report", "note"), f"left out of {model.title} by --ignore: {names}")
     for prefix, options in case.options.items():
         lines += ["", f"{_plain(prefix)}:"]
         lines += _lines(options, 1)
