@@ -16,7 +16,7 @@ from squeal.deck.inp.lines import read_lines
 from squeal.deck.inp.names import Names
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
 from squeal.deck.mesh import Instance
-from squeal.deck.model import Model
+from squeal.deck.model import Model, Squeal
 from squeal.deck.numbers import integer, real
 
 REASONS = {
@@ -54,6 +54,7 @@ class Step:
     after_static: bool = False
     only_friction: bool = False
     perturbation: bool = False
+    request: Squeal = None
     renewed: set = field(default_factory=set)
     loaded: set = field(default_factory=set)
 
@@ -175,6 +176,7 @@ class Reader(Names):
                 self.journal.refuse(card.source, "supports that change after the static step")
             else:
                 self._apply(card)
+        squeal.add_request(self)
         self.step = Step()
 
     def _open_step(self, card, procedure):
@@ -257,7 +259,7 @@ class Reader(Names):
                 else f"{card.source}: frequencies without the effect of the static step"
             )
         if prestress and not abaqus:
-            squeal.add_request(card.source, self, False, count, None)
+            self.step.request = Squeal(card.source, {}, False, count)
         self.journal.mark(card.source, TRANSLATED)
 
     def _static(self, card):
