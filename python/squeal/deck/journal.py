@@ -30,14 +30,19 @@ class Missing(Fault):
 
 @dataclass(frozen=True)
 class Source:
-    """A card's place: file as it is shown, line, and keyword without its star."""
+    """A card's place: file as it is shown, line, and keyword; `star` precedes keywords."""
 
     file: str
     line: int
     card: str
+    star: str = "*"
 
     def __str__(self):
         return f"{self.file}:{self.line}"
+
+    @property
+    def word(self):
+        return f"{self.star}{self.card}"
 
 
 @dataclass
@@ -57,7 +62,7 @@ class Refusal:
     def __str__(self):
         if not self.source.card:
             return f"{self.source.file}: {self.reason}"
-        subject = f"*{self.source.card}"
+        subject = self.source.word
         if self.name != self.source.card:
             subject += f", {self.name}"
         return f"{self.source.file}:{self.line}: {subject}: {self.reason}"

@@ -143,6 +143,7 @@ class Material:
     density: float = None
     density_source: Source = None
     refusals: list = field(default_factory=list)
+    loss: tuple = None  # loss factor of structural damping, and its frequency in Hz
 
 
 @dataclass
@@ -195,10 +196,13 @@ class Section:
 
 @dataclass
 class Equation:
-    """Terms (node, component, coefficient) in the axes of each node; their sum is zero."""
+    """Terms (node, component, coefficient), whose sum is zero, in the axes of each node, or in
+    global ones if not `turned`. `name`: None for that of the line."""
 
     terms: list
     source: Source
+    turned: bool = True
+    name: str = None
 
 
 @dataclass
@@ -206,7 +210,8 @@ class Rigid:
     """Nodes that move with a reference node as a rigid body, along some components of the axes of
     `frame` (None: global). The components of the node `rotation` are its rotation, if there is such
     a node; components 4 to 6 of the reference node always are. `surface`: the nodes are those of a
-    surface of this key, otherwise of the set `label`. `name`: of a coupling, None for a body."""
+    surface of this key, otherwise of the set `label`. `name`: of a coupling, None for a body.
+    `pinned`: rotations of reference nodes among the nodes stay free."""
 
     label: str
     nodes: np.ndarray
@@ -217,6 +222,7 @@ class Rigid:
     surface: str = None
     components: tuple = (0, 1, 2)
     frame: Frame = None
+    pinned: bool = False
 
 
 @dataclass
@@ -306,12 +312,16 @@ class BodyLoad:
 
 @dataclass
 class State:
-    """Supports and loads of the last static state: by node and component, by element and face."""
+    """Supports and loads of the last static state: by node and component, by element and face.
+    `global_forces`: forces are in global axes, not in those of their nodes. `gravity`: acceleration
+    of all bodies and masses, as (vector, source)."""
 
     supports: dict = field(default_factory=dict)
     forces: dict = field(default_factory=dict)
     pressures: dict = field(default_factory=dict)
     body_loads: list = field(default_factory=list)
+    global_forces: bool = False
+    gravity: tuple = None
 
 
 @dataclass
@@ -334,12 +344,21 @@ class Model:
     contacts: list = field(default_factory=list)
     joints: list = field(default_factory=list)
     masses: list = field(default_factory=list)
+    bushings: list = field(default_factory=list)
+    distributed: list = field(default_factory=list)
+    inertias: list = field(default_factory=list)
     state: State = field(default_factory=State)
     static: Source = None  # the last static step
     frequencies: int = None  # number of free modes, None: none requested
     frequency: Source = None
+    band: float = None  # upper limit of the frequencies, Hz
     prestress: bool = False
+    words: dict = field(default_factory=dict)  # names of cards that messages mention
     _lookup: tuple = None
+
+    def word(self, card):
+        """Returns the name of a card of Abaqus in the language of the deck."""
+        return self.words.get(card, f"*{card}")
 
     def merge_blocks(self):
         """Joins the elements of each type; their source is that of the first. To be called once,

@@ -6,7 +6,9 @@ from squeal.deck.case.groups import CELLS
 from squeal.deck.journal import TRANSLATED, UNUSED
 from squeal.deck.model import EMPTY
 
-REDUCED = {"C3D20R"}
+REDUCED = {"C3D20R", "CHEXA20_TWO"}
+# Hexahedra without and with incompatible modes.
+PLAIN, INCOMPATIBLE = ("C3D8", "CHEXA8_FULL"), ("C3D8I", "CHEXA8")
 # Cells that CalculiX integrates with fewer points, and the largest differences of results, measured
 # with a bar of 2 x 2 x 6 cells.
 COARSER = {
@@ -63,10 +65,8 @@ def _sections(model, numbers, journal):
             journal.refuse(section.source, f"element {twice} has two sections")
         sections[on] = number
     if np.any(sections < 0):
-        missing = numbers[sections < 0]
-        journal.refuse_model(
-            f"{len(missing)} solid elements have no *SOLID SECTION, such as {missing[0]}"
-        )
+        missing, card = numbers[sections < 0], model.word("SOLID SECTION")
+        journal.refuse_model(f"{len(missing)} solid elements have no {card}, such as {missing[0]}")
     return sections
 
 
@@ -79,7 +79,8 @@ def _material(model, case, journal, body, section, loads):
         journal.refuse(source, reason)
     if not material.law:
         if not material.refusals:
-            journal.refuse(material.source, f"material '{material.name}' has no *ELASTIC")
+            lacking = f"material '{material.name}' has no {model.word('ELASTIC')}"
+            journal.refuse(material.source, lacking)
         return
     path = ("material", body)
     if material.law == "isotropic":
@@ -87,6 +88,9 @@ def _material(model, case, journal, body, section, loads):
         case.set((*path, "poisson"), material.constants[1], material.elastic)
     else:
         case.set((*path, OPTION[material.law]), material.constants, material.elastic)
+    if material.loss is not None:
+        case.set((*path, "loss_factor"), material.loss[0], material.source)
+        case.set((*path, "loss_frequency"), material.loss[1], material.source)
     _orientation(model, case, journal, path, section, material)
     _density(model, case, journal, path, material, loads)
     for source in (material.source, material.elastic, section.source):
@@ -117,11 +121,11 @@ def _density(model, case, journal, path, material, loads):
     needs = [load.source for load in loads]
     if model.frequency:
         needs.append(model.frequency)
+    lacking = f"material '{material.name}' has no {model.word('DENSITY')}"
     for source in needs:
-        journal.refuse(source, f"material '{material.name}' has no *DENSITY")
+        journal.refuse(source, lacking)
     journal.choose(
-        f"material '{material.name}' has no *DENSITY: the density 1 is used, so the frequencies of"
-        " the case have no meaning"
+        f"{lacking}: the density 1 is used, so the frequencies of the case have no meaning"
     )
     case.set((*path, "density"), 1.0)
 
@@ -143,14 +147,14 @@ def _body_loads(case, journal, body, loads):
 
 def _element_options(model, case, journal, solids):
     kinds = {block.kind: block.source for block in solids}
-    if "C3D8" in kinds and "C3D8I" in kinds:
-        journal.refuse(
-            kinds["C3D8I"], "C3D8 and C3D8I in one deck: incompatible modes are for all or none"
-        )
-    elif "C3D8" in kinds:
-        case.set(("elasticity", "incompatible_modes"), "none", kinds["C3D8"])
-    elif "C3D8I" in kinds:
-        journal.choose("C3D8I: the incompatible modes are those of this program")
+    for plain, bent in zip(PLAIN, INCOMPATIBLE):
+        if plain in kinds and bent in kinds:
+            reason = f"{plain} and {bent} in one deck: incompatible modes are for all or none"
+            journal.refuse(kinds[bent], reason)
+        elif plain in kinds:
+            case.set(("elasticity", "incompatible_modes"), "none", kinds[plain])
+        elif bent in kinds:
+            journal.choose(f"{bent}: the incompatible modes are those of this program")
     for kind, difference in COARSER.items():
         if kind in kinds and (model.frequency or "displacements" in difference):
             journal.choose(f"{kind}: CalculiX integrates with fewer points; {difference}")

@@ -2,6 +2,7 @@
 """Equations, rigid bodies, couplings, springs, dashpots and masses of a case."""
 import numpy as np
 
+from squeal.deck.case.attachments import add_attachments
 from squeal.deck.case.groups import NODES, clean, text_of
 from squeal.deck.case.roles import elements_in
 from squeal.deck.journal import TRANSLATED, Fault, Missing
@@ -31,6 +32,7 @@ def add_joints(model, roles, case, journal, faces):
             "SPRINGA keeps its direction; CalculiX turns it with the displacements of the static"
             " step before it computes frequencies"
         )
+    add_attachments(model, roles, case, journal)
     for number in roles.used:
         position = model.nodes.at([number])[0]
         case.set(("reference", roles.references[number], "position"), position)
@@ -63,8 +65,9 @@ def set_equation(case, name, terms, source):
 
 
 def _equation(equation, model, roles, case, places):
-    terms = roles.global_terms(equation.terms)
-    set_equation(case, places.name("line", equation.source), terms, equation.source)
+    terms = roles.global_terms(equation.terms, equation.turned)
+    name = equation.name or places.name("line", equation.source)
+    set_equation(case, name, terms, equation.source)
 
 
 def _mean(mean, model, roles, case, places):
@@ -99,6 +102,8 @@ def _rigid(rigid, model, roles, case, places):
     if len(rigid.components) < 3:
         letters = "".join("xyz"[component] for component in rigid.components)
         case.set((*path, "components"), letters, rigid.source)
+    if rigid.pinned and others:
+        case.set((*path, "pinned"), True, rigid.source)
     if rigid.frame is not None and len(rigid.components) < 3:
         case.set((*path, "frame"), case.frame(rigid.frame), rigid.source)
 

@@ -29,13 +29,29 @@ class Roles:
                 journal.refuse_fault(rigid.source, fault)
         for number, component in self._uses():
             if number in self.joined:
-                self.joined[number].update(range(3) if number in model.frames else {component})
+                self.joined[number].update(self._span(number, component))
             if self.is_used(number) and number not in self.used or not model.nodes.has(number):
                 continue
-            self.used.setdefault(number, set()).update(
-                range(3) if number in model.frames else {component}
-            )
+            self.used.setdefault(number, set()).update(self._span(number, component))
             self.references[number] = f"reference_{number}"
+        for rigid in model.rigid:
+            self._follow(rigid)
+
+    def _span(self, number, component):
+        """Returns the global components that a component in the axes of a node may have a part
+        of."""
+        if number not in self.model.frames:
+            return {component}
+        return set(range(3) if component < 3 else range(3, 6))
+
+    def _follow(self, rigid):
+        """A reference node that follows another one has its components."""
+        turning = () if rigid.pinned else (3, 4, 5)
+        joined = range(3) if rigid.frame is not None else rigid.components
+        for number in rigid.nodes.tolist() if rigid.nodes is not None else ():
+            if number != rigid.reference and number in self.references:
+                table = self.used if number in self.used else self.joined
+                table.setdefault(number, set()).update((*joined, *turning))
 
     def _rigid(self, rigid):
         others = [one for one in self.model.rigid if one.reference == rigid.reference]
@@ -66,6 +82,26 @@ class Roles:
         for mass in model.masses:
             for _, nodes in elements_in(model, mass.label):
                 yield from ((node, component) for node in nodes for component in range(3))
+        yield from self._attached()
+
+    def _attached(self):
+        """Uses of bushings, masses with inertia and distributed couplings, and of the loads and
+        supports of nodes that follow others."""
+        model = self.model
+        for one in model.bushings:
+            ends = [one.first] if one.second is None else [one.first, one.second]
+            yield from ((node, at) for node in ends for at in one.components())
+        for one in model.inertias:
+            yield from ((one.node, at) for at in range(6 if one.turns else 3))
+        for one in model.distributed:
+            yield from ((one.reference, at) for at in range(6))
+            yield from ((node, at) for node in one.nodes.tolist() for at in range(3))
+        states = set(model.state.forces) | set(model.state.supports)
+        touched = {number for number, _ in states}
+        for rigid in model.rigid:
+            for number in rigid.nodes.tolist() if rigid.nodes is not None else ():
+                if number in touched and not self.in_cells(number):
+                    yield from ((number, at) for at in rigid.components)
 
     def in_cells(self, number):
         at = np.searchsorted(self.cell_nodes, number)
@@ -98,13 +134,13 @@ class Roles:
             return self.references[number]
         return self.case.group(NODES, [number], f"node_{number}")
 
-    def global_terms(self, terms):
+    def global_terms(self, terms, turned=True):
         """Returns terms (name, component, coefficient) in global axes of terms of nodes in their
-        own axes, with equal places added up. Raises Fault."""
+        own axes, or in global ones if not `turned`, with equal places added up. Raises Fault."""
         found = {}
         for number, component, coefficient in terms:
             reference, at = self.place(number, component)
-            frame = self.model.frames.get(number)
+            frame = self.model.frames.get(number) if turned else None
             if at > 2 or frame is None:
                 parts = {at: coefficient}
             else:

@@ -35,14 +35,18 @@ def translate(model, journal):
     _name_idle_nodes(model, roles, journal)
     _name_idle_cards(model, journal)
     if model.prestress:
+        more = "" if model.words else "; CalculiX also includes its change of shape"
         journal.choose(
-            f"{model.frequency}: the stress of the static step changes the stiffness; CalculiX also"
-            " includes its change of shape"
+            f"{model.frequency}: the stress of the static step changes the stiffness{more}"
         )
         case.set(("elasticity", "prestress"), True, model.frequency)
     if model.frequency is None:
         journal.choose("the deck asks for no frequencies; the case has one, the least number")
+    if model.state.gravity is not None:
+        case.set(("load", "gravity"), *model.state.gravity)
     case.set(("modes", "count"), model.frequencies or 1, model.frequency)
+    if model.band:
+        case.set(("flutter", "band"), model.band, model.frequency)
     case.set(("flutter", "friction"), 0.0)
     return case
 

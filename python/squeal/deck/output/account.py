@@ -6,10 +6,10 @@ from squeal.deck.case.groups import CELLS, FACES, NODES
 from squeal.deck.journal import Fault
 
 
-def write_account(path, model, case, journal, dialect):
+def write_account(path, model, case, journal, program):
     """`case` is None if the deck is refused. Raises OSError."""
     text = [f"# {model.title}", ""]
-    text += _outcome(journal, dialect)
+    text += _outcome(journal, program)
     text += _choices(journal)
     text += _cards(journal)
     text += _elements(model)
@@ -20,8 +20,8 @@ def write_account(path, model, case, journal, dialect):
         file.write("\n".join(text) + "\n")
 
 
-def _outcome(journal, dialect):
-    lines = [f"Read as a deck of {dialect.name}. Cards: {journal.counted()}.", ""]
+def _outcome(journal, program):
+    lines = [f"Read as a deck of {program}. Cards: {journal.counted()}.", ""]
     if journal.refusals:
         lines += ["The deck cannot be translated:", ""]
         lines += [f"- {refusal}" for refusal in journal.refusals]
@@ -40,7 +40,7 @@ def _cards(journal):
     for source, entry in journal.entries.items():
         if source.card:
             remarks = _cell("; ".join(entry.remarks))
-            lines.append(f"| {_cell(str(source))} | *{source.card} | {entry.status} | {remarks} |")
+            lines.append(f"| {_cell(str(source))} | {source.word} | {entry.status} | {remarks} |")
     return [*lines, ""]
 
 

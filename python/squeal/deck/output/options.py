@@ -5,9 +5,9 @@ import re
 MARK = "# Made by squeal-import from"
 
 
-def write_options(path, case, title, dialect, ignored):
+def write_options(path, case, title, program, ignored):
     """`ignored`: names of what the user has left out. Raises OSError."""
-    lines = [f"{MARK} {title} ({dialect.name}). The units are those of the deck."]
+    lines = [f"{MARK} {title} ({program}). The units are those of the deck."]
     if ignored:
         names = ", ".join(" ".join(name.split()) for name in ignored)
         lines.append(f"# Left out by --ignore: {names}.")
@@ -27,7 +27,7 @@ def _lines(options, depth):
             continue
         text, source = value
         line = f"{start} {_quoted(text)}"
-        lines.append(f"{line}  # {source} *{source.card}" if source else line)
+        lines.append(f"{line}  # {source} {source.word}" if source else line)
     return lines
 
 
