@@ -13,7 +13,8 @@ from squeal.deck.journal import Source
 @dataclass
 class Bushing:
     """Stiffness and damping along three axes and about them, between two nodes, or from one node
-    to the ground (`second` None). `frame`: its axes, None for global ones."""
+    to the ground (`second` None). `frame`: its axes, None for global ones. `arms`: its ends are
+    apart, so that displacements across their line depend on their rotations."""
 
     name: str
     first: int
@@ -22,12 +23,15 @@ class Bushing:
     damping: np.ndarray
     frame: object
     source: Source
+    arms: bool = False
 
     def components(self):
         """Returns the components of its ends that it may use; axes may be turned."""
-        values = np.abs(self.stiffness) + np.abs(self.damping)
-        found = range(3) if np.any(values[:3]) else ()
-        return (*found, *(range(3, 6) if np.any(values[3:]) else ()))
+        used = np.abs(self.stiffness) + np.abs(self.damping) > 0
+        if self.frame is not None:
+            used = np.repeat([np.any(used[:3]), np.any(used[3:])], 3)
+        used[3:] |= self.arms
+        return tuple(np.flatnonzero(used).tolist())
 
 
 @dataclass

@@ -19,11 +19,12 @@ def psolid(card, reader):
         raise Fault(f"property {number} is defined twice")
     scheme, network = card.word(6, "REDUCED"), card.word(4)
     if scheme not in ("REDUCED", "FULL", "0", "1"):
-        raise Fault(f"ISOP {scheme} is not supported", "ISOP")
+        reader.journal.refuse(card.source, f"{scheme} is not supported", "ISOP")
     if network not in ("", "0", "BUBBLE", "2", "TWO", "3", "THREE"):
-        raise Fault(f"IN {network} is not supported", "IN")
+        reader.journal.refuse(card.source, f"{network} is not supported", "IN")
     if card.word(7, "SMECH") != "SMECH":
-        raise Fault(f"FCTN {card.word(7)}: elements of fluids are not supported", "FCTN")
+        reason = f"{card.word(7)}: elements of fluids are not supported"
+        reader.journal.refuse(card.source, reason, "FCTN")
     card.word(5)  # stress output
     material, system = card.identifier(2), card.integer(3, 0)
     few = network in ("2", "TWO")
@@ -86,9 +87,8 @@ def mat1(card, reader):
     elif poisson is None:
         poisson = young / (2 * shear) - 1 if shear else 0.0
     elif shear is not None and abs(young / (2 * (1 + poisson)) - shear) > 1e-3 * abs(shear):
-        raise Fault(
-            f"G differs from E / (2 + 2 NU) = {young / (2 * (1 + poisson)):.6g}", line=card.line
-        )
+        reason = f"it differs from E / (2 + 2 NU) = {young / (2 * (1 + poisson)):.6g}"
+        reader.journal.refuse(card.source, reason, "G")
     one.law, one.constants = "isotropic", (young, poisson)
     _density(one, card.real(5, 0.0), card, reader)
     _thermal(card, (6, 7), reader)
@@ -151,16 +151,16 @@ def quadrature(reader):
 def orient(reader):
     """Adds the axes of materials, when all systems are known."""
     for number, key, source in reader.orientations:
-        if number < 0:
-            reader.journal.refuse(
-                source, "axes of the elements (CORDM < 0) are not supported", "CORDM"
-            )
-            continue
         try:
+            if number < 0:
+                raise Fault("axes of the elements (CORDM < 0) are not supported", "CORDM")
             system = reader.systems.at(number)
             if system.kind == "spherical":
                 raise Fault("spherical axes of a material are not supported", "CORDM")
         except Fault as fault:
             reader.journal.refuse(source, fault.reason, fault.name)
+            for section in reader.model.sections:
+                if section.source is source:
+                    section.orientation = None
         else:
             reader.model.orientations[key] = system.frame()

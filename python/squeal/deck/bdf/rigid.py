@@ -65,14 +65,15 @@ def _rigid(card, reader, name, independent, components, nodes):
             card.source, UNUSED, "rotations of nodes of solid elements do not exist"
         )
         return
-    parts = {None: nodes}
+    parts = {0: (None, nodes)}
     if len(moved) < 3:
         parts = {}
         for node in nodes.tolist():
-            parts.setdefault(model.frames.get(node), []).append(node)
+            frame = model.frames.get(node)
+            parts.setdefault(id(frame), (frame, []))[1].append(node)
     if reader.in_cells(np.array([independent]))[0]:
         _stand_for(card, reader, independent)
-    for count, (frame, numbers) in enumerate(parts.items(), 1):
+    for count, (frame, numbers) in enumerate(parts.values(), 1):
         own = name if count == 1 else f"{name}_{count}"
         numbers = np.array(numbers, np.int64)
         model.node_sets.add(own.upper(), own, card.source, [numbers])

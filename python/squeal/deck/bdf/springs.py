@@ -198,7 +198,10 @@ def cbush(card, reader):
     if frame is None and along:
         frame = _along(number, line, _across(line), card.source)
     name = f"cbush_{number}"
-    model.bushings.append(Bushing(name, first, second, stiffness, damping, frame, card.source))
+    arms = bool(apart and transverse)
+    model.bushings.append(
+        Bushing(name, first, second, stiffness, damping, frame, card.source, arms)
+    )
 
 
 def _bushing_axes(card, reader, first, line):

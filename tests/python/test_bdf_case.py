@@ -1,0 +1,612 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
+"""Cases of Nastran decks: coordinate systems, materials, supports, loads and joints."""
+import re
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+repository = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
+sys.dont_write_bytecode = True
+from small_bdf import CONTROL, CUBE, POINTS, STEEL, cube, force, imported, refusals
+
+BULK = "BEGIN BULK\n"
+COMPLEX = "SOL 110\nCEND\nSPC = 10\nMETHOD = 5\nBEGIN BULK\n"
+EIGRL = "EIGRL,5,,,3\n"
+
+
+def numbers(text):
+    return np.array([float(word) for word in str(text).split(",")])
+
+
+def terms(equation):
+    """Returns the coefficients of an equation by place."""
+    left, right = equation.split(" = ")
+    assert right == "0"
+    found = {}
+    for sign, factor, place in re.findall(r"(^|[+-] )(?:([\d.e+-]+)\*)?(\S+:\w+)", left):
+        found[place] = (-1 if sign == "- " else 1) * float(factor or 1)
+    return found
+
+
+def turned(axis, degrees):
+    """Returns a rotation about an axis as a matrix."""
+    k, angle = np.array(axis, float) / np.linalg.norm(axis), np.radians(degrees)
+    cross = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+TURN = turned((1, 2, -0.5), 40)
+ORIGIN = np.array([0.3, -0.2, 0.7])
+
+
+def card(name, number, reference, origin, axes):
+    """Returns a system whose axes are the rows of `axes`, by three points of `reference`."""
+    points = np.concatenate([origin, origin + 2 * axes[2], origin + axes[2] + 3 * axes[0]])
+    words = [f"{value!r}" for value in points.tolist()]
+    first = ",".join([name, str(number), str(reference), *words[:6]])
+    return f"{first}\n,{','.join(words[6:])}\n"
+
+
+def frame_of(options, name):
+    """Returns the rectangular axes of a frame as rows."""
+    x, other = (numbers(options["frame"][name][key]) for key in ("x", "xy"))
+    x = x / np.linalg.norm(x)
+    z = np.cross(x, other) / np.linalg.norm(np.cross(x, other))
+    return np.array([x, np.cross(z, x), z])
+
+
+class Systems(unittest.TestCase):
+    def place(self, cards, coordinates, system=3):
+        """Returns the place of grid 5 with coordinates in a system."""
+        text = cube(force() + cards)
+        words = ",".join(f"{value!r}" for value in coordinates)
+        return imported(text.replace("GRID,5,,0.,0.,1.", f"GRID,5,{system},{words}")).coordinates[4]
+
+    def near(self, found, wanted):
+        np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-12)
+
+    def test_places_in_each_kind(self):
+        r, theta, phi = 1.3, 25.0, 70.0
+        t, p = np.radians([theta, phi])
+        for name, coordinates, local in (
+            ("CORD2R", (0.1, 0.2, 1.1), (0.1, 0.2, 1.1)),
+            ("CORD2C", (r, theta, 0.4), (r * np.cos(t), r * np.sin(t), 0.4)),
+            (
+                "CORD2S",
+                (r, theta, phi),
+                (
+                    r * np.sin(t) * np.cos(p),
+                    r * np.sin(t) * np.sin(p),
+                    r * np.cos(t),
+                ),
+            ),
+        ):
+            axes = TURN.T
+            found = self.place(card(name, 3, 0, ORIGIN, axes), coordinates)
+            self.near(found, ORIGIN + np.array(local) @ axes)
+
+    def test_chains_in_any_order(self):
+        """A cylindrical system in a spherical one in a turned rectangular one."""
+        outer = card("CORD2R", 7, 0, ORIGIN, TURN.T)
+        # Three points of the middle system, spherical coordinates of system 8.
+        r = np.sqrt(2.0)
+        middle = card("CORD2S", 8, 7, np.array([0.5, 0.0, 0.0]), np.eye(3))
+        points = [(1.0, 90.0, 90.0), (r, 45.0, 90.0), (r, 90.0, 45.0)]
+        words = [f"{value!r}" for point in points for value in point]
+        inner = f"CORD2C,3,8,{','.join(words[:6])}\n,{','.join(words[6:])}\n"
+        # In system 8: origin (0, 1, 0), z through (0, 1, 1), x towards (1, 1, 0).
+        t = np.radians(30)
+        local = np.array([0.5, 0, 0]) + [2 * np.cos(t), 1 + 2 * np.sin(t), 0.25]
+        wanted = ORIGIN + local @ TURN.T
+        for cards in (outer + middle + inner, inner + middle + outer):
+            self.near(self.place(cards, (2.0, 30.0, 0.25)), wanted)
+
+    def test_systems_of_grids(self):
+        """CORD1 by grids, one of which has a place in another system; two systems on a card."""
+        outer = card("CORD2R", 7, 0, ORIGIN, TURN.T)
+        grids = "GRID,101,7,0.,0.,0.\nGRID,102,7,0.,0.,4.\nGRID,103,7,2.,0.,1.\n"
+        for name in ("CORD1R", "CORD1C"):
+            cards = outer + grids + f"{name},9,2,3,4,3,101,102,103\n"
+            local = (1.0, 0.5, 0.2)
+            if name == "CORD1C":
+                local = (1.0 * np.cos(np.radians(0.5)), np.sin(np.radians(0.5)), 0.2)
+            self.near(self.place(cards, (1.0, 0.5, 0.2)), ORIGIN + np.array(local) @ TURN.T)
+
+    def test_defaults_of_grids(self):
+        outer = card("CORD2R", 7, 0, ORIGIN, TURN.T) + "GRDSET,,7,,,,7,2\n"
+        text = cube(force() + outer + "GRID,9,0,9.,9.,9.,0,0\nCONM2,1,9,,1.\n")
+        text = text.replace("GRID,1,,", "GRID,1,0,")
+        one = imported(text)
+        self.near(one.coordinates[0], POINTS[0])
+        self.near(one.coordinates[6], ORIGIN + TURN @ POINTS[6])
+        self.assertEqual(
+            numbers(one.options["reference"]["reference_9"]["position"]).tolist(), [9] * 3
+        )
+        held = one.options["constraint"]["ps_2"]
+        self.assertEqual((held["clamped"], held["frame"]), ("y", "cord_7"))
+        self.assertEqual(one.groups["ps_2"], [5, 6, 7, 8])
+
+    def test_systems_that_are_wrong(self):
+        for cards, reason in (
+            ("CORD2R,3,3,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", "coordinate system 3 depends on itself"),
+            ("CORD2R,3,4,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", "there is no coordinate system 4"),
+            ("CORD2R,3,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\n", "lie on a line"),
+            ("CORD1R,3,1,5,2\n", "depends on itself"),
+            ("CORD1R,3,1,99,2\n", "there is no grid 99"),
+        ):
+            text = cube(force() + cards).replace("GRID,5,,", "GRID,5,3,")
+            rows = refusals(text)
+            self.assertIn(f"deck.bdf:10: GRID: grid 5: ", rows[0])
+            self.assertIn(reason, rows[0])
+
+    def test_components_of_supports_and_forces(self):
+        """Supports have the axes of CD; forces those of their own system."""
+        outer = card("CORD2C", 7, 0, ORIGIN, TURN.T)
+        text = cube("FORCE,20,7,7,2.,0.,3.,0.\nSPC1,10,2,7\n" + outer)
+        text = text.replace("GRID,7,,1.,1.,1.", "GRID,7,,1.,1.,1.,7")
+        one = imported(text)
+        self.assertIn({"clamped": "y", "frame": "cord_7"}, one.options["constraint"].values())
+        self.near(numbers(one.options["frame"]["cord_7"]["origin"]), ORIGIN)
+        self.near(numbers(one.options["frame"]["cord_7"]["axis"]), TURN.T[2])
+        arm = TURN.T @ ([1, 1, 1] - ORIGIN)
+        tangent = np.array([-arm[1], arm[0], 0]) / np.hypot(arm[0], arm[1]) @ TURN.T
+        (load,) = one.options["load"].values()
+        self.near(numbers(load["force"]), 6 * tangent)
+
+    def test_axes_of_spherical_systems(self):
+        outer = card("CORD2S", 7, 0, ORIGIN, np.eye(3))
+        text = cube(force() + "SPC1,10,3,7\n" + outer).replace("1.,1.,1.", "1.,1.,1.,7")
+        one = imported(text)
+        (name,) = one.options["frame"]
+        x, y, z = np.array([1, 1, 1]) - ORIGIN
+        rho, across = np.sqrt(x * x + y * y + z * z), np.hypot(x, y)
+        wanted = [
+            [x / rho, y / rho, z / rho],
+            [z * x / across / rho, z * y / across / rho, -across / rho],
+            [-y / across, x / across, 0],
+        ]
+        self.near(frame_of(one.options, name), np.array(wanted))
+
+
+class Materials(unittest.TestCase):
+    def constants(self, card, cards="", control=CONTROL):
+        text = control + CUBE + STEEL.replace("MAT1,1,210000.,,0.3,7.8-9\n", card)
+        one = imported(text + "SPC1,10,123,1,THRU,4\n" + force() + cards)
+        return one.options["material"]["psolid_1"], one
+
+    def test_two_of_the_three_constants(self):
+        for words, young, poisson in (
+            ("200.,,.25", 200, 0.25),
+            ("200.,80.,", 200, 0.25),
+            (",80.,.25", 200, 0.25),
+            ("200.,80.,.25", 200, 0.25),
+            ("200.,,", 200, 0),
+            (",80.,", 160, 0),
+        ):
+            found, _ = self.constants(f"MAT1,1,{words},3.\n")
+            self.assertAlmostEqual(found["young"], young, 10)
+            self.assertAlmostEqual(found["poisson"], poisson, 12)
+        (row,) = refusals(cube(force()).replace("210000.,,", "210000.,99.,"))
+        self.assertIn("MAT1, G: it differs from E / (2 + 2 NU) = 80769.2", row)
+
+    def test_masses_have_the_factor_of_weights(self):
+        found, one = self.constants(
+            "MAT1,1,200.,,.25,3.\n", "PARAM,WTMASS,.5\nGRID,9,,0.,0.,4.\nCONM2,1,9,,4.\n"
+        )
+        self.assertEqual(found["density"], 1.5)
+        self.assertEqual(one.options["mass"]["reference_9"]["total"], 2.0)
+
+    def test_anisotropic_laws(self):
+        """The strains of MAT9 are xx, yy, zz, xy, yz, zx, ours 11, 22, 33, 12, 13, 23."""
+        rng = np.random.default_rng(4)
+        matrix = rng.random((6, 6))
+        matrix = matrix @ matrix.T + 6 * np.eye(6)
+        values = [f"{matrix[i, j]:.10f}" for i in range(6) for j in range(i, 6)]
+
+        def written(values):
+            words = ["1", *values, "2.5"]
+            return "MAT9," + "\n,".join(",".join(words[at : at + 8]) for at in (0, 8, 16)) + "\n"
+
+        found, _ = self.constants(written(values))
+        place = {"11": 0, "22": 1, "33": 2, "12": 3, "23": 4, "13": 5}
+        order = "11 22 33 12 13 23".split()
+        wanted = [matrix[place[a], place[b]] for at, a in enumerate(order) for b in order[: at + 1]]
+        np.testing.assert_allclose(numbers(found["anisotropic"]), wanted, rtol=1e-9)
+        self.assertEqual(found["density"], 2.5)
+        sparse = [
+            value if (i == j or max(i, j) < 3) else ""
+            for value, (i, j) in zip(values, ((i, j) for i in range(6) for j in range(i, 6)))
+        ]
+        found, _ = self.constants(written(sparse))
+        wanted = [
+            matrix[place[a], place[b]]
+            for a, b in (
+                *(
+                    ("11", "11"),
+                    ("11", "22"),
+                    ("22", "22"),
+                    ("11", "33"),
+                    ("22", "33"),
+                    ("33", "33"),
+                ),
+                *(("12", "12"), ("13", "13"), ("23", "23")),
+            )
+        ]
+        np.testing.assert_allclose(numbers(found["orthotropic"]), wanted, rtol=1e-9)
+
+    def test_axes_of_materials(self):
+        words = [
+            "1",
+            "6.",
+            "",
+            "",
+            "",
+            "",
+            "",
+            "6.",
+            "",
+            "",
+            "",
+            "",
+            "6.",
+            "",
+            "",
+            "",
+            "1.",
+            "",
+            "",
+        ]
+        words += ["1.", "", "2.", "2.5"]
+        law = "MAT9," + "\n,".join(",".join(words[at : at + 8]) for at in (0, 8, 16)) + "\n"
+        for name, key in (("CORD2R", "orientation"), ("CORD2C", "cylindrical")):
+            text = CONTROL + CUBE + law + "PSOLID,1,1,7\nSPC1,10,123,1,THRU,4\n" + force()
+            found = imported(text + card(name, 7, 0, ORIGIN, TURN.T)).options["material"][
+                "psolid_1"
+            ]
+            axes = TURN.T
+            wanted = [*axes[0], *axes[1]] if key == "orientation" else [*ORIGIN, *axes[2]]
+            np.testing.assert_allclose(numbers(found[key]), wanted, atol=1e-12)
+        for system, reason in (("-1", "CORDM < 0"), ("99", "there is no coordinate system 99")):
+            (row,) = refusals(text.replace("PSOLID,1,1,7", f"PSOLID,1,1,{system}"))
+            self.assertIn(reason, row)
+
+    def test_structural_damping(self):
+        law = "MAT1,1,200.,,.25,3.,,,.04\n"
+        _, one = self.constants(law)
+        self.assertNotIn("loss_factor", one.text)
+        self.assertIn("GE is not used", one.account)
+        found, _ = self.constants(law, EIGRL + "PARAM,W4,6283.185307179586\n", COMPLEX)
+        self.assertEqual(found["loss_factor"], 0.04)
+        self.assertAlmostEqual(found["loss_frequency"], 1000, 9)
+        text = cube(EIGRL, control=COMPLEX).replace("7.8-9", "7.8-9,,,.04")
+        (row,) = refusals(text)
+        self.assertIn("MAT1, GE: structural damping needs the frequency", row)
+
+    def test_quadratures(self):
+        for words, mode in (("", None), (",,,,FULL", "none"), (",,TWO,,1", "none")):
+            text = cube(force()).replace("PSOLID,1,1\n", f"PSOLID,1,1{words}\n")
+            found = imported(text).options.get("elasticity", {}).get("incompatible_modes")
+            self.assertEqual(found, mode)
+        (row,) = refusals(cube(force()).replace("PSOLID,1,1\n", "PSOLID,1,1,,,,,PFLUID\n"))
+        self.assertIn("PSOLID, FCTN: PFLUID: elements of fluids", row)
+        (row,) = refusals(cube(force()).replace("PSOLID,1,1\n", "PSOLID,2,1\n"))
+        self.assertIn("1 solid elements have no PSOLID, such as 1", row)
+
+
+class State(unittest.TestCase):
+    def test_ways_to_hold(self):
+        for cards, held in (
+            ("SPC1,10,123,1,2,3,4\n", {"spc_10": "xyz"}),
+            ("SPC1,10,13,1,THRU,2\nSPC1,10,13,3,THRU,9\n", None),
+            ("SPC,10,1,12,,2,12\nSPC,10,3,12\n", {"spc_10": "xy"}),
+            ("SPC1,7,123,1\nSPC1,8,123,2\nSPCADD,10,7,8\n", None),
+            ("SPC1,10,123456,1,2,3,4\n", {"spc_10": "xyz"}),
+        ):
+            one = imported(cube(force(), held=cards))
+            if held:
+                found = {
+                    name: value["clamped"] for name, value in one.options["constraint"].items()
+                }
+                self.assertEqual(found, held)
+        self.assertEqual(
+            one.remarks("SPC1")[1], "rotations of nodes of solid elements do not exist"
+        )
+
+    def test_prescribed_values(self):
+        one = imported(cube(force() + "SPC,10,7,3,.5\n"))
+        values = [value.get("displacement") for value in one.options["constraint"].values()]
+        self.assertIn("0.0,0.0,0.5", values)
+        one = imported(cube("SPC1,10,3,7\nSPCD,20,7,3,.25\n"))
+        values = [value.get("displacement") for value in one.options["constraint"].values()]
+        self.assertIn("0.0,0.0,0.25", values)
+        (row,) = refusals(cube("SPCD,20,7,3,.25\n"))
+        self.assertIn("component 3 of grid 7 has no SPC", row)
+
+    def test_combined_loads(self):
+        cards = "FORCE,1,5,,1.,1.,0.,0.\nFORCE,2,5,,1.,0.,1.,0.\nLOAD,30,2.,5.,1\n"
+        one = imported(cube(cards + "LOAD,20,3.,1.,30,-1.,2,2.,1\n"))
+        self.assertEqual(numbers(one.options["load"]["node_5"]["force"]).tolist(), [36, -3, 0])
+        (row,) = refusals(cube("LOAD,20,1.,1.,30\nLOAD,30,1.,1.,20\n"))
+        self.assertIn("LOAD 20 contains itself", row)
+
+    def test_forces_along_two_grids(self):
+        one = imported(cube("FORCE1,20,5,10.,1,7\n"))
+        wanted = 10 / np.sqrt(3) * np.ones(3)
+        np.testing.assert_allclose(numbers(one.options["load"]["node_5"]["force"]), wanted)
+
+    def test_pressures(self):
+        one = imported(cube("PLOAD4,20,1,3.,,,,5,7\nPLOAD4,20,1,1.,1.,1.,1.,7,5\n"))
+        (name,) = one.options["load"]
+        self.assertEqual(one.options["load"][name]["pressure"], 4.0)
+        self.assertEqual(sorted(one.groups[name][0]), [5, 6, 7, 8])
+        for card, reason in (
+            ("PLOAD4,20,1,3.,4.,,,5,7\n", "varies over a face"),
+            ("PLOAD4,20,1,3.,,,,5,7\n,0,1.,0.,0.\n", "PLOAD4, N1: a load along a direction"),
+            ("PLOAD4,20,1,3.,,,,5,6\n", "name no face of element 1"),
+            ("PLOAD4,20,1,3.,,,,THRU,6\n", "THRU is for shells"),
+            ("PLOAD4,20,9,3.,,,,5,7\n", "there is no solid element 9"),
+        ):
+            (row,) = refusals(cube(card))
+            self.assertIn(reason, row)
+
+    def test_gravity_acts_on_masses_as_well(self):
+        one = imported(cube("GRAV,20,,9.81,0.,0.,-2.\nGRID,9,,0.,0.,4.\nCONM2,1,9,,4.\n"))
+        self.assertEqual(numbers(one.options["load"]["gravity"]).tolist(), [0, 0, -19.62])
+
+    def test_rotation(self):
+        one = imported(cube("RFORCE,20,2,,3.,0.,2.,0.\n"))
+        load = one.options["load"]["psolid_1"]
+        self.assertAlmostEqual(load["spin"], 12 * np.pi, 12)
+        self.assertEqual(numbers(load["spin_origin"]).tolist(), [1, 0, 0])
+        self.assertEqual(numbers(load["spin_axis"]).tolist(), [0, 1, 0])
+        (row,) = refusals(cube("RFORCE,20,2,,3.,0.,2.,0.,2\n,1.5\n"))
+        self.assertIn("RACC", row)
+
+
+class Joints(unittest.TestCase):
+    GRIDS = "GRID,20,,.5,.5,3.\nGRID,21,,.5,.5,3.\nGRID,22,,.5,.5,5.\n"
+
+    def test_rigid_elements(self):
+        one = imported(cube("FORCE,20,20,,1.,0.,0.,1.\nRBE2,7,20,123456,5,6,7,8\n" + self.GRIDS))
+        self.assertEqual(
+            one.options["coupling"], {"rbe2_7": {"reference": "reference_20", "nodes": "rbe2_7"}}
+        )
+        self.assertEqual(one.groups["rbe2_7"], [5, 6, 7, 8])
+        self.assertEqual(one.options["load"], {"reference_20": {"force": "0.0,0.0,1.0"}})
+        self.assertNotIn("reference_20", one.options["constraint"])
+
+    def test_components_of_rigid_elements(self):
+        """They have the axes of the dependent grids."""
+        text = cube(force() + "RBE2,7,20,13,5,6,7,8,2.5-6\n" + self.GRIDS)
+        found = imported(text).options["coupling"]["rbe2_7"]
+        self.assertEqual(found["components"], "xz")
+        text += card("CORD2R", 7, 0, ORIGIN, TURN.T)
+        text = text.replace("ENDDATA\n", "")
+        text = text.replace("1.,1.,1.", "1.,1.,1.,7").replace(
+            "GRID,8,,0.,1.,1.", "GRID,8,,0.,1.,1.,7"
+        )
+        one = imported(text)
+        self.assertEqual(one.options["coupling"]["rbe2_7_2"]["frame"], "cord_7")
+        self.assertEqual((one.groups["rbe2_7"], one.groups["rbe2_7_2"]), ([5, 6], [7, 8]))
+
+    def test_grids_of_cells_with_rotations(self):
+        """An independent grid of solid cells becomes a reference node that its cells follow."""
+        one = imported(cube("MOMENT,20,5,,1.,0.,0.,1.\nRBE2,7,5,123,6,7\n"))
+        couplings = one.options["coupling"]
+        self.assertEqual({one["reference"] for one in couplings.values()}, {"reference_5"})
+        self.assertEqual(one.groups[couplings["grid_5"]["nodes"]], [5])
+        self.assertEqual(one.options["load"], {"reference_5": {"moment": "0.0,0.0,1.0"}})
+
+    def test_dependent_reference_nodes(self):
+        cards = "RBE2,7,20,{},5,6,22\nCONM2,3,22,,4.\n" + self.GRIDS
+        for components, pinned in (("123", True), ("123456", None)):
+            one = imported(cube(force() + cards.format(components)))
+            self.assertIn("reference_22", one.options["coupling"]["rbe2_7"]["nodes"])
+            self.assertEqual(one.options["coupling"]["rbe2_7"].get("pinned"), pinned)
+            held = one.options["constraint"].get("reference_22", {})
+            self.assertEqual(held.get("clamped_rotation"), "xyz" if pinned else None)
+        (row,) = refusals(cube(force() + cards.format("1234")))
+        self.assertIn("some rotations of grid 22", row)
+
+    def test_rigid_bars(self):
+        one = imported(cube(force() + "RBAR,7,20,5,123456\n" + self.GRIDS))
+        self.assertEqual(one.groups["rbar_7"], [5])
+        one = imported(cube(force() + "RBAR,7,5,20,,123456,12\n" + self.GRIDS))
+        self.assertEqual(one.options["coupling"]["rbar_7"]["components"], "xy")
+        (row,) = refusals(cube(force() + "RBAR,7,20,5,123,456\n" + self.GRIDS))
+        self.assertIn("must belong to one end", row)
+
+    def test_mean_motions(self):
+        card = "RBE3,7,,20,123456,1.,123,5,6\n,7,2.,123,8\n"
+        one = imported(cube("FORCE,20,20,,1.,0.,0.,1.\n" + card + self.GRIDS))
+        found = one.options["coupling"]["rbe3_7"]
+        self.assertEqual((found["kind"], found["reference"]), ("distributed", "reference_20"))
+        weights = dict(zip(found["nodes"].split(","), numbers(found["weights"])))
+        self.assertEqual(
+            {tuple(one.groups[name]): weight for name, weight in weights.items()},
+            {(5, 6, 7): 1.0, (8,): 2.0},
+        )
+
+    def mean(self, reference, wanted, groups, axes, at):
+        """Returns the components of the reference as rows of coefficients of (node, component), by
+        the formula of the mean motion with turned axes (weights times squares are least)."""
+        rows, forces = np.zeros((6, 6)), {}
+        for weight, components, nodes in groups:
+            for node in nodes:
+                arm = np.array(POINTS[node - 1], float) - reference
+                for component in components:
+                    e = axes.get(node, np.eye(3))[component]
+                    form = np.concatenate([e, np.cross(arm, e)])
+                    rows += weight * np.outer(form, form)
+                    for one in range(3):
+                        key = node, one
+                        forces[key] = forces.get(key, 0) + weight * form * e[one]
+        inverse = np.linalg.inv(rows)
+        return {key: inverse @ value for key, value in forces.items()}
+
+    def test_mean_motions_of_some_components_in_turned_axes(self):
+        card_ = card("CORD2R", 7, 0, ORIGIN, TURN.T)
+        rbe3 = "RBE3,7,,20,126,1.5,123,5,7\n,2.,13,6,8\n"
+        text = cube(force() + rbe3 + self.GRIDS + card_)
+        text = text.replace("1.,1.,1.", "1.,1.,1.,7").replace(
+            "GRID,8,,0.,1.,1.", "GRID,8,,0.,1.,1.,7"
+        )
+        text = text.replace("GRID,20,,.5,.5,3.", "GRID,20,,.5,.5,3.,7")
+        one = imported(text)
+        axes = {7: TURN.T, 8: TURN.T}
+        groups = [(1.5, (0, 1, 2), (5, 7)), (2.0, (0, 2), (6, 8))]
+        wanted = self.mean(np.array([0.5, 0.5, 3.0]), "126", groups, axes, None)
+        for component in (0, 1, 5):
+            found = terms(one.options["equation"][f"rbe3_7_{component + 1}"])
+            block, axis = 3 * (component // 3), TURN.T[component % 3]
+            scale = found[f"reference_20:{('x', 'rx')[component // 3]}"] / axis[0]
+            for (node, at), value in wanted.items():
+                mine = found.get(f"node_{node}:{'xyz'[at]}", 0.0) / scale
+                self.assertAlmostEqual(mine, -axis @ value[block : block + 3], 11)
+            names = ("x", "y", "z") if component < 3 else ("rx", "ry", "rz")
+            mine = [found[f"reference_20:{name}"] / scale for name in names]
+            np.testing.assert_allclose(mine, axis, atol=1e-12)
+
+    def test_equations_of_rigid_motions(self):
+        """Rigid motions satisfy the equations of a mean motion."""
+        one = imported(cube(force() + "RBE3,7,,20,1346,1.,123,5,6\n,7\n" + self.GRIDS))
+        shift, turn = np.array([0.3, -0.5, 0.2]), np.array([0.1, 0.7, -0.4])
+        places = {f"node_{at}": np.array(POINTS[at - 1], float) for at in range(1, 9)}
+        places["reference_20"] = np.array([0.5, 0.5, 3.0])
+        self.assertEqual(len(one.options["equation"]), 4)
+        for equation in one.options["equation"].values():
+            total = 0.0
+            for place, value in terms(equation).items():
+                name, component = place.split(":")
+                motion = shift + np.cross(turn, places[name])
+                values = dict(zip(("x", "y", "z", "rx", "ry", "rz"), (*motion, *turn)))
+                total += value * values[component]
+            self.assertAlmostEqual(total, 0, 12)
+
+    def test_mean_motions_that_are_refused(self):
+        for card_, reason in (
+            ("RBE3,7,,20,123456,1.,123456,5,6\n", "rotations of the grids"),
+            ("RBE3,7,,20,1,1.,1,5,6\n", "do not determine the motion"),
+            ("RBE3,7,,5,1236,1.,123,6,7\n,8\n", "grid 5 of solid elements has no rotations"),
+            ("RBE3,7,,20,123456,-1.,123,6,7\n,8\n", "weights must be positive"),
+        ):
+            (row,) = refusals(cube(force() + card_ + self.GRIDS))
+            self.assertIn(reason, row)
+
+    def test_equations(self):
+        """MPC is in the axes of its grids; only the selected sets count."""
+        control = CONTROL.replace("LOAD", "MPC = 30\nLOAD")
+        cards = "MPC,3,5,1,2.,6,1,-1.\n,,7,3,.5\nMPC,4,5,2,1.,6,2,1.\nMPC,5,5,3,1.,6,3,1.\n"
+        one = imported(cube(force() + cards + "MPCADD,30,3,4\n", control=control))
+        found = [terms(one) for one in one.options["equation"].values()]
+        self.assertEqual(found[0], {"node_5:x": 2.0, "node_6:x": -1.0, "node_7:z": 0.5})
+        self.assertEqual(len(found), 2)
+        text = cube(force() + cards + card("CORD2R", 7, 0, ORIGIN, TURN.T), control=control)
+        text = text.replace("MPC = 30", "MPC = 3").replace("1.,1.,1.", "1.,1.,1.,7")
+        (found,) = imported(text).options["equation"].values()
+        mine = [terms(found)[f"node_7:{axis}"] for axis in "xyz"]
+        np.testing.assert_allclose(mine, 0.5 * TURN.T[2], atol=1e-12)
+
+    def test_masses(self):
+        """I21, I31 and I32 are positive sums; the tensor has them with a minus."""
+        cards = "CONM2,3,20,,4.,.1,.2,.3,\n,11.,-1.,12.,2.,3.,13.\n" + self.GRIDS
+        found = imported(cube(force() + cards)).options["mass"]["reference_20"]
+        self.assertEqual(found["total"], 4.0)
+        self.assertEqual(numbers(found["offset"]).tolist(), [0.1, 0.2, 0.3])
+        self.assertEqual(numbers(found["inertia"]).tolist(), [11, 12, 13, 1, -2, -3])
+        tensor = np.array([[11, 1, -2], [1, 12, -3], [-2, -3, 13]])
+        text = cube(
+            force() + cards.replace("20,,4.", "20,7,4.") + card("CORD2R", 7, 0, ORIGIN, TURN.T)
+        )
+        found = imported(text).options["mass"]["reference_20"]
+        np.testing.assert_allclose(numbers(found["offset"]), TURN @ [0.1, 0.2, 0.3], atol=1e-12)
+        wanted = TURN @ tensor @ TURN.T
+        order = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+        mine = numbers(found["inertia"])
+        np.testing.assert_allclose(mine, [wanted[at] for at in order], atol=1e-12)
+        found = imported(text.replace("20,7,4.", "20,-1,4.")).options["mass"]["reference_20"]
+        np.testing.assert_allclose(
+            numbers(found["offset"]), np.array([-0.4, -0.3, -2.7]), atol=1e-12
+        )
+
+    def test_masses_of_one_grid(self):
+        """Two masses apart from each other have the inertia of their distance."""
+        cards = "CONM2,3,20,,1.,1.\nCONM2,4,20,,3.,-1.\n" + self.GRIDS
+        found = imported(cube(force() + cards)).options["mass"]["reference_20"]
+        self.assertEqual((found["total"], found["offset"]), (4.0, "-0.5,0.0,0.0"))
+        np.testing.assert_allclose(numbers(found["inertia"]), [0, 3, 3, 0, 0, 0], atol=1e-14)
+
+    def test_masses_of_cells(self):
+        one = imported(cube(force() + "CONM2,3,5,,2.\nCONM2,4,6,,2.\nCONM2,5,7,,3.\n"))
+        found = {
+            tuple(one.groups[name]): value["total"] for name, value in one.options["mass"].items()
+        }
+        self.assertEqual(found, {(5, 6): 4.0, (7,): 3.0})
+        (row,) = refusals(cube(force() + "CONM2,3,5,,2.,.1\n"))
+        self.assertIn("node 5 of solid cells has no rotations", row)
+
+    def test_scalar_springs(self):
+        one = imported(cube(force() + "CELAS2,9,30.,5,2\nPELAS,4,7.,,,8,9.\nCELAS1,10,8,5,1\n"))
+        found = one.options["bushing"]
+        self.assertEqual(found["celas2_9"], {"from": "node_5", "stiffness": "0.0,30.0,0.0"})
+        self.assertEqual(found["celas1_10"]["stiffness"], "9.0,0.0,0.0")
+        cards = "CDAMP2,9,30.,20,6,21,6\nPDAMP,1,2.,2,3.\nCDAMP1,10,2,20,1,21,1\n" + self.GRIDS
+        found = imported(cube(force() + cards)).options["bushing"]
+        self.assertEqual(found["cdamp2_9"]["damping"], "0.0,0.0,0.0,0.0,0.0,30.0")
+        self.assertEqual(found["cdamp1_10"]["to"], "reference_21")
+
+    def test_springs_between_different_components(self):
+        """Their difference is a component of a node of its own."""
+        one = imported(cube(force() + "CELAS2,9,30.,5,2,7,1\n"))
+        (equation,) = one.options["equation"].values()
+        self.assertEqual(terms(equation), {"reference_9:x": 1.0, "node_5:y": -1.0, "node_7:x": 1.0})
+        self.assertEqual(
+            one.options["bushing"]["celas2_9"], {"from": "reference_9", "stiffness": "30.0,0.0,0.0"}
+        )
+        held = one.options["constraint"]["reference_9"]
+        self.assertEqual((held["clamped"], held["clamped_rotation"]), ("yz", "xyz"))
+
+    def test_bushings(self):
+        law = "PBUSH,4,K,1.,2.,3.,4.,5.,6.\n,,B,.1,,.3\n,,RCV,1.\n"
+        cards = law + "CBUSH,9,4,20,21,,,,0\nCBUSH,10,4,20,22,,,,7\n" + self.GRIDS
+        found = imported(cube(force() + cards + card("CORD2R", 7, 0, ORIGIN, TURN.T)))
+        one = found.options["bushing"]["cbush_9"]
+        self.assertEqual((one["from"], one["to"]), ("reference_20", "reference_21"))
+        self.assertEqual(numbers(one["stiffness"]).tolist(), [1, 2, 3, 4, 5, 6])
+        self.assertEqual(numbers(one["damping"]).tolist(), [0.1, 0, 0.3])
+        self.assertNotIn("frame", one)
+        name = found.options["bushing"]["cbush_10"]["frame"]
+        np.testing.assert_allclose(frame_of(found.options, name), TURN.T, atol=1e-12)
+
+    def test_axes_of_bushings(self):
+        """x along the line of the ends, y towards the vector, or the grid GO."""
+        law = "PBUSH,4,K,1.,2.,3.\n"
+        for words in ("1.,0.,1.", "23"):
+            cards = law + f"CBUSH,10,4,20,22,{words}\nGRID,23,,1.5,.5,3.5\n" + self.GRIDS
+            found = imported(cube(force() + cards)).options
+            axes = frame_of(found, found["bushing"]["cbush_10"]["frame"])
+            np.testing.assert_allclose(axes, [[0, 0, 1], [1, 0, 0], [0, 1, 0]], atol=1e-12)
+        for cards, reason in (
+            (law + "CBUSH,10,4,20,22\n", "need an orientation"),
+            (law + "CBUSH,10,4,20,21\n", "need CID"),
+            (law + "CBUSH,10,4,20,22,1.,0.,0.\n,.3\n", "S must be 0.5"),
+            (law + "CBUSH,10,4,5,22,1.,0.,0.\n", "must be grids with rotations"),
+            (law + "CBUSH,10,4,20,22,1.,0.,0.\n,,3,1.\n", "an offset (OCID)"),
+            ("CBUSH,10,5,20,22,1.,0.,0.\n", "there is no PBUSH 5"),
+        ):
+            (row,) = refusals(cube(force() + cards + self.GRIDS))
+            self.assertIn(reason, row)
+
+    def test_structural_damping_of_bushings(self):
+        law = "PBUSH,4,K,100.,200.\n,,GE,.05\nPARAM,W4,10.\n"
+        cards = law + "CBUSH,9,4,20,21,,,,0\n" + self.GRIDS + EIGRL
+        found = imported(cube(cards, control=COMPLEX)).options["bushing"]["cbush_9"]
+        np.testing.assert_allclose(numbers(found["damping"]), [0.5, 1.0, 0])
+
+
+if __name__ == "__main__":
+    unittest.main()
