@@ -20,13 +20,13 @@ from squeal.deck.journal import Journal
 class Comparison:
     """Runs both programs in a folder of their own."""
 
-    def __init__(self, program, text, folder, ignored=()):
+    def __init__(self, program, text, folder, ignored=(), dialect=None):
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         self.path = self.folder / "deck.inp"
         self.path.write_text(text, encoding="latin-1")
         self.reference = ccx.Reference(text, self.folder / "ccx")
-        import_deck(self.path, self.folder / "case", ignored=ignored)
+        import_deck(self.path, self.folder / "case", dialect, ignored)
         journal = Journal(ignored)
         self.model = read_model(self.path, CALCULIX, journal)
         self.case = translate(self.model, journal)

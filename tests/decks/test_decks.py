@@ -47,6 +47,8 @@ OTHERS = (
 # Here equations join supported nodes, whose forces CalculiX prints together with the reactions.
 WITHOUT_REACTIONS = {"disk2", "segmentm"}
 IGNORED = {"dashpot1": ["MODAL DYNAMIC"]}
+# Those with cards that Abaqus reads differently, and without a word that it does not know.
+AMBIGUOUS = {"distcoup", "tie of nodes, some of them too far away"}
 # Cards, parameters, element types and labels that each error has to name.
 REFUSED = {
     "beamnlp": {"NLGEOM"},
@@ -81,7 +83,8 @@ class Decks(unittest.TestCase):
     def compare(self, deck, full):
         name = deck if full else f"{deck} as it is"
         text = ccx.comparable(ccx.deck_text(deck), full)
-        one = Comparison(PROGRAM, text, self.folder / name, IGNORED.get(deck, ()))
+        words = IGNORED.get(deck, ()), "calculix" if deck in AMBIGUOUS else None
+        one = Comparison(PROGRAM, text, self.folder / name, *words)
         self.measure(name, one, BOUNDS.get(deck, DIGITS), deck not in WITHOUT_REACTIONS)
 
     def measure(self, name, one, bound, reactions):
@@ -137,7 +140,9 @@ class Decks(unittest.TestCase):
         for name, text in bars.DECKS.items():
             with self.subTest(name):
                 folder = self.folder / name.replace(" ", "_")
-                self.measure(name, Comparison(PROGRAM, text, folder), DIGITS, True)
+                dialect = "calculix" if name in AMBIGUOUS else None
+                one = Comparison(PROGRAM, text, folder, dialect=dialect)
+                self.measure(name, one, DIGITS, True)
 
     def test_refused_decks_name_all_unsupported_cards(self):
         for deck, names in REFUSED.items():

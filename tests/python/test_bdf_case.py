@@ -140,7 +140,7 @@ class Systems(unittest.TestCase):
         ):
             text = cube(force() + cards).replace("GRID,5,,", "GRID,5,3,")
             rows = refusals(text)
-            self.assertIn(f"deck.bdf:10: GRID: grid 5: ", rows[0])
+            self.assertIn("deck.bdf:10: GRID: grid 5: ", rows[0])
             self.assertIn(reason, rows[0])
 
     def test_components_of_supports_and_forces(self):

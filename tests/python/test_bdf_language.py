@@ -82,7 +82,7 @@ class Fields(unittest.TestCase):
         self.assertIn("at most 10 fields", row)
 
         rows = refusals(cube(force() + "SPC1,10,3,5,6,7,8,1,2,3\n"))
-        self.assertIn("'3' in field 10 is no marker", rows[0])
+        self.assertIn("'3' in field 10 does not begin with", rows[0])
 
     def test_columns_after_80_are_named(self):
         line = small("GRID", 7, "", "1.", "1.", "1.").rstrip().ljust(80) + "checked\n"

@@ -24,6 +24,16 @@ class Nodes:
         self._parts.append((np.asarray(numbers, np.int64), np.asarray(coordinates, float)))
         self._sorted = None
 
+    def add_all(self, other, placed):
+        """Adds the nodes of another object, at the places that a function gives."""
+        for numbers, coordinates in other._parts:
+            self.add(numbers, placed(coordinates))
+
+    @property
+    def largest(self):
+        """The largest number, 0 without nodes."""
+        return max((int(numbers.max()) for numbers, _ in self._parts if len(numbers)), default=0)
+
     def _table(self):
         if self._sorted is None:
             numbers = np.concatenate([EMPTY, *(part[0] for part in self._parts)])
@@ -95,7 +105,8 @@ class Sets:
         return iter(self._parts)
 
     def add(self, key, spelled, source, parts=()):
-        """Appends to a set numbers (arrays) and names of sets (strings), in their order."""
+        """Appends to a set numbers (arrays, or functions that return one) and names of sets
+        (strings), in their order."""
         self.spelled.setdefault(key, spelled)
         self.sources.setdefault(key, []).append(source)
         self._parts.setdefault(key, []).extend(parts)
@@ -108,14 +119,16 @@ class Sets:
         if key in above:
             raise Fault(f"the {self.what} set '{key}' contains itself")
         if key not in self._members:
-            parts = [
-                self.members(part, (*above, key)) if isinstance(part, str) else part
-                for part in self._parts[key]
-            ]
+            parts = [self._numbers(part, (*above, key)) for part in self._parts[key]]
             numbers = np.concatenate([EMPTY, *parts])
             _, first = np.unique(numbers, return_index=True)
             self._members[key] = numbers[np.sort(first)]
         return self._members[key]
+
+    def _numbers(self, part, above):
+        if isinstance(part, str):
+            return self.members(part, above)
+        return part() if callable(part) else part
 
 
 @dataclass
@@ -142,6 +155,8 @@ class Material:
     elastic: Source = None
     density: float = None
     density_source: Source = None
+    damping: tuple = ()  # Rayleigh's factors of mass and stiffness
+    damping_source: Source = None
     refusals: list = field(default_factory=list)
     loss: tuple = None  # loss factor of structural damping, and its frequency in Hz
 
@@ -160,7 +175,7 @@ class Frame:
     def axes_at(self, place):
         """Returns the local axes at a point as rows. Raises Fault."""
         if not self.cylindrical:
-            return _orthonormal(self.a, self.b)
+            return orthonormal(self.a, self.b)
         axis = self.b - self.a
         length = np.linalg.norm(axis)
         if length == 0:
@@ -175,7 +190,7 @@ class Frame:
         return np.array([radial, np.cross(axis, radial), axis])
 
 
-def _orthonormal(a, b):
+def orthonormal(a, b):
     lengths = np.linalg.norm(a), np.linalg.norm(b)
     normal = np.cross(a, b)
     if np.linalg.norm(normal) <= 1e-10 * lengths[0] * lengths[1]:
@@ -196,12 +211,12 @@ class Section:
 
 @dataclass
 class Equation:
-    """Terms (node, component, coefficient), whose sum is zero, in the axes of each node, or in
-    global ones if not `turned`. `name`: None for that of the line."""
+    """Terms (node, component, coefficient) in the axes of each node, or in global axes; their sum
+    is zero. `name`: None for that of the line."""
 
     terms: list
     source: Source
-    turned: bool = True
+    in_global_axes: bool = False
     name: str = None
 
 
@@ -211,7 +226,9 @@ class Rigid:
     `frame` (None: global). The components of the node `rotation` are its rotation, if there is such
     a node; components 4 to 6 of the reference node always are. `surface`: the nodes are those of a
     surface of this key, otherwise of the set `label`. `name`: of a coupling, None for a body.
-    `pinned`: rotations of reference nodes among the nodes stay free."""
+    `distributed`: the reference node follows the mean motion of the nodes, with equal weights.
+    `pinned`: rotations of reference nodes among them stay free; `mixed`: some of their components
+    do."""
 
     label: str
     nodes: np.ndarray
@@ -222,7 +239,9 @@ class Rigid:
     surface: str = None
     components: tuple = (0, 1, 2)
     frame: Frame = None
+    distributed: bool = False
     pinned: bool = False
+    mixed: bool = False
 
 
 @dataclass
@@ -248,14 +267,51 @@ class Tie:
 
 
 @dataclass
+class Friction:
+    """A coefficient of friction over the slip rate: constant, the value `coefficients[0]`; a table
+    with the slip rates `speeds`; or, if `decay` is given, (μs, μk) with μk + (μs − μk) e^(−decay w)
+    at the slip rate w. Without coefficients no slip is possible."""
+
+    source: Source
+    coefficients: tuple = ()
+    speeds: tuple = ()
+    decay: float = None
+
+
+@dataclass
 class Interaction:
     """How two surfaces in contact act on each other: `stiffness` is that of a penalty, per area,
-    None for hard contact."""
+    None for hard contact; `frictions`: the first law, and those to which later steps change it."""
 
     source: Source
     behavior: Source = None
     stiffness: float = None
-    friction: Source = None
+    separation: bool = True
+    frictions: list = field(default_factory=list)
+
+
+@dataclass
+class Motion:
+    """Matter that moves through the mesh at these nodes: with the velocity `amount` (vector), or,
+    if `axis` is given, with the speed `amount` about the axis through `origin`."""
+
+    nodes: np.ndarray
+    amount: object
+    source: Source
+    axis: np.ndarray = None
+    origin: np.ndarray = None
+
+
+@dataclass
+class Squeal:
+    """A request for complex modes with friction: `friction` are the laws by interaction at that
+    step, `top` the upper frequency limit, Hz, or None, `count` the number of modes, or None."""
+
+    source: Source
+    friction: dict
+    friction_damping: bool
+    count: int = None
+    top: float = None
 
 
 @dataclass
@@ -266,16 +322,17 @@ class Contact:
     master: str
     interaction: str
     source: Source
+    adjust: float = None  # slave nodes within this distance start on the master
 
 
 @dataclass
 class Joint:
-    """Springs or dashpots of a set of elements. `kind`: line (between two nodes) or ground (one
-    node, along `component`)."""
+    """Springs or dashpots of a set of elements. `kind`: line (along the line of two nodes), ground
+    (one node, along the first of `components`) or pair (between the components of two nodes)."""
 
     kind: str
     label: str
-    component: int
+    components: tuple
     stiffness: float
     damping: float
     source: Source
@@ -283,9 +340,25 @@ class Joint:
 
 @dataclass
 class PointMass:
+    """`inertia`: a matrix in global axes, about the node, None without one."""
+
     label: str
     mass: float
     source: Source
+    inertia: np.ndarray = None
+
+
+@dataclass
+class Bolt:
+    """A surface inside a body that cuts the shank of a bolt. The first component of `node` is its
+    elongation, and `force` there its tension. `locked`: from some step on it keeps its length."""
+
+    surface: str
+    node: int
+    normal: np.ndarray
+    source: Source
+    force: object = None  # a Value
+    locked: bool = False
 
 
 @dataclass(frozen=True)
@@ -300,7 +373,8 @@ class Value:
 @dataclass
 class BodyLoad:
     """Gravity (GRAV: `amount` is the acceleration along `direction`) or the centrifugal force of a
-    rotation (CENTRIF: `amount` is the speed about the axis through `origin`)."""
+    rotation (CENTRIF: `amount` is the speed about the axis through `origin`; CENT: the square of
+    the speed times the density), or a force per volume (FORCE)."""
 
     kind: str
     elements: np.ndarray
@@ -324,9 +398,24 @@ class State:
     gravity: tuple = None
 
 
+@dataclass(frozen=True)
+class Instance:
+    """Numbers of a part are greater in the model, by the offsets of its instance; those of its
+    elements are up to `last_element`."""
+
+    name: str
+    node_offset: int
+    element_offset: int
+    last_element: int
+
+
 @dataclass
 class Model:
+    """`program`: the one that the deck is written for."""
+
     title: str
+    program: str = ""
+    instances: list = field(default_factory=list)
     nodes: Nodes = field(default_factory=Nodes)
     blocks: list = field(default_factory=list)
     node_sets: Sets = field(default_factory=lambda: Sets("node"))
@@ -347,13 +436,18 @@ class Model:
     bushings: list = field(default_factory=list)
     distributed: list = field(default_factory=list)
     inertias: list = field(default_factory=list)
+    bolts: list = field(default_factory=list)
     state: State = field(default_factory=State)
     static: Source = None  # the last static step
     frequencies: int = None  # number of free modes, None: none requested
     frequency: Source = None
-    band: float = None  # upper limit of the frequencies, Hz
+    top: float = None  # upper limit of the free modes, Hz, None: none given
+    words: dict = field(default_factory=dict)  # names of cards in messages
     prestress: bool = False
-    words: dict = field(default_factory=dict)  # names of cards that messages mention
+    large_displacements: bool = False  # the static steps have them, and the user ignores that
+    motions: list = field(default_factory=list)
+    squeal: list = field(default_factory=list)  # requests for complex modes
+    speed: float = None  # of a motion whose speed the deck does not have, given by the user
     _lookup: tuple = None
 
     def word(self, card):

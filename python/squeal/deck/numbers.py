@@ -7,6 +7,7 @@ from squeal.deck.journal import Fault
 
 REAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eEdD]([+-]?\d+)|([+-]\d+))?")
 LARGEST = 2**53  # of integers: below, a real number is exact as well
+LONGEST = 20_000_000  # of ranges of numbers
 INTEGER = re.compile(r"[+-]?\d+\.?0*")
 
 

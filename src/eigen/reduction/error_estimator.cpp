@@ -17,6 +17,10 @@ namespace {
 /// Errors of an eigenvalue smaller than this fraction of the lowest free mode are relative to that
 /// fraction: round-off moves a double zero by about as much.
 constexpr double leastSize = 1e-8;
+/// A residual is round-off below this multiple of ε √(xᵀ diag(K0) x), in the norm of diag(K0)⁻¹.
+/// The backward error does not tell: its scale is the norm of K, which a stiff joint may determine.
+/// Residuals that are corrected to the end remain between 6 and 20 times ε √(xᵀ diag(K0) x).
+constexpr double leastResidual = 100 * PETSC_MACHINE_EPSILON;
 
 std::vector<const linalg::DensePair*> pointers(const std::vector<linalg::DensePair>& pairs) {
   std::vector<const linalg::DensePair*> list;
@@ -78,9 +82,9 @@ double ErrorEstimator::basisError(const PointSolution& solution, std::size_t pai
 }
 
 double ErrorEstimator::errorRatio(const PointSolution& solution, std::size_t pair) const {
-  const double backward = solution.errors[pair].backward;
-  if (acceptsAll_ || backward < rounding) return 0;
-  return std::max(backward / settings_.criteria.accuracy,
+  const PairErrors& errors = solution.errors[pair];
+  if (acceptsAll_ || errors.isRoundOff) return 0;
+  return std::max(errors.backward / settings_.criteria.accuracy,
                   basisError(solution, pair) / settings_.tolerance);
 }
 
@@ -129,6 +133,7 @@ void ErrorEstimator::estimate(PointState& state, const linalg::DenseProblem& pro
                                                std::sqrt(rightRigidity[j] * leftRigidity[j]));
     errors.dense = conditions[j] * errors.roundOff;
     errors.right = conditions[j] * std::sqrt(right.weighted[j]);
+    errors.isRoundOff = right.weighted[j] <= leastResidual * leastResidual * rightRigidity[j];
     errors.left = size < highestMode_
                       ? std::sqrt(left.weighted[j]) / (1 - std::pow(size / highestMode_, 2))
                       : INFINITY;

@@ -19,8 +19,6 @@ namespace squeal::reduction {
 /// multiplies the cheap norm by the largest ratio.
 class ErrorEstimator {
  public:
-  /// A backward error below this is round-off and needs no correction.
-  static constexpr double rounding = 1e-14;
   /// Borrows the basis during the lifetime of the object. `frequencies` are those of the free modes
   /// in the basis, rad/s, ascending.
   ErrorEstimator(ProjectedBasis& basis, const std::vector<double>& frequencies,
@@ -43,7 +41,7 @@ class ErrorEstimator {
   /// ratio is then squared if the problem has only even powers of s.
   bool isExactEnough(const PointSolution& solution, const pencil::Eigenvalue& e) const;
   /// Returns the backward error divided by its limit, or the same ratio of the error estimate if it
-  /// is larger. It is 0 if only round-off remains.
+  /// is larger. It is 0 if only round-off of the residual remains.
   double errorRatio(const PointSolution& solution, std::size_t pair) const;
   /// Returns true if all errors of the point are within their limits.
   bool isAccurate(const PointSolution& solution) const;

@@ -35,11 +35,12 @@ using Norms = std::array<double, 3>;  ///< 2-norms of K̄, Z̄, M̄ of a point
 /// Estimated errors of an eigenpair. The estimate of |δs|/|s| is the product of `right` and `left`,
 /// each in the norm of diag(K0)⁻¹ instead of K0⁻¹; `left` counts at most as 1.
 struct PairErrors {
-  double backward = 0;  ///< backward error in the full problem
-  double right = 0;     ///< error of the right vector, times the condition number of s
-  double left = 0;      ///< error of the left vector; infinite above the highest mode
-  double roundOff = 0;  ///< upper bound of the round-off in yᴴP(s)x of unit vectors
-  double dense = 0;     ///< error of the dense solve
+  double backward = 0;      ///< backward error in the full problem
+  double right = 0;         ///< error of the right vector, times the condition number of s
+  double left = 0;          ///< error of the left vector; infinite above the highest mode
+  double roundOff = 0;      ///< upper bound of the round-off in yᴴP(s)x of unit vectors
+  double dense = 0;         ///< error of the dense solve
+  bool isRoundOff = false;  ///< the residual is round-off, so that no correction makes it smaller
 };
 
 /// The eigenpairs of a point and their errors.

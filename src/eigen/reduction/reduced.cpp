@@ -327,7 +327,7 @@ Improvement ReducedProblem::improve(
     const auto& errors = state.solution.errors;
     result.backwardError.push_back(std::ranges::max(errors, {}, &PairErrors::backward).backward);
     result.roundOff.push_back(std::ranges::max(errors, {}, &PairErrors::roundOff).roundOff);
-    if (result.backwardError.back() < ErrorEstimator::rounding) continue;
+    if (std::ranges::all_of(errors, &PairErrors::isRoundOff)) continue;
     // Both parts of a residual relative to the whole residual: one part may be round-off.
     requests.push_back({&state, state.pairs(all, true), std::vector<double>(pairs.size(), 1.0)});
   }

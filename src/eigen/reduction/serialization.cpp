@@ -8,8 +8,8 @@ namespace squeal::reduction {
 // These list all members: a new one does not compile until it is added here.
 
 void fields(Stream& stream, PairErrors& errors) {
-  auto& [backward, right, left, roundOff, dense] = errors;
-  stream(backward, right, left, roundOff, dense);
+  auto& [backward, right, left, roundOff, dense, isRoundOff] = errors;
+  stream(backward, right, left, roundOff, dense, isRoundOff);
 }
 
 void fields(Stream& stream, PointSolution& solution) {

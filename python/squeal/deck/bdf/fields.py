@@ -34,7 +34,7 @@ def data_of(text, line):
             raise Fault(f"a free-field line has at most {count + 2} fields", line=line)
         end = fields[count + 1] if len(fields) > count + 1 else ""
         if end and end[0] not in "+*":
-            reason = f"'{end}' in field 10 is no marker, which begins with + or *, and no data"
+            reason = f"'{end}' in field 10 does not begin with + or *, as a marker does"
             raise Fault(reason, line=line)
         data = fields[1 : count + 1]
         return data + [""] * (count - len(data))

@@ -56,7 +56,7 @@ def _modes(card, reader, low, high, count):
     if first > 0:
         journal.choose(f"{card.source}: modes below {first:g} Hz are computed as well")
     if last is not None:
-        model.band = last
+        model.top = last
     if not roots and last is None:
         model.frequencies = 1
     elif not roots:

@@ -19,7 +19,7 @@ WORDS = {
     **{"SOLID SECTION": "PSOLID", "ELASTIC": "MAT1 or MAT9", "DENSITY": "RHO"},
     **{"TRANSFORM": "CD", "KINEMATIC": "RBE2"},
 }
-NAME = "Nastran"
+PROGRAM = "Nastran"
 READ = {*KINDS, "GRID", "GRDSET", "PARAM", "LOAD", "SPCADD", "MPCADD"}
 READ |= {f"CORD{form}{letter}" for form in "12" for letter in "RCS"}
 ELEMENTS = ("C", "RBE", "RBAR", "RROD", "RSPLINE", "RTRPLT", "GENEL", "DMIG")  # of missing cards
@@ -198,7 +198,7 @@ def read_model(path, journal, subcase=None):
     head, bulk, marks = read_sections(path, journal)
     control = read_control(head, journal)
     selection = select(control, subcase, journal)
-    model = Model(" ".join(Path(path).name.split()))
+    model = Model(" ".join(Path(path).name.split()), PROGRAM)
     model.words = WORDS
     for source in marks:
         if source.card != "ENDDATA":

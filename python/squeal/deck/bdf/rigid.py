@@ -78,20 +78,9 @@ def _rigid(card, reader, name, independent, components, nodes):
         numbers = np.array(numbers, np.int64)
         model.node_sets.add(own.upper(), own, card.source, [numbers])
         pinned = len(turned) == 0 and len(outside) > 0
-        model.rigid.append(
-            Rigid(
-                own.upper(),
-                numbers,
-                independent,
-                card.source,
-                None,
-                own,
-                None,
-                moved,
-                frame,
-                pinned,
-            )
-        )
+        one = Rigid(own.upper(), numbers, independent, card.source, name=own, pinned=pinned)
+        one.components, one.frame = moved, frame
+        model.rigid.append(one)
     reader.journal.mark(card.source, TRANSLATED)
 
 
@@ -103,7 +92,7 @@ def _stand_for(card, reader, grid):
     name = f"grid_{grid}"
     reader.model.node_sets.add(name.upper(), name, card.source, [np.array([grid], np.int64)])
     reader.model.rigid.append(
-        Rigid(name.upper(), np.array([grid], np.int64), grid, card.source, None, name)
+        Rigid(name.upper(), np.array([grid], np.int64), grid, card.source, name=name)
     )
 
 
@@ -196,4 +185,4 @@ def _mean_equations(card, reader, names, nodes, weights, components):
             if abs(value) > bound:
                 terms.append((int(nodes[place // 3]), place % 3, -float(value)))
         name = f"rbe3_{number}_{at + 1}"
-        model.equations.append(Equation(terms, card.source, False, name))
+        model.equations.append(Equation(terms, card.source, True, name))

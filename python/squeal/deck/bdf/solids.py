@@ -123,7 +123,7 @@ class Solids:
                 terms = [(number, component, 1.0)]
                 terms += [(end, component, -1.0 / len(ends)) for end in ends]
                 name = f"edge_{number}_{'xyz'[component]}"
-                model.equations.append(Equation(terms, source, False, name))
+                model.equations.append(Equation(terms, source, True, name))
         model.nodes.add(list(made.values()), np.array(places))
         self.journal.choose(
             f"{source}: {len(partial)} elements lack some nodes in the middle of their edges; nodes"

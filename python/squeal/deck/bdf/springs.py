@@ -161,7 +161,7 @@ def _difference(card, reader, name, ends):
     (first, one), (second, two) = ends
     terms = reader.basic_terms([(first, one, 1.0), (second, two, -1.0)])
     terms = [(number, 0, 1.0), *((node, at, -value) for node, at, value in terms)]
-    model.equations.append(Equation(terms, card.source, False, f"{name}_difference"))
+    model.equations.append(Equation(terms, card.source, True, f"{name}_difference"))
     return number
 
 

@@ -152,4 +152,4 @@ def mpc(card, reader):
     if not terms or terms[0][2] == 0:
         raise Fault("the first coefficient is zero", line=card.line)
     terms = reader.basic_terms([term for term in terms if term[2]])
-    reader.model.equations.append(Equation(terms, card.source, False))
+    reader.model.equations.append(Equation(terms, card.source, True))

@@ -49,7 +49,9 @@ def add_bodies(model, case, journal):
         _material(model, case, journal, name, one, chosen)
         if fully:
             case.set(("material", name, "integration"), "reduced", one.source)
-        _body_loads(case, journal, name, chosen)
+        material = model.materials.get(one.material)
+        density = material.density if material and material.density else 1.0
+        _body_loads(case, journal, name, chosen, density)
     _element_options(model, case, journal, solids)
 
 
@@ -114,6 +116,11 @@ def _orientation(model, case, journal, path, section, material):
 
 
 def _density(model, case, journal, path, material, loads):
+    if material.damping_source is not None:
+        journal.mark(material.damping_source, TRANSLATED)
+        for key, value in zip(("rayleigh_mass", "rayleigh_stiffness"), material.damping):
+            if value:
+                case.set((*path, key), value, material.damping_source)
     if material.density is not None:
         journal.mark(material.density_source, TRANSLATED)
         case.set((*path, "density"), material.density, material.density_source)
@@ -130,31 +137,44 @@ def _density(model, case, journal, path, material, loads):
     case.set((*path, "density"), 1.0)
 
 
-def _body_loads(case, journal, body, loads):
-    gravity = [load for load in loads if load.kind == "GRAV"]
-    spins = [load for load in loads if load.kind == "CENTRIF"]
+def _body_loads(case, journal, body, loads, density):
+    gravity = [load for load in loads if load.kind in ("GRAV", "FORCE")]
+    spins = [load for load in loads if load.kind in ("CENTRIF", "CENT")]
     if gravity:
-        total = sum(load.amount * load.direction for load in gravity)
+        total = sum(
+            load.amount / (density if load.kind == "FORCE" else 1.0) * load.direction
+            for load in gravity
+        )
         case.set(("load", body, "acceleration"), total, gravity[-1].source)
     if len(spins) > 1:
         journal.refuse(spins[-1].source, f"body '{body}' has two loads of rotation", "CENTRIF")
     elif spins:
         (spin,) = spins
-        case.set(("load", body, "spin"), spin.amount, spin.source)
+        speed = np.sqrt(spin.amount / density) if spin.kind == "CENT" else spin.amount
+        case.set(("load", body, "spin"), speed, spin.source)
         case.set(("load", body, "spin_axis"), spin.direction, spin.source)
         case.set(("load", body, "spin_origin"), spin.origin, spin.source)
 
 
 def _element_options(model, case, journal, solids):
     kinds = {block.kind: block.source for block in solids}
+    if model.program == "Abaqus" and "C3D8" in kinds and "C3D8I" not in kinds:
+        journal.choose(
+            "C3D8: full integration; Abaqus integrates the change of volume with one point, which"
+            " matters near Poisson's ratio 0.5"
+        )
     for plain, bent in zip(PLAIN, INCOMPATIBLE):
-        if plain in kinds and bent in kinds:
+        if plain in kinds and bent in kinds and model.program == "Abaqus":
+            journal.choose("C3D8, C3D8I and C3D8R in one deck: all have incompatible modes")
+        elif plain in kinds and bent in kinds:
             reason = f"{plain} and {bent} in one deck: incompatible modes are for all or none"
             journal.refuse(kinds[bent], reason)
         elif plain in kinds:
             case.set(("elasticity", "incompatible_modes"), "none", kinds[plain])
         elif bent in kinds:
             journal.choose(f"{bent}: the incompatible modes are those of this program")
+    if model.program == "Abaqus":
+        return
     for kind, difference in COARSER.items():
         if kind in kinds and (model.frequency or "displacements" in difference):
             journal.choose(f"{kind}: CalculiX integrates with fewer points; {difference}")

@@ -3,6 +3,7 @@
 import numpy as np
 
 from squeal.deck.journal import Fault, Missing
+from squeal.deck.topology import corners_of, hashes
 
 
 class Faces:
@@ -44,30 +45,19 @@ class Faces:
         """Raises Fault if a face lies between two cells."""
         wanted = {}
         for places, table in self.tables(rows):
-            corners = np.sort(table[:, : _corners(table.shape[1])], axis=1)
+            corners = np.sort(table[:, : corners_of(table.shape[1])], axis=1)
             for place, key in zip(places.tolist(), map(tuple, corners.tolist())):
                 if key in wanted:
                     raise Fault(self._inside(rows[place]))
                 wanted[key] = place
-        hashes = np.array([_hash(np.array([key]))[0] for key in wanted], np.uint64)
+        known = np.array([hashes(np.array([key]))[0] for key in wanted], np.uint64)
         for block in self.model.blocks:
             for number, face in enumerate(block.shape.faces if block.shape else ()):
-                corners = block.nodes[:, face[: _corners(len(face))]]
-                near = np.flatnonzero(np.isin(_hash(corners), hashes))
+                corners = block.nodes[:, face[: corners_of(len(face))]]
+                near = np.flatnonzero(np.isin(hashes(corners), known))
                 for at, key in zip(near.tolist(), map(tuple, np.sort(corners[near]).tolist())):
                     if key in wanted and rows[wanted[key]] != (block.numbers[at], number):
                         raise Fault(self._inside(rows[wanted[key]]))
 
     def _inside(self, row):
         return f"face {row[1] + 1} of element {row[0]} lies between two elements"
-
-
-def _corners(size):
-    return 3 if size in (3, 6) else 4
-
-
-def _hash(corners):
-    """Returns a number for each row that does not depend on the order of its entries."""
-    mixed = corners.astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)
-    mixed ^= mixed >> np.uint64(29)
-    return (mixed * np.uint64(0xBF58476D1CE4E5B9)).sum(axis=1, dtype=np.uint64)

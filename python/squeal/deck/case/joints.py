@@ -27,7 +27,9 @@ def add_joints(model, roles, case, journal, faces):
                 journal.mark(joint.source, TRANSLATED)
             except Fault as fault:
                 journal.refuse_fault(joint.source, fault)
-    if model.static and model.frequency and any(one.kind == "line" for one in model.joints):
+    _require_masses(model, places, journal)
+    turns = model.static and model.frequency and model.program != "Abaqus"
+    if turns and any(one.kind == "line" for one in model.joints):
         journal.choose(
             "SPRINGA keeps its direction; CalculiX turns it with the displacements of the static"
             " step before it computes frequencies"
@@ -65,7 +67,7 @@ def set_equation(case, name, terms, source):
 
 
 def _equation(equation, model, roles, case, places):
-    terms = roles.global_terms(equation.terms, equation.turned)
+    terms = roles.global_terms(equation.terms, not equation.in_global_axes)
     name = equation.name or places.name("line", equation.source)
     set_equation(case, name, terms, equation.source)
 
@@ -85,6 +87,8 @@ def _rigid(rigid, model, roles, case, places):
     if not rigid.components:
         return  # refused with its role
     numbers, wanted = _coupled_nodes(rigid, model, places.faces)
+    if roles.in_cells(rigid.reference) and not _follows_itself(rigid.reference, model):
+        numbers = [*numbers, rigid.reference]  # the node of the cells is the reference node
     name = roles.references[rigid.reference]
     inside = [number for number in numbers if roles.in_cells(number)]
     others = [
@@ -99,6 +103,12 @@ def _rigid(rigid, model, roles, case, places):
     path = ("coupling", clean(rigid.name) if rigid.name else name)
     case.set((*path, "reference"), name, rigid.source)
     case.set((*path, "nodes"), ",".join(nodes + others), rigid.source)
+    if rigid.distributed:
+        case.set((*path, "kind"), "distributed", rigid.source)
+    if others and rigid.mixed:
+        raise Fault("some, but not all, rotations of reference nodes are not supported")
+    if others and rigid.pinned:
+        case.set((*path, "pinned"), True, rigid.source)
     if len(rigid.components) < 3:
         letters = "".join("xyz"[component] for component in rigid.components)
         case.set((*path, "components"), letters, rigid.source)
@@ -106,6 +116,14 @@ def _rigid(rigid, model, roles, case, places):
         case.set((*path, "pinned"), True, rigid.source)
     if rigid.frame is not None and len(rigid.components) < 3:
         case.set((*path, "frame"), case.frame(rigid.frame), rigid.source)
+
+
+def _follows_itself(number, model):
+    """Returns whether the node of the cells is in a rigid body with itself as reference node."""
+    return any(
+        one.reference == number and one.nodes is not None and number in one.nodes
+        for one in model.rigid
+    )
 
 
 def _coupled_nodes(rigid, model, faces):
@@ -125,11 +143,11 @@ def _coupled_nodes(rigid, model, faces):
 
 def _joint(joint, model, roles, case, places):
     for number, nodes in elements_in(model, joint.label):
+        if joint.kind != "line":
+            _of_components(joint, number, nodes, roles, case)
+            continue
         for node in nodes:
             roles.place(node, 0)
-        if joint.kind == "ground":
-            _ground(joint, number, nodes[0], model, roles, case)
-            continue
         path = ("spring", f"element_{number}")
         case.set((*path, "from"), roles.name(nodes[0]), joint.source)
         case.set((*path, "to"), roles.name(nodes[1]), joint.source)
@@ -138,21 +156,51 @@ def _joint(joint, model, roles, case, places):
                 case.set((*path, key), value, joint.source)
 
 
-def _ground(joint, number, node, model, roles, case):
-    if node in model.frames:
-        raise Fault("a spring to the ground at a node with *TRANSFORM is not supported")
+def _of_components(joint, number, nodes, roles, case):
+    """A spring of one component, or between two: as a bushing to the ground if that component is
+    global, otherwise by a reference node whose displacement x is the elongation."""
+    terms = [(node, at, sign) for node, at, sign in zip(nodes, joint.components, (1.0, -1.0))]
+    found = roles.global_terms(terms)
+    if len(found) == 1:
+        ((name, component, _),) = found
+    else:
+        name, component = f"reference_element_{number}", 0
+        equation = [(name, 0, 1.0), *((place, at, -value) for place, at, value in found)]
+        set_equation(case, f"element_{number}", equation, joint.source)
+        position = roles.model.nodes.at([nodes[0]])[0]
+        case.set(("reference", name, "position"), position, joint.source)
+        case.set(("constraint", name, "clamped"), "yz", joint.source)
+        case.set(("constraint", name, "clamped_rotation"), "xyz", joint.source)
     path = ("bushing", f"element_{number}")
-    case.set((*path, "from"), roles.name(node), joint.source)
+    case.set((*path, "from"), name, joint.source)
     for key, value in (("stiffness", joint.stiffness), ("damping", joint.damping)):
         if value:
-            values = np.zeros(3)
-            values[joint.component] = value
+            values = np.zeros(3 if component < 3 else 6)
+            values[component] = value
             case.set((*path, key), values, joint.source)
 
 
 def _mass(mass, model, roles, case, places):
     for number, nodes in elements_in(model, mass.label):
-        roles.place(nodes[0], 0)
-        places.masses[nodes[0]] = places.masses.get(nodes[0], 0.0) + mass.mass
-        options = case.options.setdefault("mass", {}).setdefault(roles.name(nodes[0]), {})
-        options["total"] = (text_of(places.masses[nodes[0]]), mass.source)
+        at = nodes[0]
+        roles.place(at, 0)
+        total, inertia = places.masses.get(at, (0.0, np.zeros((3, 3))))
+        if mass.inertia is not None:
+            roles.place(at, 3)
+            inertia = inertia + mass.inertia
+        places.masses[at] = total + mass.mass, inertia
+        options = case.options.setdefault("mass", {}).setdefault(roles.name(at), {})
+        options["total"] = (text_of(places.masses[at][0]), mass.source)
+        if np.any(inertia):
+            order = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+            options["inertia"] = (text_of([inertia[pair] for pair in order]), mass.source)
+
+
+def _require_masses(model, places, journal):
+    """A rotary inertia needs a mass, since the program has no other."""
+    for mass in model.masses:
+        if mass.inertia is None:
+            continue
+        for _, nodes in elements_in(model, mass.label):
+            if places.masses.get(nodes[0], (1.0, None))[0] == 0:
+                journal.refuse(mass.source, f"node {nodes[0]} has no *MASS")

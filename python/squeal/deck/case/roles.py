@@ -58,7 +58,9 @@ class Roles:
         if rigid.name is None and others[0] is not rigid:
             raise Fault(f"node {rigid.reference} is the REF NODE of two rigid bodies")
         if not rigid.components:
-            raise Fault("no *KINEMATIC follows this card")
+            raise Fault("no *KINEMATIC or *DISTRIBUTING follows this card")
+        if rigid.distributed and self.in_cells(rigid.reference):
+            raise Fault(f"the reference node {rigid.reference} belongs to solid cells")
         name = self.references[rigid.reference] = f"reference_{rigid.reference}"
         joined = range(3) if rigid.frame is not None else rigid.components
         self.joined.setdefault(rigid.reference, {3, 4, 5}).update(joined)
@@ -77,11 +79,14 @@ class Roles:
             yield from ((number, component) for number in numbers for component in range(3))
         for joint in model.joints:
             for _, nodes in elements_in(model, joint.label):
-                components = range(3) if joint.kind == "line" else (joint.component,)
-                yield from ((node, component) for node in nodes for component in components)
+                for node, component in zip(nodes, joint.components):
+                    yield node, component
+                if joint.kind == "line":
+                    yield from ((node, component) for node in nodes for component in range(3))
         for mass in model.masses:
             for _, nodes in elements_in(model, mass.label):
-                yield from ((node, component) for node in nodes for component in range(3))
+                components = range(3) if mass.inertia is None else range(6)
+                yield from ((node, component) for node in nodes for component in components)
         yield from self._attached()
 
     def _attached(self):
@@ -134,13 +139,13 @@ class Roles:
             return self.references[number]
         return self.case.group(NODES, [number], f"node_{number}")
 
-    def global_terms(self, terms, turned=True):
+    def global_terms(self, terms, own_axes=True):
         """Returns terms (name, component, coefficient) in global axes of terms of nodes in their
-        own axes, or in global ones if not `turned`, with equal places added up. Raises Fault."""
+        own axes, or in global ones, with equal places added up. Raises Fault."""
         found = {}
         for number, component, coefficient in terms:
             reference, at = self.place(number, component)
-            frame = self.model.frames.get(number) if turned else None
+            frame = self.model.frames.get(number) if own_axes else None
             if at > 2 or frame is None:
                 parts = {at: coefficient}
             else:

@@ -13,7 +13,9 @@ from squeal.deck.case.joints import set_equation
 from squeal.deck.case.projection import Surface, project
 from squeal.deck.journal import TRANSLATED, Fault
 
-TOLERANCE = 0.025  # of the typical size of the master faces; the measured one of CalculiX 2.20
+# Largest distance of tied nodes without POSITION TOLERANCE, over the size of the master faces: the
+# measured one of CalculiX 2.20, and that of Abaqus' manual, 5 % of an edge.
+CALCULIX, ABAQUS = 0.025, 0.05
 
 
 def add_ties(model, roles, case, journal, faces):
@@ -24,7 +26,7 @@ def add_ties(model, roles, case, journal, faces):
         try:
             slave, master = model.surfaces[tie.slave], model.surfaces[tie.master]
             if slave.nodes is None:
-                _tie_of_faces(tie, slave, master, case, journal, faces)
+                _tie_of_faces(tie, slave, master, model, case, journal, faces)
             else:
                 counted.append(_tie_of_nodes(tie, slave, master, model, roles, case, faces))
                 journal.remark(tie.source, "{1} nodes tied, {2} free".format(*counted[-1]))
@@ -35,7 +37,7 @@ def add_ties(model, roles, case, journal, faces):
     return counted
 
 
-def _tie_of_faces(tie, slave, master, case, journal, faces):
+def _tie_of_faces(tie, slave, master, model, case, journal, faces):
     path = ("tie", clean(tie.name))
     for key, surface in (("slave", slave), ("master", master)):
         rows = np.column_stack([surface.elements, surface.faces])
@@ -45,9 +47,10 @@ def _tie_of_faces(tie, slave, master, case, journal, faces):
         case.set((*path, "tolerance"), tie.tolerance, tie.source)
     if not tie.adjust:
         case.set((*path, "adjust"), False, tie.source)
-    journal.choose(
-        f"{tie.source}: the faces are tied by a mortar method, not node by node as in CalculiX"
-    )
+    if model.program != "Abaqus":
+        journal.choose(
+            f"{tie.source}: the faces are tied by a mortar method, not node by node as in CalculiX"
+        )
 
 
 def _tie_of_nodes(tie, slave, master, model, roles, case, faces):
@@ -55,22 +58,42 @@ def _tie_of_nodes(tie, slave, master, model, roles, case, faces):
     if not nodes:
         raise Fault("the master surface has no faces")
     surface = Surface([model.nodes.at(one) for one in nodes])
-    beside = TOLERANCE * surface.size
-    bound = beside if tie.tolerance is None else tie.tolerance
-    tied = 0
+    tolerances = _tolerances(surface)
     for number in slave.nodes.tolist():
         roles.place(number, 0)
-        point = model.nodes.at([number])[0]
-        found = surface.face_of(point, beside)
-        if found is None or found[1] > bound or number in nodes[found[0]]:
-            continue
-        face, _ = found
-        weights, place = project(point, surface.faces[face])
-        tied += 1
+    found = [
+        _assign(tie, slave, model, nodes, surface, tolerance)
+        for program, tolerance in tolerances.items()
+        if model.program not in tolerances or program == model.program
+    ]
+    if any(set(one) != set(found[0]) for one in found):
+        raise Fault(
+            "the default tolerances of Abaqus and CalculiX tie different nodes; choose --dialect"
+            " abaqus or calculix, or give a POSITION TOLERANCE"
+        )
+    for number, face in found[0].items():
+        weights, place = project(model.nodes.at([number])[0], surface.faces[face])
         if tie.adjust:
             model.nodes.move(number, place)
         _follow(tie, number, nodes[face], weights, roles, case)
-    return tie.name, tied, len(slave.nodes) - tied
+    return tie.name, len(found[0]), len(slave.nodes) - len(found[0])
+
+
+def _tolerances(surface):
+    """Returns the default tolerance of each program."""
+    edges = [np.linalg.norm(face[1] - face[0]) for face in surface.faces]
+    return {"CalculiX": CALCULIX * surface.size, "Abaqus": ABAQUS * float(np.mean(edges))}
+
+
+def _assign(tie, slave, model, nodes, surface, beside):
+    """Returns the face of each node that is tied."""
+    bound = beside if tie.tolerance is None else tie.tolerance
+    tied = {}
+    for number in slave.nodes.tolist():
+        found = surface.face_of(model.nodes.at([number])[0], beside)
+        if found is not None and found[1] <= bound and number not in nodes[found[0]]:
+            tied[number] = found[0]
+    return tied
 
 
 def _follow(tie, number, nodes, weights, roles, case):

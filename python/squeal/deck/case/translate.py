@@ -3,9 +3,11 @@
 import numpy as np
 
 from squeal.deck.case.bodies import add_bodies
+from squeal.deck.case.bolts import add_bolts
 from squeal.deck.case.checks import check_elements, check_mesh
 from squeal.deck.case.contacts import add_contacts
 from squeal.deck.case.faces import Faces
+from squeal.deck.case.frictions import set_friction
 from squeal.deck.case.groups import Case
 from squeal.deck.case.joints import add_joints
 from squeal.deck.case.roles import Roles
@@ -26,8 +28,9 @@ def translate(model, journal):
     add_bodies(model, case, journal)
     roles = Roles(model, case, journal)
     case.ties = add_ties(model, roles, case, journal, faces)
-    add_contacts(model, case, journal, faces)
+    frictions, undetermined = add_contacts(model, case, journal, faces)
     add_joints(model, roles, case, journal, faces)
+    add_bolts(model, case, journal, faces)
     add_supports(model, roles, case, journal)
     add_forces(model, roles, case, journal)
     add_pressures(model, case, journal, faces)
@@ -35,24 +38,22 @@ def translate(model, journal):
     _name_idle_nodes(model, roles, journal)
     _name_idle_cards(model, journal)
     if model.prestress:
-        more = "" if model.words else "; CalculiX also includes its change of shape"
+        more = "" if model.program != "CalculiX" else "; CalculiX also includes its change of shape"
         journal.choose(
             f"{model.frequency}: the stress of the static step changes the stiffness{more}"
         )
         case.set(("elasticity", "prestress"), True, model.frequency)
-    if model.frequency is None:
-        journal.choose("the deck asks for no frequencies; the case has one, the least number")
     if model.state.gravity is not None:
         case.set(("load", "gravity"), *model.state.gravity)
-    case.set(("modes", "count"), model.frequencies or 1, model.frequency)
-    if model.band:
-        case.set(("flutter", "band"), model.band, model.frequency)
-    case.set(("flutter", "friction"), 0.0)
+    set_friction(model, case, journal, frictions, undetermined)
+    if frictions is None and model.top:
+        case.set(("flutter", "band"), model.top, model.frequency)
     return case
 
 
 def _name_idle_nodes(model, roles, journal):
     others = np.setdiff1d(model.nodes.numbers, roles.cell_nodes)
+    others = np.setdiff1d(others, [bolt.node for bolt in model.bolts])
     idle = [number for number in others.tolist() if not roles.is_used(number)]
     if idle:
         journal.choose(

@@ -71,11 +71,10 @@ def unquoted(text):
 
 def key_of(name):
     """Returns the name by which sets, materials and the like are found: without case, and without
-    blanks unless it is quoted."""
-    name = name.strip()
-    if name.startswith('"'):
-        return unquoted(name).upper()
-    return "".join(name.upper().split())
+    blanks unless they are quoted; "Part 1".TOP has the quoted name of an instance."""
+    parts = name.strip().upper().split('"')
+    parts[::2] = ["".join(part.split()) for part in parts[::2]]
+    return "".join(parts)
 
 
 def read_cards(lines, dialect, journal):
@@ -113,7 +112,7 @@ def _continued(lines, position, text, dialect, journal):
         if not dialect.continued_keywords:
             journal.choose(
                 f"{line.file}:{line.number}: read as a continuation of the keyword line, which"
-                f" {dialect.name} does not know"
+                " CalculiX does not know"
             )
         text += line.text
         position += 1
@@ -122,11 +121,11 @@ def _continued(lines, position, text, dialect, journal):
 
 def _card(line, text, dialect, journal):
     words = fields_of(text[1:])
-    keyword, known, written = _keyword(words[0])
+    keyword, known, written = keyword_of(words[0])
     source = Source(line.file, line.number, keyword)
     if known and written and not dialect.short_words:
         journal.choose(
-            f"{source}: *{written} is read as *{keyword}; {dialect.name} does not know short words"
+            f"{source}: *{written} is read as *{keyword}; CalculiX does not know short words"
         )
     parameters = {}
     for word in words[1:]:
@@ -138,7 +137,7 @@ def _card(line, text, dialect, journal):
     return Card(keyword, source, parameters, dialect, known)
 
 
-def _keyword(text):
+def keyword_of(text):
     """Returns the keyword of a card, whether it is known, and the written one if it is short."""
     words = " ".join(text.upper().split())
     key = words.replace(" ", "")

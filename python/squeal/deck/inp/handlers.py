@@ -61,7 +61,7 @@ def settle(card, handler, journal):
             if not card.dialect.short_words:
                 journal.choose(
                     f"{card.source}: {written} is read as {name};"
-                    f" {card.dialect.name} does not know short words"
+                    " CalculiX does not know short words"
                 )
         else:
             reason = PARAMETERS.get(written, "this parameter is not supported")

@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Cards that join nodes: equations, rigid bodies, couplings, ties, springs and masses."""
+"""Cards that join nodes: equations, ties, springs, dashpots, masses and bolts."""
 import numpy as np
 
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import Fault
-from squeal.deck.model import Equation, Joint, Mean, PointMass, Rigid, Tie
+from squeal.deck.model import Bolt, Equation, Joint, PointMass, Tie
 from squeal.deck.numbers import integer, real
+
+# Of types of elements: the kind of a joint, and the number of components in its first line.
+KINDS = {
+    **{"SPRINGA": ("line", 0), "SPRING1": ("ground", 1), "SPRING2": ("pair", 2)},
+    **{"DASHPOTA": ("line", 0), "DASHPOT1": ("ground", 1), "DASHPOT2": ("pair", 2)},
+}
 
 
 @handles("EQUATION")
@@ -32,6 +38,8 @@ def _add_equation(card, reader, fields, line):
     coefficients = [real(word, at) for at, word in fields[2::3]]
     if any(component not in range(6) for component in components):
         raise Fault("components are 1 to 6", line=line)
+    if reader.scope.turned:
+        raise Fault("equations in a part whose instance is turned are not supported", line=line)
     for number in range(max(lengths, default=1)):
         chosen = [int(one[number % len(one)]) for one in nodes]
         reader.model.equations.append(
@@ -39,98 +47,9 @@ def _add_equation(card, reader, fields, line):
         )
 
 
-@handles("RIGID BODY", used=("NSET", "ELSET", "REF NODE", "ROT NODE"), lines=0)
-def rigid_body(card, reader):
-    if ("NSET" in card.parameters) == ("ELSET" in card.parameters):
-        raise Fault("either NSET= or ELSET= is needed")
-    if "NSET" in card.parameters:
-        label = card.key("NSET")
-        nodes = reader.model.node_sets.members(label)
-    else:
-        label = card.key("ELSET")
-        nodes = reader.nodes_of_elements(reader.model.element_sets.members(label))
-    if not len(nodes):
-        raise Fault(f"the set '{label}' is empty")
-    if "REF NODE" not in card.parameters:
-        raise Fault("a rigid body without REF NODE= is not supported")
-    reference = integer(card.require("REF NODE"))
-    rotation = card.value("ROT NODE")
-    if rotation is not None:
-        rotation = integer(rotation)
-    reader.model.nodes.at([reference])
-    reader.model.rigid.append(Rigid(label, nodes, reference, card.source, rotation))
-
-
-@handles(
-    "COUPLING", used=("REF NODE", "SURFACE", "CONSTRAINT NAME", "ORIENTATION"), idle=(), lines=0
-)
-def coupling(card, reader):
-    """Completed by *KINEMATIC."""
-    name, surface = card.require("CONSTRAINT NAME"), card.key("SURFACE")
-    if surface not in reader.model.surfaces:
-        raise Fault(f"there is no surface '{surface}'")
-    frame = None
-    if "ORIENTATION" in card.parameters:
-        frame = reader.model.orientations.get(card.key("ORIENTATION"))
-        if frame is None:
-            raise Fault(f"there is no orientation '{card.key('ORIENTATION')}' before this card")
-    reference = integer(card.require("REF NODE"))
-    reader.model.nodes.at([reference])
-    reader.model.rigid.append(
-        Rigid(surface, None, reference, card.source, None, name, surface, (), frame)
-    )
-
-
-@handles("KINEMATIC")
-def kinematic(card, reader):
-    one = reader.model.rigid[-1] if reader.model.rigid else None
-    if one is None or one.name is None or one.components:
-        raise Fault("this card belongs after *COUPLING")
-    components = set()
-    for line, fields in card.rows():
-        first = integer(fields[0], line)
-        last = integer(fields[1], line) if len(fields) > 1 and fields[1] else first
-        if not 1 <= first <= last <= 3:
-            raise Fault("components are 1 to 3; rotations follow from them", line=line)
-        components.update(range(first - 1, last))
-    if not components:
-        raise Fault("there is no line of components")
-    one.components = tuple(sorted(components))
-
-
-@handles("DISTRIBUTING", idle=None)
-def distributing(card, reader):
-    if reader.model.rigid and reader.model.rigid[-1].name and not reader.model.rigid[-1].components:
-        reader.model.rigid.pop()
-    raise Fault(
-        "CalculiX distributes forces over the surface by areas, and its reference node does not"
-        " move; this is not supported"
-    )
-
-
-@handles("DISTRIBUTING COUPLING", used=("ELSET",))
-def distributing_coupling(card, reader):
-    """In CalculiX the displacement of the node of DCOUP3D is the weighted mean, without moments."""
-    elements = reader.model.element_sets.members(card.key("ELSET"))
-    references = reader.nodes_of_elements(elements, "DCOUP3D")
-    if len(references) != 1:
-        raise Fault("ELSET= must contain one element of type DCOUP3D")
-    nodes, weights = [], []
-    for line, fields in card.rows():
-        if len(fields) != 2:
-            raise Fault("a line has a node or node set and a weight", line=line)
-        nodes.append(reader.nodes_of(fields[0], line))
-        weights.append(np.full(len(nodes[-1]), real(fields[1], line)))
-    if not nodes or np.concatenate(weights).sum() == 0:
-        raise Fault("the weights have the sum zero")
-    reader.model.means.append(
-        Mean(int(references[0]), np.concatenate(nodes), np.concatenate(weights), card.source)
-    )
-
-
 @handles("TIE", used=("NAME", "POSITION TOLERANCE", "ADJUST"))
 def tie(card, reader):
-    stem = card.value("NAME") or "tie"
+    stem = reader.defined(card, "NAME")[1] if "NAME" in card.parameters else "tie"
     tolerance = card.value("POSITION TOLERANCE")
     adjust = card.key("ADJUST", "YES")
     if adjust not in ("YES", "NO"):
@@ -160,38 +79,81 @@ def dashpot(card, reader):
 
 
 def _joint(card, reader, what):
-    label = card.key("ELSET")
-    kinds = reader.kinds_of(reader.model.element_sets.members(label))
-    rows = list(card.rows())
-    if kinds <= {"SPRINGA", "DASHPOTA"} and len(kinds) == 1:
-        kind, component = "line", None
-    elif kinds == {"SPRING1"}:
-        kind = "ground"
-        line, fields = rows.pop(0) if len(rows) > 1 else (None, [""])
-        component = integer(fields[0], line) - 1
-        if component not in range(3):
-            raise Fault("the component of a spring to the ground is 1, 2 or 3", line=line)
-    else:
+    sets = reader.model.element_sets
+    label = reader.key(card, "ELSET", sets)
+    kinds = reader.kinds_of(sets.members(label))
+    if len(kinds) != 1 or not kinds <= set(KINDS):
         raise Fault(f"the elements of '{label}' are not of one type of springs or dashpots")
+    kind, count = KINDS[kinds.pop()]
+    rows = list(card.rows())
+    components = _joined_components(rows, count) if count else ()
+    if kind != "line" and reader.scope.turned:
+        raise Fault("components of a part whose instance is turned are not supported")
     if len(rows) != 1:
         raise Fault("the stiffness must be one number on one line; others are not supported")
     line, fields = rows[0]
     value = real(fields[0], line)
-    if "." not in fields[0] and what == "stiffness":
+    if "." not in fields[0] and what == "stiffness" and not card.dialect.short_words:
         reader.journal.choose(
             f"{card.source.file}:{line}: {fields[0]} is read as a stiffness;"
-            f" {card.dialect.name} reads a number without a point as a component"
+            " CalculiX reads a number without a point as a component"
         )
     if len(fields) > 1:
         reader.journal.choose(f"{card.source.file}:{line}: only the first number is used")
     values = {"stiffness": 0.0, "damping": 0.0, what: value}
-    reader.model.joints.append(Joint(kind, label, component, source=card.source, **values))
+    reader.model.joints.append(Joint(kind, label, components, source=card.source, **values))
+
+
+def _joined_components(rows, count):
+    """Takes the line of components, one for each end, from the lines of a card."""
+    line, fields = rows.pop(0) if len(rows) > 1 else (None, [""])
+    components = tuple(integer(field, line) - 1 for field in fields if field)
+    if len(components) != count or any(one not in range(6) for one in components):
+        ends = "one component" if count == 1 else "two components"
+        raise Fault(f"the line before the stiffness has {ends}, from 1 to 6", line=line)
+    return components
 
 
 @handles("MASS", used=("ELSET",), lines=1)
 def mass(card, reader):
-    label = card.key("ELSET")
-    if reader.kinds_of(reader.model.element_sets.members(label)) != {"MASS"}:
+    sets = reader.model.element_sets
+    label = reader.key(card, "ELSET", sets)
+    if reader.kinds_of(sets.members(label)) != {"MASS"}:
         raise Fault(f"the elements of '{label}' are not of type MASS")
     line, fields = next(card.rows(), (None, [""]))
     reader.model.masses.append(PointMass(label, real(fields[0], line), card.source))
+
+
+@handles("ROTARY INERTIA", used=("ELSET",), lines=1)
+def rotary_inertia(card, reader):
+    """Inertia about the node, in the axes of the part."""
+    sets = reader.model.element_sets
+    label = reader.key(card, "ELSET", sets)
+    if reader.kinds_of(sets.members(label)) != {"ROTARYI"}:
+        raise Fault(f"the elements of '{label}' are not of type ROTARYI")
+    line, fields = next(card.rows(), (None, []))
+    numbers = [real(field, line) if field else 0.0 for field in fields]
+    if not 1 <= len(numbers) <= 6:
+        raise Fault("the line has up to six numbers", line=line)
+    numbers += [0.0] * (6 - len(numbers))
+    if any(numbers[3:]):
+        raise Fault("products of inertia are not supported; give principal moments", line=line)
+    matrix = reader.scope.rotation @ np.diag(numbers[:3]) @ reader.scope.rotation.T
+    reader.model.masses.append(PointMass(label, 0.0, card.source, matrix))
+
+
+@handles("PRE-TENSION SECTION", used=("SURFACE", "NODE"), lines=1)
+def pretension_section(card, reader):
+    """The line of data is the direction of the bolt, by default the normal of the surface."""
+    card.require("SURFACE")
+    surface = reader.surface_of(card.parameters["SURFACE"], None)
+    if reader.model.surfaces[surface].nodes is not None:
+        raise Fault(f"the surface '{surface}' has no faces")
+    node = reader.node_of(card, "NODE")
+    normal = None
+    for line, fields in card.rows():
+        normal = np.array([real(field, line) if field else 0.0 for field in fields])
+        if len(normal) != 3 or not np.any(normal):
+            raise Fault("the line has the three components of the normal", line=line)
+        normal = reader.scope.rotation @ normal
+    reader.model.bolts.append(Bolt(surface, node, normal, card.source))

@@ -2,6 +2,7 @@
 """Cards of materials, sections and axes."""
 import numpy as np
 
+from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import UNUSED, Fault
 from squeal.deck.model import Frame, Material, Section
@@ -14,6 +15,10 @@ LAWS = {
     **{"ANISO": ("anisotropic", 21, 3), "ANISOTROPIC": ("anisotropic", 21, 3)},
     "ENGINEERINGCONSTANTS": ("engineering", 9, 2),
 }
+WITHOUT_EFFECT = (
+    "without effect on *STATIC and *FREQUENCY of CalculiX; damping of the case are the options"
+    " -material_<group>_rayleigh_mass and _rayleigh_stiffness"
+)
 OTHER_LAWS = {
     **{"PLASTIC": "plasticity", "CYCLIC HARDENING": "plasticity", "CREEP": "creep"},
     **{"HYPERELASTIC": "hyperelasticity", "HYPERFOAM": "hyperelasticity"},
@@ -72,6 +77,24 @@ def density(card, reader):
         reader.journal.choose(f"{card.source}: the density of the first temperature is used")
 
 
+@handles("DAMPING", used=("ALPHA", "BETA", "STRUCTURAL"), lines=0)
+def damping(card, reader):
+    """Rayleigh damping of the material: C = ALPHA M + BETA K."""
+    reader.decide()
+    if reader.dialect is not ABAQUS:
+        reader.journal.mark(card.source, UNUSED, WITHOUT_EFFECT)
+        return
+    one = _material(reader)
+    if real(card.value("STRUCTURAL") or "0") != 0:
+        raise Fault(
+            "structural damping needs a frequency; set -material_<group>_loss_factor and"
+            " _loss_frequency in the case",
+            "STRUCTURAL",
+        )
+    one.damping = tuple(real(card.value(name) or "0") for name in ("ALPHA", "BETA"))
+    one.damping_source = card.source
+
+
 @handles("EXPANSION", "CONDUCTIVITY", "SPECIFIC HEAT", "ELECTRICAL CONDUCTIVITY", idle=None)
 def thermal(card, reader):
     reader.journal.mark(card.source, UNUSED, "no temperatures: a card that gives one is refused")
@@ -85,23 +108,22 @@ def other_law(card, reader):
     reader.journal.mark(card.source, UNUSED)
 
 
-@handles("SOLID SECTION", used=("ELSET", "MATERIAL", "ORIENTATION"), lines=1)
+@handles("SOLID SECTION", used=("ELSET", "MATERIAL", "ORIENTATION"), idle=("CONTROLS",), lines=1)
 def solid_section(card, reader):
-    label = card.key("ELSET")
+    sets = reader.model.element_sets
+    label = reader.key(card, "ELSET", sets)
+    orientation = None
+    if "ORIENTATION" in card.parameters:
+        orientation = reader.key(card, "ORIENTATION", reader.model.orientations)
     reader.model.sections.append(
-        Section(
-            reader.model.element_sets.members(label),
-            label,
-            card.key("MATERIAL"),
-            card.key("ORIENTATION", "") or None,
-            card.source,
-        )
+        Section(sets.members(label), label, card.key("MATERIAL"), orientation, card.source)
     )
     if card.data:
         reader.journal.remark(card.source, "the line of data has no effect on solid cells")
 
 
-def _frame(card, name, cylindrical):
+def _frame(card, name, cylindrical, scope):
+    """Returns axes, which turn with their part, and the lines that follow."""
     rows = list(card.rows())
     if not rows:
         raise Fault("there is no line of data")
@@ -112,6 +134,10 @@ def _frame(card, name, cylindrical):
     a, b = numbers[:2]
     if len(numbers) == 3 and not cylindrical:
         a, b = a - numbers[2], b - numbers[2]
+    if cylindrical:
+        a, b = scope.placed(a), scope.placed(b)
+    else:
+        a, b = scope.rotation @ a, scope.rotation @ b
     frame = Frame(name, cylindrical, a, b, card.source)
     # The first axis must exist at some point.
     frame.axes_at(a + np.array([1.3, 0.7, 0.4]))
@@ -125,11 +151,11 @@ def orientation(card, reader):
         raise Fault(f"SYSTEM={system} is not supported")
     if card.key("DEFINITION", "COORDINATES") != "COORDINATES":
         raise Fault("only DEFINITION=COORDINATES is supported", "DEFINITION")
-    name = card.require("NAME")
-    frame, more = _frame(card, name, system == "CYLINDRICAL")
+    key, name = reader.defined(card, "NAME")
+    frame, more = _frame(card, name, system == "CYLINDRICAL", reader.scope)
     if any(len(fields) > 1 and real(fields[1], line) != 0 for line, fields in more):
         raise Fault("an additional rotation is not supported", line=more[0][0])
-    reader.model.orientations[card.key("NAME")] = frame
+    reader.model.orientations[key] = frame
 
 
 @handles("TRANSFORM", used=("NSET", "TYPE"), lines=1)
@@ -137,8 +163,8 @@ def transform(card, reader):
     kind = card.key("TYPE", "R")
     if kind not in ("R", "C"):
         raise Fault(f"TYPE={kind} is not supported")
-    label = card.key("NSET")
+    label = reader.key(card, "NSET", reader.model.node_sets)
     number = 1 + len({frame.name for frame in reader.model.frames.values()})
-    frame, _ = _frame(card, f"transform_{number}", kind == "C")
+    frame, _ = _frame(card, f"transform_{number}", kind == "C", reader.scope)
     for one in reader.model.node_sets.members(label):
         reader.model.frames[int(one)] = frame

@@ -2,34 +2,69 @@
 """Cards of the mesh: nodes, elements, sets and surfaces."""
 import numpy as np
 
-from squeal.deck.cells import HEX8, HEX20, TET4, TET10, WEDGE6, WEDGE15
 from squeal.deck.inp.cards import fields_of, key_of
+from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
-from squeal.deck.journal import UNUSED, USED, Fault
-from squeal.deck.model import EMPTY, Block, Surface
-from squeal.deck.numbers import integer, is_integer, real
-
-# Kinds of elements that are translated: their solid shape, or their number of nodes.
-SOLIDS = {
-    **{"C3D4": TET4, "C3D10": TET10, "C3D6": WEDGE6, "C3D15": WEDGE15},
-    **{"C3D8": HEX8, "C3D8I": HEX8, "C3D20": HEX20, "C3D20R": HEX20},
-}
-DISCRETE = {
-    **{"SPRINGA": 2, "DASHPOTA": 2, "SPRING1": 1, "MASS": 1, "DCOUP3D": 1},
-}
-LONGEST = 20_000_000  # of ranges of numbers
-ADVICE = {
-    "C3D8R": "hourglass control differs in every program; mesh with C3D8 or C3D20",
-    "GAPUNI": "gap elements are not supported; use a contact pair",
-    "SPRING2": "springs between two components are not supported; use SPRINGA or an equation",
-}
+from squeal.deck.inp.types import ADVICE, BECOMES, DISCRETE, SOLIDS
+from squeal.deck.journal import UNUSED, Fault
+from squeal.deck.model import EMPTY, Block, orthonormal
+from squeal.deck.numbers import LONGEST, integer, is_integer, real
 
 
-@handles("NODE", used=("NSET",), phase=0)
+@handles("NODE", used=("NSET", "SYSTEM"), phase=0)
 def node(card, reader):
     numbers, places = _fast_nodes(card) or _slow_nodes(card, reader)
-    reader.model.nodes.add(numbers, places)
-    _define(card, reader, "NSET", reader.model.node_sets, numbers)
+    kind = card.key("SYSTEM", "R")
+    if kind not in ("R", "C", "S"):
+        raise Fault(f"SYSTEM={kind} is not supported", "SYSTEM")
+    numbers = numbers + reader.scope.node_offset
+    reader.scope.nodes.add(numbers, in_axes(_cartesian(places, kind), reader.scope.system))
+    define(card, reader, "NSET", reader.model.node_sets, numbers)
+
+
+def _cartesian(places, kind):
+    """Returns coordinates of cylindrical (r, angle, z) or spherical ones (r, longitude, latitude),
+    with angles in degrees."""
+    if kind == "R":
+        return places
+    r, angle = places[:, 0], np.radians(places[:, 1])
+    if kind == "C":
+        return np.column_stack([r * np.cos(angle), r * np.sin(angle), places[:, 2]])
+    latitude = np.radians(places[:, 2])
+    across = r * np.cos(latitude)
+    return np.column_stack([across * np.cos(angle), across * np.sin(angle), r * np.sin(latitude)])
+
+
+def in_axes(places, system):
+    """Returns points given in the axes of *SYSTEM, if there is one, in those of the part."""
+    if system is None:
+        return places
+    origin, axes = system
+    return origin + places @ axes
+
+
+@handles("SYSTEM", phase=0, lines=2)
+def system(card, reader):
+    """Origin and a point on the x axis, then one in the plane of x and y; without data the axes of
+    the part again. With two points the axes are turned about z."""
+    rows = list(card.rows())
+    if not rows:
+        reader.scope.system = None
+        return
+    line, fields = rows[0]
+    numbers = [real(field, line) if field else 0.0 for field in fields]
+    if len(numbers) not in (3, 6) or len(rows) == 2 and len(numbers) != 6:
+        raise Fault("the first line has the origin and a point on the axis x", line=line)
+    origin, x, plane = np.array(numbers[:3]), np.array([1.0, 0, 0]), np.array([0, 1.0, 0])
+    if len(numbers) == 6:
+        x = np.array(numbers[3:]) - origin
+        plane = np.cross([0, 0, 1.0], x)
+    if len(rows) == 2:
+        line, fields = rows[1]
+        plane = np.array([real(field, line) for field in fields]) - origin
+        if len(plane) != 3:
+            raise Fault("the second line has a point in the plane of x and y", line=line)
+    reader.scope.system = origin, orthonormal(x, plane)
 
 
 def _fast_nodes(card):
@@ -63,24 +98,27 @@ def _slow_nodes(card, reader):
 @handles("ELEMENT", used=("TYPE", "ELSET"), phase=0)
 def element(card, reader):
     kind = card.key("TYPE")
+    if kind in BECOMES and (kind != "C3D8R" or reader.dialect is ABAQUS):
+        written, (kind, difference) = kind, BECOMES[kind]
+        reader.journal.choose(f"{written}: {difference}")
     if kind not in SOLIDS and kind not in DISCRETE:
         reason = ADVICE.get(kind, "elements of this type are not supported")
         count = sum(1 for _ in card.data)
         refused = reader.journal.refuse(card.source, f"{reason} ({count} lines of data)", kind)
         reader.journal.incomplete |= refused
-        _define(card, reader, "ELSET", reader.model.element_sets, EMPTY)
+        define(card, reader, "ELSET", reader.model.element_sets, EMPTY)
         return
     shape = SOLIDS.get(kind)
     size = shape.size if shape else DISCRETE[kind]
-    table = _records(card, size)
+    table = _records(card, size, reader)
     if len(table):
         reader.model.blocks.append(Block(kind, shape, table[:, 0], table[:, 1:], card.source))
     else:
         reader.journal.mark(card.source, UNUSED, "there are no lines of data")
-    _define(card, reader, "ELSET", reader.model.element_sets, table[:, 0])
+    define(card, reader, "ELSET", reader.model.element_sets, table[:, 0])
 
 
-def _records(card, size):
+def _records(card, size, reader):
     """Returns the elements of a card, one row each: number and nodes. A record goes on in the next
     line until it has all nodes, with a comma at the end of the line or without."""
     counts, words = [], []
@@ -90,8 +128,14 @@ def _records(card, size):
         words.extend(fields)
     try:
         flat = np.array(words, dtype=np.int64) if words else np.zeros(0, np.int64)
+        flat[np.arange(len(flat)) % (size + 1) != 0] += reader.scope.node_offset
     except (ValueError, OverflowError):
-        flat = np.array([integer(word) for word in words], np.int64)
+        flat = [
+            reader.node_number(word) if at % (size + 1) else integer(word)
+            for at, word in enumerate(words)
+        ]
+        flat = np.array(flat, np.int64)
+    flat[:: size + 1] += reader.scope.element_offset
     starts = np.concatenate([[0], np.cumsum(counts)]).astype(int)
     wanted = np.arange(0, len(flat), size + 1)
     lines = np.searchsorted(starts, wanted)
@@ -103,22 +147,38 @@ def _records(card, size):
     return flat.reshape(-1, size + 1)
 
 
-@handles("NSET", used=("NSET", "GENERATE", "ELSET"), idle=("UNSORTED", "INTERNAL"), phase=0)
+@handles(
+    "NSET",
+    used=("NSET", "GENERATE", "ELSET", "INSTANCE"),
+    idle=("UNSORTED", "INTERNAL"),
+    phase=0,
+)
 def node_set(card, reader):
+    scope = reader.scope_of(card)
+    sets = reader.model.node_sets
     if "ELSET" in card.parameters:
-        raise Fault("node sets of element sets are not supported")
-    _set(card, reader, "NSET", reader.model.node_sets)
+        key = scope.prefix + card.key("ELSET")
+        if card.data:
+            raise Fault("a node set of an element set has no lines of data", line=card.data[0][0])
+        define(card, reader, "NSET", sets, lambda: reader.nodes_of_element_set(key))
+        return
+    _set(card, reader, "NSET", sets, scope, scope.node_offset)
 
 
-@handles("ELSET", used=("ELSET", "GENERATE"), idle=("INTERNAL",), phase=0)
+@handles("ELSET", used=("ELSET", "GENERATE", "INSTANCE"), idle=("INTERNAL",), phase=0)
 def element_set(card, reader):
-    _set(card, reader, "ELSET", reader.model.element_sets)
+    scope = reader.scope_of(card)
+    _set(card, reader, "ELSET", reader.model.element_sets, scope, scope.element_offset)
 
 
-def _set(card, reader, parameter, sets):
-    name = card.require(parameter)
-    parts = _generated(card) if "GENERATE" in card.parameters else _listed(card, reader, sets)
-    sets.add(key_of(card.parameters[parameter]), name, card.source, parts)
+def _set(card, reader, parameter, sets, scope, offset):
+    """`scope`: that of numbers and names in the lines, `offset`: that of its numbers."""
+    key, spelled = reader.defined(card, parameter)
+    if "GENERATE" in card.parameters:
+        parts = [numbers + offset for numbers in _generated(card)]
+    else:
+        parts = _listed(card, reader, sets, scope, offset)
+    sets.add(key, spelled, card.source, parts)
 
 
 def _generated(card):
@@ -136,90 +196,43 @@ def _generated(card):
     return parts
 
 
-def _listed(card, reader, sets):
+def _listed(card, reader, sets, scope, offset):
     parts, numbers = [], []
     for line, fields in card.rows():
         for word in fields:
             if is_integer(word):
-                numbers.append(integer(word, line))
-                if word in sets:
+                numbers.append(integer(word, line) + offset)
+                if scope.prefix + word in sets:
                     reader.journal.choose(
                         f"{card.source.file}:{line}: {word} is read as a number, not as a set"
                     )
             elif word:
                 parts.append(np.array(numbers, np.int64))
                 numbers = []
-                key = key_of(word)
-                parts.append(key)
-                if key not in sets:
-                    reader.journal.choose(
-                        f"{card.source.file}:{line}: set '{word}' is defined later; it is used as"
-                        f" defined there, {card.dialect.name} would take it as empty"
-                    )
+                parts.append(_part(word, line, card, reader, sets, scope))
     return [*parts, np.array(numbers, np.int64)]
 
 
-def _define(card, reader, parameter, sets, numbers):
-    name = card.value(parameter)
-    if name is not None:
-        sets.add(key_of(card.parameters[parameter]), name, card.source, [numbers])
+def _part(word, line, card, reader, sets, scope):
+    """Returns a member of a set that is not a plain number: the number of something of an instance,
+    or the key of a set, which may be defined later."""
+    key = reader.key_in(scope, key_of(word))
+    if key not in sets:
+        number = reader.number_of_instance(word, sets)
+        if number is not None:
+            return np.array([number], np.int64)
+        if not card.dialect.short_words:
+            reader.journal.choose(
+                f"{card.source.file}:{line}: set '{word}' is defined later; it is used as"
+                " defined there, CalculiX would take it as empty"
+            )
+    return key
 
 
-@handles("SURFACE", used=("NAME", "TYPE"), phase=1)
-def surface(card, reader):
-    name = card.require("NAME")
-    kind = card.key("TYPE", "ELEMENT")
-    if kind not in ("ELEMENT", "NODE"):
-        raise Fault(f"TYPE={kind} is not supported")
-    parts, faces = [], []
-    for line, fields in card.rows():
-        if kind == "NODE":
-            parts.append(reader.nodes_of(fields[0], line))
-            continue
-        if len(fields) != 2:
-            raise Fault("a line has an element or element set and the label of a face", line=line)
-        elements = reader.elements_of(fields[0], line)
-        parts.append(elements)
-        faces.append(np.full(len(elements), face_number(fields[1], "S", line)))
-    key = card.key("NAME")
-    if key in reader.model.surfaces:
-        raise Fault(f"surface '{name}' is defined twice")
-    numbers = np.concatenate([EMPTY, *parts])
-    if kind == "NODE":
-        reader.model.surfaces[key] = Surface(name, card.source, nodes=np.unique(numbers))
-    else:
-        reader.model.surfaces[key] = Surface(
-            name, card.source, None, numbers, np.concatenate([np.zeros(0, int), *faces])
-        )
-
-
-def face_number(label, letter, line):
-    """Returns the number of a face from 0, given its label, S3 or P3. Raises Fault."""
-    label = label.upper()
-    if len(label) != 2 or label[0] != letter or label[1] not in "123456":
-        raise Fault(f"'{label}' is not a face: {letter}1 to {letter}6", line=line)
-    return int(label[1]) - 1
-
-
-@handles("NGEN", used=("NSET",), phase=0)
-def generated_nodes(card, reader):
-    numbers, places = [], []
-    for line, fields in card.rows():
-        first, last = integer(fields[0], line), integer(fields[1], line)
-        step = integer(fields[2], line) if len(fields) > 2 and fields[2] else 1
-        if step < 1 or last <= first or (last - first) % step:
-            raise Fault(f"{first}, {last}, {step} is not a row of nodes", line=line)
-        if (last - first) // step > LONGEST:
-            raise Fault(f"the row {first}, {last}, {step} is longer than {LONGEST}", line=line)
-        ends = reader.model.nodes.at([first, last])
-        between = np.arange(first + step, last, step)
-        part = ((between - first) / (last - first))[:, None]
-        numbers.append(np.concatenate([[first], between, [last]]))
-        places.append(np.concatenate([ends[:1], (1 - part) * ends[0] + part * ends[1], ends[1:]]))
-    if numbers:
-        reader.model.nodes.add(np.concatenate(numbers), np.concatenate(places))
-        _define(card, reader, "NSET", reader.model.node_sets, np.concatenate(numbers))
-    reader.journal.mark(card.source, USED)
+def define(card, reader, parameter, sets, numbers):
+    """Defines the set of a parameter, if that is given; its `numbers` may be a function."""
+    if parameter in card.parameters:
+        sets.add(*reader.defined(card, parameter), card.source, [numbers])
 
 
 @handles("INITIAL CONDITIONS", used=("TYPE",))
@@ -234,8 +247,7 @@ WITHOUT_EFFECT = {
     "PHYSICAL CONSTANTS": "temperatures and gravitation between masses are refused",
     "AMPLITUDE": "a load that refers to it is refused",
     "CONTROLS": "this program has its own tolerances",
-    "DAMPING": "without effect on *STATIC and *FREQUENCY of CalculiX; damping of the case are the"
-    " options -material_<group>_rayleigh_mass and _rayleigh_stiffness",
+    "SECTION CONTROLS": "hourglass control and the like of the other program",
 }
 
 

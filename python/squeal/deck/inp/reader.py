@@ -3,25 +3,28 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-
-from squeal.deck.inp import contacts, joints, materials, mesh, state  # noqa: F401 (handlers)
-from squeal.deck.inp.cards import key_of, read_cards
-from squeal.deck.inp.dialect import OUTPUT, PROCEDURES
+from squeal.deck.inp import contacts, couplings, generate, joints  # noqa: F401 (handlers)
+from squeal.deck.inp import materials, mesh, squeal, state, surfaces  # noqa: F401
+from squeal.deck.inp.assembly import Structure
+from squeal.deck.inp.cards import read_cards
+from squeal.deck.inp.detect import detect
+from squeal.deck.inp.dialect import ABAQUS, OUTPUT, PROCEDURES
 from squeal.deck.inp.handlers import TABLE, settle
 from squeal.deck.inp.lines import read_lines
+from squeal.deck.inp.names import Names
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
-from squeal.deck.model import EMPTY, Model
-from squeal.deck.numbers import integer, is_integer
+from squeal.deck.model import Instance, Model
+from squeal.deck.numbers import integer, real
 
 REASONS = {
     **{name: "shells are not supported" for name in ("SHELL SECTION", "MEMBRANE SECTION")},
     "BEAM SECTION": "beams are not supported",
     "TEMPERATURE": "temperatures and their strains are not supported",
     "GAP": "gap elements are not supported",
-    "MPC": "multi-point constraints of this kind are not supported; use *EQUATION",
+    "PARAMETER": "parameters are not supported; write their values into the deck",
+    "NMAP": "mapped nodes are not supported; write their coordinates into the deck",
+    "CONNECTOR SECTION": "connectors are not supported; use springs, dashpots or a coupling",
     "BUCKLE": "buckling loads are not computed",
-    "COMPLEX FREQUENCY": "complex modes of a rotor are not translated",
 }
 
 
@@ -33,37 +36,73 @@ def _reason(card):
     return "this card is not supported" if card.known else "unknown card"
 
 
+MODES = 200  # the number if the deck has an upper limit only
+SUPPORTED = ("STATIC", "FREQUENCY", "COMPLEX FREQUENCY")
+# Cards of a static step that may follow free vibrations: the loads remain.
+CHANGES_OF_FRICTION = {"STEP", "STATIC", "CHANGE FRICTION", "FRICTION", "END STEP", *OUTPUT}
+
+
 @dataclass
 class Step:
     """The step that is read: kinds of cards that it has given already, and places that it has
-    loaded."""
+    loaded. `frequency`: it computes modes; `only_friction`: it changes nothing but friction."""
 
     frequency: bool = False
     after_static: bool = False
+    only_friction: bool = False
     perturbation: bool = False
     renewed: set = field(default_factory=set)
     loaded: set = field(default_factory=set)
 
 
-class Reader:
+class Reader(Names):
     """Applies cards to a model; following cards describe `material` and `interaction`."""
 
-    def __init__(self, model, journal):
-        self.model = model
-        self.journal = journal
+    def __init__(self, model, dialect, journal):
+        super().__init__(model, journal)
+        self.dialect = dialect
         self.material = self.interaction = None
         self.step = Step()
 
     def read(self, cards):
-        phases = [[], [], []]
-        for card in cards:
-            phases[TABLE[card.keyword].phase if card.keyword in TABLE else 2].append(card)
-        for card in phases[0]:
-            self._apply(card)
+        """Reads the nodes, elements and sets of all scopes, then their surfaces, then the rest."""
+        self.structure = Structure(cards, self.journal)
+        scopes = [*self.structure.instances, self.structure.model]
+        for scope in scopes:
+            self._number(scope)
+            self._apply_all(self._phase(scope, 0))
+            self.model.nodes.add_all(scope.nodes, scope.placed)
+            if scope.name:
+                offsets = scope.node_offset, scope.element_offset
+                last = self._largest_element()
+                self.model.instances.append(Instance(scope.name, *offsets, last))
         self.model.merge_blocks()
-        for card in phases[1]:
-            self._apply(card)
-        rest = phases[2]
+        for phase in (1, 2):
+            for scope in scopes:
+                self.scope = scope
+                self._apply_all(self._phase(scope, phase))
+        self.journal.close()
+
+    def _phase(self, scope, phase):
+        """Returns the cards of a scope that are read in a phase."""
+        return [
+            card
+            for card in scope.cards
+            if (TABLE[card.keyword].phase if card.keyword in TABLE else 2) == phase
+        ]
+
+    def _number(self, scope):
+        """Opens a scope: its numbers are shifted to follow those of the scopes before."""
+        self.scope = scope
+        scope.node_offset = _above(self.model.nodes.largest)
+        scope.element_offset = _above(self._largest_element())
+        if scope is self.structure.model and not self.structure.instances:
+            scope.node_offset = scope.element_offset = 0
+
+    def _largest_element(self):
+        return max((int(block.numbers.max()) for block in self.model.blocks), default=0)
+
+    def _apply_all(self, rest):
         at = 0
         while at < len(rest):
             if rest[at].keyword == "STEP":
@@ -76,7 +115,6 @@ class Reader:
             else:
                 self._apply(rest[at])
                 at += 1
-        self.journal.close()
 
     def _apply(self, card):
         """Lets the handler of a card work, or refuses the card."""
@@ -98,14 +136,19 @@ class Reader:
     def _step(self, cards):
         procedure = next((card for card in cards if card.keyword in PROCEDURES), None)
         name = procedure.keyword if procedure else None
-        supported = name in ("STATIC", "FREQUENCY")
+        supported = name in SUPPORTED
         if procedure and not supported and self.journal.ignores(name):
             for card in cards:
                 self.journal.mark(card.source, UNUSED, f"in the step of *{name}, which is ignored")
             return
         if procedure is None:
             self.journal.refuse(cards[0].source, "the step has no procedure")
-        self.step = Step(name == "FREQUENCY", self.model.static is not None)
+        only_friction = all(card.keyword in CHANGES_OF_FRICTION for card in cards)
+        self.step = Step(
+            name in ("FREQUENCY", "COMPLEX FREQUENCY"),
+            self.model.static is not None,
+            only_friction,
+        )
         self._open_step(cards[0], name)
         for card in cards[1:]:
             if card is procedure and supported:
@@ -123,17 +166,30 @@ class Reader:
         journal.mark(card.source, USED)
         for name, value in card.parameters.items():
             if name == "NLGEOM" and (value or "YES").upper() != "NO":
-                journal.refuse(card.source, "large displacements are not supported", name)
-            elif name == "PERTURBATION" and procedure == "FREQUENCY":
+                self._large_displacements(card.source)
+            elif name == "PERTURBATION" and procedure in ("FREQUENCY", "COMPLEX FREQUENCY"):
                 self.step.perturbation = True
-            elif name in ("INC", "INCF", "NAME", "NLGEOM", "AMPLITUDE"):
+            elif name in ("INC", "INCF", "NAME", "NLGEOM", "AMPLITUDE", "UNSYMM", "EXTRAPOLATION"):
                 journal.remark(card.source, f"{name} is not used")
             else:
                 journal.refuse(card.source, "this parameter is not supported", name)
 
+    def _large_displacements(self, source):
+        """Refuses them. If they are ignored, free vibrations have the stress of the static step, as
+        in the program of the deck."""
+        reason = "large displacements are not supported; --ignore NLGEOM takes them as small"
+        if not self.journal.refuse(source, reason, "NLGEOM"):
+            self.model.large_displacements = True
+
     def _procedure(self, card):
         journal = self.journal
-        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION"}
+        if card.keyword == "COMPLEX FREQUENCY":
+            try:
+                squeal.request(card, self)
+            except Fault as fault:
+                journal.refuse(card.source, fault.reason, fault.name, fault.line)
+            return
+        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION", "STABILIZE"}
         for name in card.parameters:
             if name in idle:
                 journal.remark(card.source, f"{name} is not used")
@@ -151,18 +207,38 @@ class Reader:
         rows = list(card.rows())
         if not rows:
             raise Fault("the number of frequencies is missing")
-        line, fields = rows[0]
-        if self.model.frequency and self.model.prestress != self.step.perturbation:
-            raise Fault("steps of free vibrations with and without PERTURBATION")
-        self.model.prestress = self.step.perturbation
-        self.model.frequencies = max(integer(fields[0], line), self.model.frequencies or 0)
-        self.model.frequency = card.source
         if len(rows) > 1:
             raise Fault("this card has one line of data", line=rows[1][0])
-        if len(fields) > 1:
-            self.journal.remark(card.source, "only the number of frequencies is used")
-        if self.model.static and not self.model.prestress:
-            self.journal.choose(f"{card.source}: frequencies without the effect of the static step")
+        line, fields = rows[0]
+        model, abaqus = self.model, self.dialect is ABAQUS
+        if model.static and self.step.perturbation:
+            self.decide()
+        prestress = model.large_displacements if abaqus else self.step.perturbation
+        if model.frequencies and model.prestress != prestress:
+            raise Fault("steps of free vibrations with and without PERTURBATION")
+        model.prestress = prestress
+        count, model.top = (integer(fields[0], line) if fields[0] else None), None
+        if abaqus and len(fields) > 2 and fields[2]:
+            model.top = real(fields[2], line)
+        if count is None and model.top is None:
+            raise Fault("the number of frequencies is missing", line=line)
+        if len(fields) > (3 if abaqus else 1) or abaqus and any(fields[1:2]):
+            self.journal.remark(card.source, "only the number and the upper limit are used")
+        model.frequencies = max(count or MODES, model.frequencies or 0)
+        if count is None:
+            self.journal.choose(
+                f"{card.source}: the modes up to {model.top:g} Hz; the case computes {MODES}, see"
+                " whether they reach this limit"
+            )
+        model.frequency = card.source
+        if model.static and not prestress:
+            self.journal.choose(
+                f"{card.source}: frequencies without the stress of the static step"
+                if abaqus
+                else f"{card.source}: frequencies without the effect of the static step"
+            )
+        if prestress and not abaqus:
+            squeal.add_request(card.source, self, False, count, None)
         self.journal.mark(card.source, TRANSLATED)
 
     def _static(self, card):
@@ -171,57 +247,39 @@ class Reader:
                 f"{card.source}: the case has the state at the end of this static step, not those"
                 " of earlier ones"
             )
-        if self.model.frequencies is not None:
-            raise Fault("a static step after one of free vibrations is not supported")
+        if self.model.frequencies is not None and not self.step.only_friction:
+            raise Fault(
+                "a static step after one of free vibrations is not supported, unless it only"
+                " changes friction"
+            )
         if card.data:
             self.journal.remark(card.source, "increments are not used: the step is linear")
         self.model.static = card.source
         self.journal.mark(card.source, TRANSLATED)
 
-    def nodes_of(self, word, line):
-        """Returns the node, or the nodes of the set, that a field names. Raises Fault."""
-        return self._members(word, line, self.model.node_sets)
+    def decide(self):
+        """Raises Fault if the deck may be for either program, which read the card differently."""
+        if not self.dialect.decided:
+            raise Fault(
+                "Abaqus and CalculiX read it differently; choose --dialect abaqus or calculix"
+            )
 
-    def elements_of(self, word, line):
-        """Returns the element, or the elements of the set, that a field names. Raises Fault."""
-        return self._members(word, line, self.model.element_sets)
 
-    def surface_of(self, word, line):
-        """Returns the key of a surface. Raises Fault if there is none."""
-        key = key_of(word)
-        if key not in self.model.surfaces:
-            raise Fault(f"there is no surface '{word}'", line=line)
-        return key
-
-    def _members(self, word, line, sets):
-        if is_integer(word):
-            if word in sets:
-                self.journal.choose(f"line {line}: {word} is read as a number, not as a set")
-            return np.array([integer(word, line)], np.int64)
-        try:
-            return sets.members(key_of(word))
-        except Fault as fault:
-            raise Fault(fault.reason, line=line) from None
-
-    def kinds_of(self, elements):
-        """Returns the kinds of elements; elements that do not exist are left out."""
-        blocks, _ = self.model.find_elements(elements)
-        return {self.model.blocks[block].kind for block in np.unique(blocks[blocks >= 0])}
-
-    def nodes_of_elements(self, elements, kind=None):
-        """Returns the nodes of elements, of one kind only if it is given, in ascending order."""
-        found = [EMPTY]
-        blocks, rows = self.model.find_elements(elements)
-        for number, block in enumerate(self.model.blocks):
-            if kind is None or block.kind == kind:
-                found.append(block.nodes[rows[blocks == number]].ravel())
-        return np.unique(np.concatenate(found))
+def _above(number):
+    """Returns an offset that is not less than a number and has few digits that are not zero, so
+    that one can read the number in the part from the shifted one."""
+    unit = 10 ** max(len(str(number)) - 1, 0)
+    return -(-number // unit) * unit
 
 
 def read_model(path, dialect, journal):
-    """Returns the model of a deck; the journal then has an entry for each card. Raises DeckError if
-    a file cannot be read."""
-    cards = read_cards(read_lines(path, journal), dialect, journal)
-    model = Model(" ".join(Path(path).name.split()))
-    Reader(model, journal).read(cards)
+    """Returns the model of a deck; the journal then has an entry for each card. `dialect` None: the
+    one that is detected. Raises DeckError if a file cannot be read."""
+    lines = read_lines(path, journal)
+    if dialect is None:
+        dialect, reason = detect(lines)
+        journal.choose(f"dialect: {dialect.name}, {reason}")
+    cards = read_cards(lines, dialect, journal)
+    model = Model(" ".join(Path(path).name.split()), dialect.name)
+    Reader(model, dialect, journal).read(cards)
     return model

@@ -3,17 +3,20 @@
 import numpy as np
 
 from squeal.deck.inp.cards import key_of
-from squeal.deck.inp.handlers import handles
-from squeal.deck.inp.mesh import face_number
+from squeal.deck.inp.handlers import PARAMETERS, handles
+from squeal.deck.inp.surfaces import face_number
 from squeal.deck.journal import TRANSLATED, UNUSED, Fault
-from squeal.deck.model import BodyLoad, Value
-from squeal.deck.numbers import integer, is_integer, real
+from squeal.deck.model import EMPTY, BodyLoad, Value
+from squeal.deck.numbers import integer, real
 
 SYMMETRIES = {
     **{"XSYMM": (0, 4, 5), "YSYMM": (1, 3, 5), "ZSYMM": (2, 3, 4)},
     **{"XASYMM": (1, 2, 3), "YASYMM": (0, 2, 4), "ZASYMM": (0, 1, 5)},
     **{"PINNED": (0, 1, 2), "ENCASTRE": (0, 1, 2, 3, 4, 5)},
 }
+
+
+BODY_LOADS = {"GRAV": 4, "CENTRIF": 7, "CENT": 7, "BX": 1, "BY": 1, "BZ": 1}
 
 
 def _clear_if_new(card, reader, *tables):
@@ -28,22 +31,39 @@ def _clear_if_new(card, reader, *tables):
     reader.step.renewed.add(kind)
 
 
-def _label(word):
-    return None if is_integer(word) else key_of(word)
-
-
-@handles("BOUNDARY", used=("OP",))
+@handles("BOUNDARY", used=("OP", "TYPE", "FIXED"))
 def boundary(card, reader):
+    if card.key("TYPE", "DISPLACEMENT") != "DISPLACEMENT":
+        raise Fault(f"TYPE={card.value('TYPE')} is not supported", "TYPE")
     supports = reader.model.state.supports
     _clear_if_new(card, reader, supports)
     for line, fields in card.rows():
         nodes = reader.nodes_of(fields[0], line)
+        if "FIXED" in card.parameters or _bolts(nodes, reader):
+            _lock(nodes, fields, line, reader)
+            continue
         components, value = _held(fields, line)
-        held = Value(value, _label(fields[0]), card.source)
+        held = Value(value, reader.label_of(fields[0], reader.model.node_sets), card.source)
         for number in nodes:
             for component in components:
                 supports[int(number), component] = held
     reader.journal.mark(card.source, TRANSLATED)
+
+
+def _bolts(nodes, reader):
+    return [bolt for bolt in reader.model.bolts if bolt.node in nodes]
+
+
+def _lock(nodes, fields, line, reader):
+    """Bolts keep the length that they have got: FIXED is supported only for these."""
+    bolts = _bolts(nodes, reader)
+    if len(bolts) < len(nodes):
+        raise Fault(PARAMETERS["FIXED"], "FIXED", line)
+    _, value = _held(fields, line)
+    if value:
+        raise Fault("bolts with a given elongation are not supported", line=line)
+    for bolt in bolts:
+        bolt.locked = True
 
 
 def _held(fields, line):
@@ -75,8 +95,14 @@ def concentrated_load(card, reader):
         component, value = integer(fields[1], line) - 1, real(fields[2], line)
         if component not in range(6):
             raise Fault("components are 1 to 6", line=line)
-        new = Value(value, _label(fields[0]), card.source)
-        for number in reader.nodes_of(fields[0], line):
+        nodes = reader.nodes_of(fields[0], line)
+        new = Value(value, reader.label_of(fields[0], reader.model.node_sets), card.source)
+        bolts = _bolts(nodes, reader)
+        if bolts and component:
+            raise Fault("the tension of a bolt is component 1", line=line)
+        for bolt in bolts:
+            bolt.force = new
+        for number in np.setdiff1d(nodes, [bolt.node for bolt in bolts]):
             _add(forces, (int(number), component), new, reader.step)
     reader.journal.mark(card.source, TRANSLATED)
 
@@ -101,19 +127,28 @@ def distributed_load(card, reader):
     for line, fields in card.rows():
         if len(fields) < 2:
             raise Fault("a line has an element or set, a label and values", line=line)
-        elements, label = reader.elements_of(fields[0], line), key_of(fields[1])
+        elements, label = _loaded_elements(fields[0], line, reader), key_of(fields[1])
         numbers = [real(field, line) if field else 0.0 for field in fields[2:]]
-        if label in ("GRAV", "CENTRIF"):
+        if label in BODY_LOADS:
             load = _body_load(label, elements, numbers, line, card.source)
             _add_body_load(state.body_loads, load, reader.step)
         elif len(label) == 2 and label[0] == "P" and len(numbers) == 1:
             face = face_number(label, "P", line)
-            pressure = Value(numbers[0], _label(fields[0]), card.source)
+            name = reader.label_of(fields[0], reader.model.element_sets)
+            pressure = Value(numbers[0], name, card.source)
             for number in elements:
                 _add(state.pressures, (int(number), face), pressure, reader.step)
         else:
             raise Fault(f"the load {fields[1]} is not supported", fields[1].upper(), line)
     reader.journal.mark(card.source, TRANSLATED)
+
+
+def _loaded_elements(word, line, reader):
+    """Without an element or set a load acts on all elements, as Abaqus allows."""
+    if word:
+        return reader.elements_of(word, line)
+    blocks = [block.numbers for block in reader.model.blocks if block.shape]
+    return np.concatenate([EMPTY, *blocks])
 
 
 def _add_body_load(loads, new, step):
@@ -128,9 +163,11 @@ def _add_body_load(loads, new, step):
 
 
 def _body_load(kind, elements, numbers, line, source):
-    count = 4 if kind == "GRAV" else 7
+    count = BODY_LOADS[kind]
     if len(numbers) != count:
         raise Fault(f"{kind} has {count} numbers", kind, line)
+    if count == 1:
+        return BodyLoad("FORCE", elements, np.eye(3)["XYZ".index(kind[1])], numbers[0], source)
     vector = np.array(numbers[-3:])
     length = np.linalg.norm(vector)
     if length == 0:
@@ -139,8 +176,9 @@ def _body_load(kind, elements, numbers, line, source):
         return BodyLoad(kind, elements, vector / length, numbers[0], source)
     if numbers[0] < 0:
         raise Fault("the square of the speed is negative", kind, line)
-    speed, origin = np.sqrt(numbers[0]), np.array(numbers[1:4])
-    return BodyLoad(kind, elements, vector / length, speed, source, origin)
+    # CENT is the density times the square of the speed, CENTRIF the square.
+    amount = numbers[0] if kind == "CENT" else np.sqrt(numbers[0])
+    return BodyLoad(kind, elements, vector / length, amount, source, np.array(numbers[1:4]))
 
 
 @handles("DSLOAD", used=("OP",))
@@ -151,12 +189,13 @@ def surface_load(card, reader):
     state = reader.model.state
     _clear_if_new(card, reader, state.pressures, state.body_loads)
     for line, fields in card.rows():
-        surface = reader.model.surfaces.get(key_of(fields[0]))
+        key = reader.set_key(fields[0], reader.model.surfaces)
+        surface = reader.model.surfaces.get(key)
         if surface is None or surface.nodes is not None:
             raise Fault(f"there is no surface with faces '{fields[0]}'", line=line)
         if len(fields) != 3 or key_of(fields[1]) != "P":
             raise Fault("only the pressure P is supported", line=line)
-        pressure = Value(real(fields[2], line), key_of(fields[0]), card.source)
+        pressure = Value(real(fields[2], line), key, card.source)
         for number, face in zip(surface.elements, surface.faces):
             _add(state.pressures, (int(number), int(face)), pressure, reader.step)
     reader.journal.mark(card.source, TRANSLATED)

@@ -6,13 +6,14 @@ from squeal.deck.case.groups import CELLS, FACES, NODES
 from squeal.deck.journal import Fault
 
 
-def write_account(path, model, case, journal, program):
+def write_account(path, model, case, journal):
     """`case` is None if the deck is refused. Raises OSError."""
     text = [f"# {model.title}", ""]
-    text += _outcome(journal, program)
+    text += _outcome(model, journal)
     text += _choices(journal)
     text += _cards(journal)
     text += _elements(model)
+    text += _instances(model)
     text += _sets(model)
     if case is not None:
         text += _groups(case)
@@ -20,8 +21,8 @@ def write_account(path, model, case, journal, program):
         file.write("\n".join(text) + "\n")
 
 
-def _outcome(journal, program):
-    lines = [f"Read as a deck of {program}. Cards: {journal.counted()}.", ""]
+def _outcome(model, journal):
+    lines = [f"Read as a deck of {model.program}. Cards: {journal.counted()}.", ""]
     if journal.refusals:
         lines += ["The deck cannot be translated:", ""]
         lines += [f"- {refusal}" for refusal in journal.refusals]
@@ -53,6 +54,16 @@ def _elements(model):
     for block in model.blocks:
         lines.append(f"| {block.kind} | {len(block.numbers)} | {_cell(str(block.source))} |")
     return [*lines, "", f"Nodes: {len(model.nodes.numbers)}", ""]
+
+
+def _instances(model):
+    """The numbers of the model are those of the part plus an offset."""
+    if not model.instances:
+        return []
+    lines = ["## Instances", "", "| instance | node 1 of the part | element 1 |", "|---|---|---|"]
+    for one in model.instances:
+        lines.append(f"| {_cell(one.name)} | {one.node_offset + 1} | {one.element_offset + 1} |")
+    return [*lines, ""]
 
 
 def _sets(model):

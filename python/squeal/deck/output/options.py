@@ -5,9 +5,9 @@ import re
 MARK = "# Made by squeal-import from"
 
 
-def write_options(path, case, title, program, ignored):
+def write_options(path, case, model, ignored):
     """`ignored`: names of what the user has left out. Raises OSError."""
-    lines = [f"{MARK} {title} ({program}). The units are those of the deck."]
+    lines = [f"{MARK} {model.title} ({model.program}). The units are those of the deck."]
     if ignored:
         names = ", ".join(" ".join(name.split()) for name in ignored)
         lines.append(f"# Left out by --ignore: {names}.")

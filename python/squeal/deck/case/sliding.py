@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Which bodies of a case move, how fast, and about which axis.
+
+The deck gives the motion of matter at nodes. Without that, a prescribed turn or shift of a part
+that rubs, such as the turn of a hub, stands for its motion.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+from squeal.deck.case.groups import CELLS, clean
+from squeal.deck.journal import TRANSLATED, Fault
+from squeal.deck.model import EMPTY, Motion
+
+PRECISION = 0.02  # of a turn that is taken as a rigid motion: finite turns are not linear
+
+
+@dataclass
+class Moving:
+    """A body that moves. `known`: the amount is a velocity."""
+
+    motion: Motion
+    known: bool
+
+
+class Bodies:
+    """Bodies of a case with their nodes."""
+
+    def __init__(self, model, case):
+        self.model = model
+        self.names = list(case.groups[CELLS])
+        self.cells = [case.groups[CELLS][name] for name in self.names]
+        self.nodes = [self._nodes_of(cells) for cells in self.cells]
+
+    def _nodes_of(self, cells):
+        blocks, rows = self.model.find_elements(cells)
+        parts = [
+            block.nodes[rows[blocks == number]].ravel()
+            for number, block in enumerate(self.model.blocks)
+        ]
+        return np.unique(np.concatenate([EMPTY, *parts]))
+
+    def of_elements(self, elements):
+        """Returns the numbers of the bodies that have some of these elements."""
+        return {at for at, cells in enumerate(self.cells) if np.any(np.isin(elements, cells))}
+
+    def of_nodes(self, nodes):
+        return {at for at, own in enumerate(self.nodes) if np.any(np.isin(nodes, own))}
+
+    def joined(self):
+        """Returns for each body the set of the bodies that share nodes or are tied or coupled with
+        it, directly or through others."""
+        links = [{at} for at in range(len(self.names))]
+        for at, nodes in enumerate(self.nodes):
+            links[at] |= {other for other in self.of_nodes(nodes)}
+        for group in self._joints():
+            for at in group:
+                links[at] |= group
+        found = []
+        for start in range(len(links)):
+            reached, open_ = {start}, [start]
+            while open_:
+                new = links[open_.pop()] - reached
+                reached |= new
+                open_ += new
+            found.append(reached)
+        return found
+
+    def _joints(self):
+        surfaces = self.model.surfaces
+        for tie in self.model.ties:
+            group = set()
+            for key in (tie.slave, tie.master):
+                surface = surfaces[key]
+                group |= (
+                    self.of_elements(surface.elements)
+                    if surface.nodes is None
+                    else self.of_nodes(surface.nodes)
+                )
+            yield group
+        for rigid in self.model.rigid:
+            yield self.of_nodes(rigid_nodes(rigid, self.model))
+
+
+def rigid_nodes(rigid, model):
+    """Returns the nodes of a rigid body or of a coupling."""
+    if rigid.surface is None:
+        return np.asarray(rigid.nodes, np.int64)
+    surface = model.surfaces[rigid.surface]
+    if surface.nodes is not None:
+        return surface.nodes
+    blocks, rows = model.find_elements(surface.elements)
+    parts = [
+        model.blocks[block].nodes[row, list(model.blocks[block].shape.faces[face])]
+        for block, row, face in zip(blocks, rows, surface.faces)
+    ]
+    return np.unique(np.concatenate([EMPTY, *parts]))
+
+
+def moving_bodies(model, bodies, case, journal):
+    """Returns number of body -> Moving, and sets the options of the motions. Removes prescribed
+    displacements that stand for a motion from the supports of the model."""
+    rubbing = _rubbing(model, bodies)
+    moving = _given(model, bodies, journal) if model.motions else {}
+    if not model.motions and model.squeal:
+        moving = _turned(model, bodies, rubbing, journal)
+    for at, one in moving.items():
+        _set_motion(case, bodies.names[at], one, model, journal)
+    return moving
+
+
+def _rubbing(model, bodies):
+    """Returns the bodies with a contact that has friction."""
+    found = set()
+    for contact in model.contacts:
+        one = model.interactions.get(contact.interaction)
+        if one and one.frictions:
+            for key in (contact.slave, contact.master):
+                found |= bodies.of_elements(_elements(model, key))
+    return found
+
+
+def _elements(model, key):
+    surface = model.surfaces[key]
+    return EMPTY if surface.elements is None else surface.elements
+
+
+def _given(model, bodies, journal):
+    moving = {}
+    contact_nodes = [
+        (bodies.of_elements(_elements(model, key)), _surface_nodes(model, key))
+        for contact in model.contacts
+        for key in (contact.slave, contact.master)
+    ]
+    for motion in model.motions:
+        try:
+            _add_given(motion, bodies, contact_nodes, moving, journal)
+            journal.mark(motion.source, TRANSLATED)
+        except Fault as fault:
+            journal.refuse_fault(motion.source, fault)
+    return moving
+
+
+def _surface_nodes(model, key):
+    surface = model.surfaces[key]
+    if surface.nodes is not None:
+        return surface.nodes
+    blocks, rows = model.find_elements(surface.elements)
+    found = [EMPTY]
+    for number, block in enumerate(model.blocks):
+        for face in np.unique(surface.faces[blocks == number]):
+            on = (blocks == number) & (surface.faces == face)
+            if block.shape and face < len(block.shape.faces):
+                found.append(block.nodes[rows[on]][:, list(block.shape.faces[face])].ravel())
+    return np.unique(np.concatenate(found))
+
+
+def _add_given(motion, bodies, contact_nodes, moving, journal):
+    """A body moves if all its nodes do, or all nodes of one of its contact surfaces: the velocity
+    of other matter has no effect on friction."""
+    chosen = set()
+    for at, nodes in enumerate(bodies.nodes):
+        inside = int(np.isin(nodes, motion.nodes).sum())
+        slides = any(
+            at in owners and len(own) and np.all(np.isin(own, motion.nodes))
+            for owners, own in contact_nodes
+        )
+        if inside == len(nodes):
+            chosen.add(at)
+        elif slides:
+            chosen.add(at)
+            journal.choose(
+                f"{motion.source}: the set has {inside} of {len(nodes)} nodes of body"
+                f" '{bodies.names[at]}', among them a contact surface; the whole body moves"
+            )
+    if not chosen:
+        raise Fault("the set holds neither all nodes of a body nor those of a contact surface")
+    for at in chosen:
+        if at in moving:
+            raise Fault(f"body '{bodies.names[at]}' has two motions")
+        moving[at] = Moving(motion, True)
+
+
+def _turned(model, bodies, rubbing, journal):
+    """Fits the motion of a rigid body to prescribed displacements of each part that rubs."""
+    moving = {}
+    joined = bodies.joined()
+    for at in sorted(rubbing):
+        group = joined[at]
+        if at in moving or not any(model.state.supports):
+            continue
+        nodes = np.unique(np.concatenate([bodies.nodes[one] for one in group]))
+        places = [
+            (place, value)
+            for place, value in _held(model, nodes, group, bodies)
+            if place in model.state.supports
+        ]
+        if not any(value.value for _, value in places):
+            continue
+        source = next(value.source for _, value in places if value.value)
+        try:
+            motion = _fit(model, places, source)
+        except Fault as fault:
+            journal.refuse_fault(source, fault)
+            continue
+        moved = [place for place, value in places if value.value]
+        for place in moved:
+            held = model.state.supports[place]
+            model.state.supports[place] = type(held)(0.0, held.label, held.source)
+        names = ", ".join(f"'{bodies.names[one]}'" for one in sorted(group))
+        journal.choose(
+            f"{source}: the prescribed {'turn' if motion.axis is not None else 'shift'} of {names}"
+            " is a steady motion; the nodes are held where they are"
+        )
+        moving.update({one: Moving(motion, False) for one in group})
+    return moving
+
+
+def _held(model, nodes, group, bodies):
+    """Yields place and value of the supports of a part: of its nodes, and of the reference nodes of
+    its couplings."""
+    references = {}
+    for rigid in model.rigid:
+        if bodies.of_nodes(rigid_nodes(rigid, model)) & group:
+            references[rigid.reference] = rigid
+            if rigid.rotation is not None:
+                references[rigid.rotation] = rigid
+    inside = set(nodes.tolist())
+    for place, value in model.state.supports.items():
+        if place[0] in inside or place[0] in references:
+            yield place, value
+
+
+def _fit(model, places, source):
+    """Returns the rigid motion whose displacements at these places are closest to the prescribed
+    ones. Raises Fault if they are not those of a rigid motion."""
+    rotations = {one.rotation: one.reference for one in model.rigid if one.rotation is not None}
+    rows, values = [], []
+    for (number, component), value in places:
+        turns = component > 2 or number in rotations
+        point = model.nodes.at([rotations.get(number, number)])[0]
+        frame = model.frames.get(number)
+        axes = np.eye(3) if frame is None else frame.axes_at(point)
+        direction = axes[component % 3]
+        rows.append(
+            [*np.zeros(3), *direction] if turns else [*direction, *np.cross(point, direction)]
+        )
+        values.append(value.value)
+    rows, values = np.array(rows), np.array(values)
+    size = max(np.abs(rows[:, 3:]).max(), 1e-300)
+    rows[:, 3:] /= size  # shifts and turns of one order
+    answer = np.linalg.lstsq(rows, values, rcond=1e-10)[0]
+    error = np.abs(rows @ answer - values).max()
+    if error > PRECISION * np.abs(values).max():
+        raise Fault(
+            "the prescribed displacements are not those of a rigid turn or shift; state the motion"
+            " of the sliding body by *MOTION"
+        )
+    shift, turn = answer[:3], answer[3:] / size
+    if np.linalg.norm(turn) * size <= PRECISION * np.linalg.norm(shift):
+        return Motion(EMPTY, _rounded(shift / np.linalg.norm(shift), 1.0), source)
+    speed = np.linalg.norm(turn)
+    # Points of the axis do not move across it: shift + turn × origin is along the axis.
+    origin = np.cross(turn, shift) / speed**2
+    return Motion(EMPTY, 1.0, source, _rounded(turn / speed, 1.0), _rounded(origin, size))
+
+
+def _rounded(vector, size):
+    """Returns a vector of a least-squares fit without its round-off."""
+    return np.round(vector, 12 - int(np.ceil(np.log10(size))))
+
+
+def _set_motion(case, body, moving, model, journal):
+    path, motion = ("motion", clean(body)), moving.motion
+    factor = 1.0 if moving.known else model.speed or 1.0
+    if motion.axis is None:
+        case.set((*path, "velocity"), factor * motion.amount, motion.source)
+        return
+    case.set((*path, "speed"), factor * motion.amount, motion.source)
+    case.set((*path, "axis"), motion.axis, motion.source)
+    case.set((*path, "origin"), motion.origin, motion.source)
