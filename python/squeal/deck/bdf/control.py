@@ -60,7 +60,8 @@ class Subcase:
     sets: dict = field(default_factory=dict)
     steps: list = field(default_factory=list)
     analysis: str = ""
-    preload: int = None
+    preload: int = None  # the subcase of STATSUB
+    preload_source: Source = None
 
 
 @dataclass
@@ -150,7 +151,7 @@ class Reader:
         elif word == "STATSUB":
             if match[2] and match[2].strip("()").upper() not in ("PRELOAD", "BUCKLE"):
                 raise Fault(f"{match[2]} is not supported")
-            self.current.preload = integer(value)
+            self.current.preload, self.current.preload_source = integer(value), source
             mark(source, USED)
         elif word == "PARAM":
             words = [part.strip().upper() for part in value.strip(", ").split(",")]
@@ -172,7 +173,9 @@ class Reader:
             if any(other.number == number for other in subcases):
                 raise Fault(f"subcase {number} is given twice")
             one.sets = dict(self.control.base.sets)
-            one.analysis, one.preload = self.control.base.analysis, self.control.base.preload
+            base = self.control.base
+            one.analysis = base.analysis
+            one.preload, one.preload_source = base.preload, base.preload_source
             subcases.append(one)
         else:
             owner = subcases[-1] if subcases else self.control.base
@@ -195,7 +198,7 @@ def _full(word):
 class Selection:
     """The sets of the case: `None` for those of which none is selected; `everything`: a deck of
     bulk data only, of which all sets count. `static`, `frequency`: the sources of what asks for
-    them."""
+    them; `sources`: those of the other sets."""
 
     everything: bool = False
     complex: bool = False
@@ -208,6 +211,7 @@ class Selection:
     static: Source = None
     frequency: Source = None
     prestress: bool = False
+    sources: dict = field(default_factory=dict)
 
 
 def select(control, wanted, journal):
@@ -222,7 +226,7 @@ def select(control, wanted, journal):
     if chosen.preload is not None:
         preload = next((one for one in ones if one.number == chosen.preload), None)
         if preload is None:
-            journal.refuse(chosen.source, f"STATSUB: there is no subcase {chosen.preload}")
+            journal.refuse(chosen.preload_source, f"there is no subcase {chosen.preload}")
     found = Selection(complex=control.solution in ("complex", "nonlinear"))
     found.prestress = preload is not None
     modal = control.solution in ("modes", "complex")
@@ -264,6 +268,7 @@ def _take(found, one, moving, solution, journal):
         if before not in (None, number) and key in ("spc", "mpc", "contact"):
             journal.refuse(source, f"{name} {before} of the preload differs from {number}")
         setattr(found, key, number)
+        found.sources[key] = source
         journal.mark(source, TRANSLATED)
     if "LOAD" in one.sets:
         number, source = one.sets["LOAD"]

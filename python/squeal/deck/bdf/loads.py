@@ -59,13 +59,13 @@ def _taken(reader, combined):
 def _expand(reader, combined, number, factor, factors, above):
     """Adds the factors of a set, which may join others."""
     if number in above:
-        reader.journal.refuse_model(f"LOAD {number} contains itself")
+        reader.journal.refuse(reader.load_source(), f"LOAD {number} contains itself")
     elif number in combined:
         for part, own in combined[number].items():
             _expand(reader, combined, part, factor * own, factors, (*above, number))
     else:
         if number not in _simple(reader):
-            reader.journal.refuse_model(f"there is no load of set {number}")
+            reader.journal.refuse(reader.load_source(), f"there is no load of set {number}")
         factors[number] = factors.get(number, 0.0) + factor
 
 

@@ -63,8 +63,8 @@ class Reader:
 
     def _select(self):
         chosen = self.selection
-        self.spc_sets = supports.sets_of(self, chosen.spc, "SPCADD", ("SPC", "SPC1"))
-        self.mpc_sets = supports.sets_of(self, chosen.mpc, "MPCADD", ("MPC",))
+        self.spc_sets = supports.sets_of(self, "spc", "SPCADD", ("SPC", "SPC1"))
+        self.mpc_sets = supports.sets_of(self, "mpc", "MPCADD", ("MPC",))
         self.load_factors = loads.factors_of(self)
         self.spcd_sets = None if chosen.everything else {chosen.load}
 
@@ -184,6 +184,10 @@ class Reader:
             first = 0 if component < 3 else 3
             found += [(number, first + at, value * axis[at]) for at in range(3) if axis[at]]
         return found
+
+    def load_source(self):
+        """Returns the source of what selects the loads."""
+        return self.selection.static or self.deck.sources["LOAD"][0][1]
 
     def new_node(self, place):
         """Adds a node, and returns its number."""

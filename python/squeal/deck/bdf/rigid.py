@@ -146,6 +146,8 @@ def _parts(card, reader):
         elif "." in word or at == 5:
             parts.append((card.real(at), card.components(at + 1), []))
             at += 2
+        elif not parts:
+            raise Fault("the first weight is missing", line=card.line)
         else:
             parts[-1][2].append(card.identifier(at))
             at += 1

@@ -7,9 +7,11 @@ from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
 from squeal.deck.model import Equation, Value
 
 
-def sets_of(reader, selected, union, simple):
-    """Returns the numbers of the sets that a selection comprises: `union` is the card that joins
-    sets, which has precedence over `simple` ones of its number; None if all of them count."""
+def sets_of(reader, kind, union, simple):
+    """Returns the numbers of the sets that a selection (spc or mpc) comprises: `union` is the card
+    that joins sets, which has precedence over `simple` ones of its number; None if all of them
+    count."""
+    selected = getattr(reader.selection, kind)
     joined = {}
     for card in reader.deck.each(union):
         try:
@@ -40,7 +42,8 @@ def sets_of(reader, selected, union, simple):
             chosen.add(number)
     known = {number for name in simple for number in _numbers(reader, name)}
     for number in sorted(chosen - known):
-        reader.journal.refuse_model(f"there is no set {number} of {' or '.join(simple)}")
+        source = reader.selection.sources[kind]
+        reader.journal.refuse(source, f"there is no set {number} of {' or '.join(simple)}")
     return chosen
 
 
