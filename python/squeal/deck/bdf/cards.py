@@ -109,7 +109,7 @@ class Deck:
         self.chains = {}  # name -> places of the lines of each card
         self.sources = {}  # name -> (number of the first card with it, source) of each entry
         self._long = []
-        last, counts = None, {}
+        last, counts = None, []
         for chain in self._assemble():
             at = chain[0]
             name = head_of(lines.texts[at]).rstrip("*").rstrip().upper()
@@ -119,9 +119,10 @@ class Deck:
                 last = lines.source(at, name)
                 journal.open(last)
                 self.sources.setdefault(name, []).append((len(known), last))
+                counts.append([last, 0])
             known.append(chain)
-            counts[last] = counts.get(last, 0) + 1
-        for source, count in counts.items():
+            counts[-1][1] += 1
+        for source, count in counts:
             if count > 1:
                 journal.remark(source, f"{count} cards in sequence")
         self._name_long()

@@ -8,6 +8,7 @@ from squeal.deck.journal import Fault
 
 WIDTH, LARGE, DATA = 8, 16, 8  # columns of a field, of a large one; fields of data of a small line
 LAST = WIDTH * (DATA + 1)  # columns before field 10
+COLUMNS = range(WIDTH, LAST, WIDTH)
 
 
 def head_of(text):
@@ -47,7 +48,10 @@ def joined(texts, numbers):
     """Returns the fields of data of all lines of a card, 8 for each small line and for each two
     large ones. Raises Fault."""
     if len(texts) == 1 and "*" not in texts[0][:WIDTH]:
-        return data_of(texts[0], numbers[0])
+        text = texts[0]
+        if "," in text:
+            return data_of(text, numbers[0])
+        return [text[at : at + WIDTH].strip() for at in COLUMNS]
     found = []
     for text, number in zip(texts, numbers):
         data = data_of(text, number)

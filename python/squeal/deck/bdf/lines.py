@@ -37,6 +37,15 @@ class Lines:
     def file(self, at):
         return self.files[bisect.bisect_right(self.starts, at) - 1]
 
+    def part(self, first, last):
+        """Returns the lines of a range."""
+        one = Lines(self.texts[first:last], self.numbers[first:last])
+        for start, end, file in zip(self.starts, [*self.starts[1:], len(self.texts)], self.files):
+            if start < last and end > first:
+                one.starts.append(max(start - first, 0))
+                one.files.append(file)
+        return one
+
     def source(self, at, card):
         return Source(self.file(at), self.numbers[at], card, "")
 
@@ -129,7 +138,6 @@ def read_sections(path, journal):
     begins = [
         at for at, text in enumerate(lines.texts) if text.lstrip()[:6].upper().rstrip() == "BEGIN"
     ]
-    control, bulk = Lines(), Lines()
     for at in begins:
         source = lines.source(at, "BEGIN BULK")
         if BULK.match(lines.texts[at].strip()) and at == begins[0]:
@@ -142,8 +150,5 @@ def read_sections(path, journal):
         if bare is not None:
             source = lines.source(bare, lines.texts[bare].split()[0].upper())
             journal.refuse(source, "BEGIN BULK is missing")
-            return lines, bulk, marks
-    for first, last, part in ((0, start, control), (start + 1, len(lines.texts), bulk)):
-        for at in range(first, last):
-            part.add(lines.file(at), lines.numbers[at], lines.texts[at])
-    return control, bulk, marks
+            return lines, Lines(), marks
+    return lines.part(0, max(start, 0)), lines.part(start + 1, len(lines.texts)), marks
