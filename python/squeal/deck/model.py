@@ -300,6 +300,7 @@ class Motion:
     source: Source
     axis: np.ndarray = None
     origin: np.ndarray = None
+    known: bool = True  # otherwise only the direction is
 
 
 @dataclass

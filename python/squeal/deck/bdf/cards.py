@@ -74,7 +74,11 @@ class Card:
 
     def numbers(self, first):
         """Returns the grids or elements listed from a field on, as given (first, last) ranges."""
-        ranges, number, last = [], first, len(self.fields)
+        return self.numbers_of(first, len(self.fields))
+
+    def numbers_of(self, first, last):
+        """The same for the fields up to `last`."""
+        ranges, number = [], first
         while number <= last:
             if not self.word(number):
                 number += 1

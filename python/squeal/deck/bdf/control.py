@@ -14,7 +14,7 @@ SOLUTIONS = {
 }
 EXECUTIVE = ("ID", "TIME", "DIAG", "APP", "ECHO", "ECHOON", "ECHOOFF", "GEOMCHECK", "MODEL_CHECK")
 EXECUTIVE += ("NASTRAN", "ASSIGN", "INIT", "DOMAINSOLVER", "SPARSESOLVER", "PARALLEL")
-SETS = ("SPC", "MPC", "LOAD", "METHOD", "CMETHOD", "BCONTACT", "BCSET", "BSQUEAL")
+SETS = ("SPC", "MPC", "LOAD", "METHOD", "CMETHOD", "BCONTACT", "BCSET", "BGSET", "BSQUEAL")
 OUTPUT = """
 ACCELERATION BCRESULTS BOUTPUT CMSENRGY DISPLACEMENT ECHO EDE EKE ELFORCE ELSDCON ELSUM ENTHALPY
 EQUILIBRIUM ESE FORCE GPFORCE GPKE GPSDCON GPSTRAIN GPSTRESS GROUNDCHECK LABEL LINE MAXLINES
@@ -43,7 +43,7 @@ REFUSED = {
     },
     **{"K2GG": "matrices of DMIG", "M2GG": "matrices of DMIG", "B2GG": "matrices of DMIG"},
     **{"K2PP": "matrices of DMIG", "M2PP": "matrices of DMIG", "B2PP": "matrices of DMIG"},
-    **{"K42GG": "matrices of DMIG", "BOLTLD": "bolts", "BGSET": "glue of this kind"},
+    **{"K42GG": "matrices of DMIG", "BOLTLD": "bolts"},
     **{"SUBCOM": "combined subcases", "SUBSEQ": "combined subcases", "SYM": "symmetry subcases"},
     **{"REPCASE": "repeated subcases", "SYMCOM": "symmetry subcases", "INITIAL": "initial states"},
     **{"RGYRO": "rotors", "BCMOVE": "moving contact bodies", "UNGLUE": "glue that ends"},
@@ -207,6 +207,7 @@ class Selection:
     load: int = None
     method: int = None
     contact: int = None
+    glue: int = None
     squeal: int = None
     static: Source = None
     frequency: Source = None
@@ -260,6 +261,7 @@ def _chosen(control, ones, wanted, journal):
 def _take(found, one, moving, solution, journal):
     """Adds the sets of a subcase or of a step."""
     names = {"SPC": "spc", "MPC": "mpc", "BCONTACT": "contact", "BCSET": "contact"}
+    names["BGSET"] = "glue"
     for name, key in {**names, "BSQUEAL": "squeal"}.items():
         if name not in one.sets:
             continue

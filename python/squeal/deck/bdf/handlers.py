@@ -30,7 +30,8 @@ class Handler:
 
 def handles(*names, phase=2):
     """Registers a function of a card and the reader as the one that honours cards. Phase 0:
-    properties and materials; 1: rigid elements; 2: most others; 3: those that need them."""
+    properties and materials; 1: rigid elements; 2: most others; 3: those that need them; 4:
+    contacts."""
 
     def register(function):
         for name in names:

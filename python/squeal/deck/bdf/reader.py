@@ -4,7 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from squeal.deck.bdf import loads, materials, methods, rigid, springs, supports  # noqa: F401
+from squeal.deck.bdf import contacts, loads, materials, methods, regions  # noqa: F401
+from squeal.deck.bdf import rigid, springs, squeal, supports  # noqa: F401
 from squeal.deck.bdf.cards import Deck
 from squeal.deck.bdf.control import read_control, select
 from squeal.deck.bdf.grids import Grids
@@ -20,7 +21,7 @@ WORDS = {
     **{"TRANSFORM": "CD", "KINEMATIC": "RBE2"},
 }
 PROGRAM = "Nastran"
-READ = {*KINDS, "GRID", "GRDSET", "PARAM", "LOAD", "SPCADD", "MPCADD"}
+READ = {*KINDS, "GRID", "GRDSET", "PARAM", "LOAD", "SPCADD", "MPCADD", "BCTADD", "BGADD"}
 READ |= {f"CORD{form}{letter}" for form in "12" for letter in "RCS"}
 ELEMENTS = ("C", "RBE", "RBAR", "RROD", "RSPLINE", "RTRPLT", "GENEL", "DMIG")  # of missing cards
 
@@ -35,6 +36,11 @@ class Reader:
         self.parameters, self.properties, self.constants = {}, {}, {}
         self.orientations, self.methods, self.masses = [], set(), {}
         self.doubled = set()
+        self.regions, self.contact_bodies, self.contact_parameters = {}, {}, {}
+        self.brake_motions, self.brake_properties, self.squeals = {}, {}, {}
+        self.connections = self.all_squeal = self._outside = None
+        self.friction_type = "0"
+        self.cells = EMPTY  # numbers of the elements, sorted
         self._cells = EMPTY
         methods.read_parameters(self)
         self.mass_factor = self.parameters.get("WTMASS", 1.0)
@@ -52,11 +58,15 @@ class Reader:
         self.solids.fill(model, materials.quadrature(self))
         model.merge_blocks()
         self._cells = np.unique(np.concatenate([EMPTY, *(b.nodes.ravel() for b in model.blocks)]))
+        self.cells = np.sort(np.concatenate([EMPTY, *(b.numbers for b in model.blocks)]))
         self._select()
         self._phase(1)
         grids.support(model, journal, self.without_rotations)
         self._phase(2)
         self._phase(3)
+        self._phase(4)
+        squeal.finish(self)
+        regions.name_idle(self)
         self._rest()
         self._finish()
         journal.close()
@@ -65,6 +75,9 @@ class Reader:
         chosen = self.selection
         self.spc_sets = supports.sets_of(self, "spc", "SPCADD", ("SPC", "SPC1"))
         self.mpc_sets = supports.sets_of(self, "mpc", "MPCADD", ("MPC",))
+        pairs = ("BCTSET", "BCTABLE", "BCTABL1", "BCONECT")
+        self.contact_sets = supports.sets_of(self, "contact", "BCTADD", pairs)
+        self.glue_sets = supports.sets_of(self, "glue", "BGADD", ("BGSET",))
         self.load_factors = loads.factors_of(self)
         self.spcd_sets = None if chosen.everything else {chosen.load}
 
@@ -184,6 +197,12 @@ class Reader:
             first = 0 if component < 3 else 3
             found += [(number, first + at, value * axis[at]) for at in range(3) if axis[at]]
         return found
+
+    def outside(self):
+        """Returns the outer faces of the model."""
+        if self._outside is None:
+            self._outside = regions.Outside(self.model)
+        return self._outside
 
     def load_source(self):
         """Returns the source of what selects the loads."""

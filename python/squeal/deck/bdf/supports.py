@@ -41,6 +41,8 @@ def sets_of(reader, kind, union, simple):
         else:
             chosen.add(number)
     known = {number for name in simple for number in _numbers(reader, name)}
+    if kind == "contact" and 0 in known:
+        chosen.add(0)  # the table of number 0 always counts
     for number in sorted(chosen - known):
         source = reader.selection.sources[kind]
         reader.journal.refuse(source, f"there is no set {number} of {' or '.join(simple)}")
