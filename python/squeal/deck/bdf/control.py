@@ -144,7 +144,7 @@ class Reader:
             if not is_integer(value):
                 raise Fault(f"'{value}' is not the number of a set")
             self.current.sets[word] = int(value), source
-            mark(source, USED)
+            self.journal.open(source)
         elif word == "ANALYSIS":
             self.current.analysis = value.upper()
             mark(source, USED)
@@ -234,6 +234,10 @@ def select(control, wanted, journal):
     for one in ([preload] if preload else []) + steps:
         moving = one.analysis[:4] in ("MODE", "MCEI", "DCEI") or modal and one is not preload
         _take(found, one, moving, control.solution, journal)
+    for one in (control.base, *(step for own in ones for step in (own, *own.steps))):
+        for _, source in one.sets.values():
+            if not journal.entries[source].status:
+                journal.mark(source, UNUSED, "the case is not that of its subcase")
     return found
 
 
