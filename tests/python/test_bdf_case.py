@@ -284,7 +284,7 @@ class Materials(unittest.TestCase):
         self.assertAlmostEqual(found["loss_frequency"], 1000, 9)
         text = cube(EIGRL, control=COMPLEX).replace("7.8-9", "7.8-9,,,.04")
         (row,) = refusals(text)
-        self.assertIn("MAT1, GE: structural damping needs the frequency", row)
+        self.assertIn("MAT1, GE: it needs the frequency", row)
 
     def test_quadratures(self):
         for words, mode in (("", None), (",,,,FULL", "none"), (",,TWO,,1", "none")):

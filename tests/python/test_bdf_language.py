@@ -149,6 +149,10 @@ class Continuations(unittest.TestCase):
         one = imported(cube(force() + beam), ignored=["CBAR"])
         self.assertEqual(one.groups["psolid_1"], [tuple(range(1, 9))])
 
+    def test_lines_after_a_comma(self):
+        lines = "CHEXA,1,1,1,2,3,4,5,6,\n", "7,8\n"
+        self.wanted(*lines, choice="continues the line before it, which ends with a comma")
+
     def test_lines_without_a_card(self):
         text = cube(force())
         (row,) = refusals(text.replace("GRID,1,", "+A,5\nGRID,1,", 1))

@@ -156,6 +156,7 @@ class Deck:
     def _assemble(self):
         """Returns the places of the lines of each card."""
         chains, loose = [], {}
+        nameless = {"replicated cards": [], "a card without a name": []}
         chain, marker = None, ""
         for at, text in enumerate(self.lines.texts):
             if len(text) > LAST + WIDTH and "," not in text:
@@ -165,8 +166,12 @@ class Deck:
                 chain = [at]
                 chains.append(chain)
             elif head and head[0] not in "+*":
-                self._refuse(at, "replicated cards" if head[0] == "=" else "a card without a name")
-                continue
+                if chain is None or not self._goes_on(at, chain[-1]):
+                    nameless["replicated cards" if head[0] == "=" else "a card without a name"] += [
+                        at
+                    ]
+                    continue
+                chain.append(at)
             else:
                 key = head[1:].strip()
                 if chain is not None and key in ("", marker):
@@ -180,7 +185,23 @@ class Deck:
                     loose[key] = chain, before
             marker = marker_of(text) if len(text) > LAST or "," in text else ""
         self._attach(chains, loose)
+        for what, places in nameless.items():
+            if places:
+                more = f" ({len(places)} lines)" if len(places) > 1 else ""
+                self._refuse(places[0], f"{what}{more}")
         return chains
+
+    def _goes_on(self, at, before):
+        """Returns whether a free-field line without a marker continues one that ends with a comma;
+        then gives it an empty first field."""
+        texts = self.lines.texts
+        if "," not in texts[at] or not texts[before].endswith(",") or before != at - 1:
+            return False
+        texts[at] = f",{texts[at].lstrip()}"
+        self.journal.choose(
+            f"{self.lines.source(at, '')}: continues the line before it, which ends with a comma"
+        )
+        return True
 
     def _attach(self, chains, loose):
         """Gives lines that are apart from their card to the line with their marker; without one, to

@@ -148,8 +148,7 @@ def rotation(card, reader):
     length = np.linalg.norm(vector)
     speed = 2 * np.pi * card.real(4, 0.0) * length * np.sqrt(factor)
     if speed:
-        elements = np.concatenate([block.numbers for block in reader.model.blocks])
-        load = BodyLoad("CENTRIF", elements, vector / length, speed, card.source, origin)
+        load = BodyLoad("CENTRIF", reader.cells, vector / length, speed, card.source, origin)
         reader.model.state.body_loads.append(load)
 
 

@@ -68,11 +68,8 @@ def _damping(card, number, one, reader):
     elif reader.parameters.get("W4"):
         one.loss = factor, reader.parameters["W4"] / (2 * np.pi)
     else:
-        reader.journal.refuse(
-            card.source,
-            "structural damping needs the frequency at which it is exact: give PARAM,W4 in rad/s",
-            "GE",
-        )
+        reason = "it needs the frequency at which it is exact: give PARAM,W4 in rad/s"
+        one.refusals.append((card.source, reason, "GE"))
 
 
 @handles("MAT1", phase=0)
@@ -88,7 +85,7 @@ def mat1(card, reader):
         poisson = young / (2 * shear) - 1 if shear else 0.0
     elif shear is not None and abs(young / (2 * (1 + poisson)) - shear) > 1e-3 * abs(shear):
         reason = f"it differs from E / (2 + 2 NU) = {young / (2 * (1 + poisson)):.6g}"
-        reader.journal.refuse(card.source, reason, "G")
+        one.refusals.append((card.source, reason, "G"))
     one.law, one.constants = "isotropic", (young, poisson)
     _density(one, card.real(5, 0.0), card, reader)
     _thermal(card, (6, 7), reader)
@@ -99,7 +96,7 @@ def mat1(card, reader):
 
 def _thermal(card, numbers, reader):
     """Expansion has no effect, since temperatures are refused."""
-    if any(card.real(number, 0.0) for number in numbers):
+    if any([card.real(number, 0.0) for number in numbers]):
         reader.journal.remark(card.source, "expansion is not used: temperatures are refused")
 
 
@@ -126,7 +123,7 @@ def mat9(card, reader):
     _density(one, card.real(23, 0.0), card, reader)
     _thermal(card, range(24, 31), reader)
     _damping(card, 31, one, reader)
-    if any(card.real(number, 0.0) for number in range(33, 54)):
+    if any([card.real(number, 0.0) for number in range(33, 54)]):
         reader.journal.refuse(card.source, "a matrix of damping is not supported", "GEIJ")
 
 

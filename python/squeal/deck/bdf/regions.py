@@ -144,7 +144,7 @@ class Outside:
         normal = np.where((nodes[:, 3] < 0)[:, None], flat, across)
         areas = np.linalg.norm(normal, axis=1) / 2
         self.sizes = np.sqrt(areas)
-        self.normals = normal / (2 * areas[:, None])
+        self.normals = normal / np.maximum(2 * areas[:, None], np.finfo(float).tiny)
         triangle = (nodes[:, 3] < 0)[:, None]
         three = sum(corners[:3])
         self.centres = np.where(triangle, three / 3, (three + corners[3]) / 4)

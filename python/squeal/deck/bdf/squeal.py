@@ -147,13 +147,13 @@ def finish(reader):
                 raise Fault("no contact with friction has these bodies")
             for key in one.interactions:
                 laws.update({key: law for law in model.interactions[key].frictions})
-            number = _disc(reader, one)
-            if number not in moved:
-                moved[number] = one
-                nodes = _nodes(reader, number, one)
-                model.motions.append(
-                    Motion(nodes, 1.0, one.source, one.axis, one.origin, known=False)
-                )
+            nodes = _nodes(reader, _disc(reader, one), one)
+            before = moved.setdefault(nodes.tobytes(), one)
+            if before is one:
+                motion = Motion(nodes, 1.0, one.source, one.axis, one.origin, known=False)
+                model.motions.append(motion)
+            elif not np.allclose(before.axis, one.axis):
+                raise Fault("a disc has two motions", "MOTION")
         except Fault as fault:
             reader.journal.refuse(one.source, fault.reason, fault.name)
     if laws:

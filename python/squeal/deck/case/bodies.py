@@ -77,8 +77,8 @@ def _material(model, case, journal, body, section, loads):
     if material is None:
         journal.refuse(section.source, f"there is no material '{section.material}'")
         return
-    for source, reason in material.refusals:
-        journal.refuse(source, reason)
+    for refusal in material.refusals:
+        journal.refuse(*refusal)
     if not material.law:
         if not material.refusals:
             lacking = f"material '{material.name}' has no {model.word('ELASTIC')}"
