@@ -68,6 +68,7 @@ SIMCENTER = (
     + faces("BSURFS", 13, (201, 202), 201, 5)
     + faces("BSURFS", 14, (301, 302), 300, 5)
     + "BCTSET,5,12,11,.3,0.,.1\nBCTPARM,5,PENN,1.,PENT,1.\nBGSET,6,13,14,.2\n"
+    + "BCRPARA,11,,0.,FLEX\n"
 )
 HEXAGON = (
     "BSURF,21,101,THRU,112\nBCPROP,22,2\nBSURF,23,301,THRU,309,BY,1\n"
@@ -166,6 +167,12 @@ class Contacts(unittest.TestCase):
             (BRKSYS + "BCPARA,,OMEGA,6\n", "BCPARA, OMEGA: the parameter OMEGA"),
         ):
             rows = refusals(text + cards)
+            self.assertTrue(any(reason in row for row in rows), rows)
+        for card, reason in (
+            ("BCRPARA,12,,.1\n", "BCRPARA, OFFSET: offsets of contact"),
+            ("BCTPARM,5,TIED,1\n", "BCTPARM, TIED: the parameter TIED = 1"),
+        ):
+            rows = refusals(NX + brake() + SIMCENTER + card)
             self.assertTrue(any(reason in row for row in rows), rows)
         for old, new, reason in (
             ("BCONPRG,52,,IGLUE,1", "BCONPRG,52,,IGLUE,1,JGLUE,1", "JGLUE: glue that may open"),

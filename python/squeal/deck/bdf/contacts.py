@@ -63,6 +63,16 @@ def parameters_of_sets(card, reader):
     reader.journal.mark(card.source, UNUSED)
 
 
+@handles("BCRPARA")
+def parameters_of_region(card, reader):
+    card.word(1), card.word(2), card.word(5)
+    if card.real(3, 0.0):
+        reader.journal.refuse(card.source, "offsets of contact are not supported", "OFFSET")
+    if card.word(4, "FLEX") != "FLEX":
+        reader.journal.refuse(card.source, "rigid regions are not supported", "TYPE")
+    reader.journal.mark(card.source, UNUSED, "without effect at these values")
+
+
 @handles("BCPARA")
 def parameters_of_contact(card, reader):
     card.word(1)

@@ -67,6 +67,15 @@ def _modes(card, reader, low, high, count):
     journal.mark(card.source, TRANSLATED)
 
 
+@handles("MDLPRM")
+def model_parameters(card, reader):
+    for number in range(1, len(card.fields), 2):
+        name, value = card.word(number), card.word(number + 1)
+        if name and name not in ("HDF5", "OFFDEF"):
+            reader.journal.refuse(card.source, f"{name} = {value} is not supported", name)
+    reader.journal.mark(card.source, UNUSED, "without effect on the model")
+
+
 def read_parameters(reader):
     """Reads PARAM of bulk data and of case control into the parameters of the reader."""
     for name, words, source in reader.control.parameters:
