@@ -6,11 +6,14 @@ share one entry in the journal.
 """
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from squeal.deck.bdf.fields import DATA, LAST, WIDTH, head_of, joined, marker_of
 from squeal.deck.journal import Fault, Source
 from squeal.deck.numbers import integer, real
 
 REQUIRED = object()
+CHUNK = 20000  # cards that are converted together
 
 
 @dataclass
@@ -131,14 +134,16 @@ class Deck:
                 journal.remark(source, f"{count} cards in sequence")
         self._name_long()
 
-    def rows(self, name):
-        """Yields fields of data, line and source of each card of a name. Refuses cards with fields
-        that have no place."""
+    def rows(self, name, first=0, count=None):
+        """Yields fields of data, line and source of each card of a name, or of some of them.
+        Refuses cards with fields that have no place."""
         texts, numbers = self.lines.texts, self.lines.numbers
         sources = self.sources.get(name, [])
+        chains = self.chains.get(name, [])
+        last = len(chains) if count is None else first + count
         entry, source = 0, None
-        for number, chain in enumerate(self.chains.get(name, ())):
-            if entry < len(sources) and sources[entry][0] == number:
+        for number, chain in enumerate(chains[first:last], first):
+            while entry < len(sources) and sources[entry][0] <= number:
                 source = sources[entry][1]
                 entry += 1
             try:
@@ -147,6 +152,28 @@ class Deck:
                 self.journal.refuse(source, fault.reason, line=fault.line)
             else:
                 yield fields, numbers[chain[0]], source
+
+    def tables(self, name):
+        """Yields for blocks of cards of a name the fields of data, a row of bytes without blanks
+        for each card, or None for a block that needs a closer look, with its first card and their
+        number."""
+        chains = self.chains.get(name, [])
+        for first in range(0, len(chains), CHUNK):
+            some = chains[first : first + CHUNK]
+            yield self._table(some), first, len(some)
+
+    def _table(self, chains):
+        """Returns the fields of cards that have small fields on equal numbers of lines."""
+        size = len(chains[0])
+        if any(len(chain) != size for chain in chains):
+            return None
+        texts = self.lines.texts
+        whole = "".join([texts[at].ljust(LAST)[:LAST] for chain in chains for at in chain])
+        if not whole.isascii() or "," in whole or "*" in whole or "_" in whole:
+            return None
+        fields = np.frombuffer(whole.encode("ascii"), f"S{WIDTH}")
+        fields = fields.reshape(len(chains) * size, DATA + 1)[:, 1:]
+        return np.char.strip(fields.reshape(len(chains), size * DATA))
 
     def each(self, name):
         """Yields the cards of a name."""

@@ -54,7 +54,10 @@ def joined(texts, numbers):
         return [text[at : at + WIDTH].strip() for at in COLUMNS]
     found = []
     for text, number in zip(texts, numbers):
-        data = data_of(text, number)
+        if "," in text or "*" in text[:WIDTH]:
+            data = data_of(text, number)
+        else:
+            data = [text[at : at + WIDTH].strip() for at in COLUMNS]
         if len(data) == DATA and len(found) % DATA:
             found += [""] * (DATA - len(found) % DATA)
         found += data

@@ -3,7 +3,7 @@
 import numpy as np
 
 from squeal.deck.bdf.cards import Card
-from squeal.deck.bdf.columns import chunks, integers, reals
+from squeal.deck.bdf.columns import integers, reals, table_of
 from squeal.deck.journal import USED, Fault
 from squeal.deck.model import EMPTY, Value
 
@@ -22,8 +22,8 @@ class Grids:
         self.superelements = set()
         self._parts = []
         self._default_card()
-        for chunk in chunks(deck.rows("GRID")):
-            self._chunk(chunk)
+        for table, first, count in deck.tables("GRID"):
+            self._chunk(table, first, count)
         parts = list(zip(*self._parts)) or [[EMPTY]] * 3 + [[np.zeros((0, 3))]]
         self.numbers, self.systems, self.turns, self.coordinates = map(np.concatenate, parts)
         self._order = np.argsort(self.numbers, kind="stable")
@@ -46,12 +46,15 @@ class Grids:
             except Fault as fault:
                 self.journal.refuse(card.source, fault.reason, fault.name, fault.line)
 
-    def _chunk(self, chunk):
+    def _chunk(self, table, first, count):
         place, turn, held, group = self.defaults
+        rows = [] if table is not None else list(self.deck.rows("GRID", first, count))
         try:
-            if any(len(fields) != 8 for fields, _, _ in chunk):
+            if table is None:
+                table = table_of(rows, 8)
+            if table.shape[1] != 8 or not len(table):
                 raise ValueError
-            columns = list(zip(*(fields for fields, _, _ in chunk)))
+            columns = table.T
             numbers = integers(columns[IDENTITY])
             systems, turns = integers(columns[PLACE], place), integers(columns[TURN], turn)
             coordinates = np.column_stack([reals(column) for column in columns[SYSTEM]])
@@ -59,13 +62,16 @@ class Grids:
             if np.any(numbers < 1) or np.any(systems < 0) or np.any(turns < 0):
                 raise ValueError
         except (ValueError, OverflowError):
-            self._slow(chunk)
+            self._slow(rows or self.deck.rows("GRID", first, count))
             return
         self._parts.append((numbers, systems, turns, coordinates))
         self.superelements.update(map(str, np.unique(supers[supers != 0])))
-        for (fields, line, source), number in zip(chunk, numbers.tolist()):
+        used = np.unique(columns[HELD]).astype(str).tolist()
+        if all((text or held) in SUPPORTS for text in used):
+            return
+        for fields, line, source in rows or self.deck.rows("GRID", first, count):
             if (fields[HELD] or held) not in SUPPORTS:
-                self._hold(Card("GRID", source, line, fields), number)
+                self._hold(Card("GRID", source, line, fields), int(fields[IDENTITY]))
 
     def _slow(self, chunk):
         rows = []

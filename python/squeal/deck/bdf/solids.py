@@ -9,7 +9,7 @@ of their edge: the shape functions that Nastran uses (a serendipity element with
 import numpy as np
 
 from squeal.deck.bdf.cards import Card
-from squeal.deck.bdf.columns import chunks, integers
+from squeal.deck.bdf.columns import integers, table_of
 from squeal.deck.cells import HEX8, HEX20, PYRAMID5, PYRAMID13, TET4, TET10, WEDGE6, WEDGE15
 from squeal.deck.journal import USED, Fault
 from squeal.deck.model import Block, Equation
@@ -32,8 +32,8 @@ class Solids:
         self.sources = {}
         for name, (_, shape, order) in KINDS.items():
             parts = []
-            for chunk in chunks(deck.rows(name)):
-                parts.append(self._chunk(name, shape, chunk))
+            for block in deck.tables(name):
+                parts.append(self._chunk(name, shape, *block))
             if parts:
                 table = np.concatenate(parts)
                 self.tables[name] = table[:, (0, 1, *(at + 2 for at in order))]
@@ -41,20 +41,23 @@ class Solids:
             for _, source in deck.sources.get(name, ()):
                 journal.mark(source, USED)
 
-    def _chunk(self, name, shape, chunk):
+    def _chunk(self, name, shape, texts, first, count):
         width = shape.size + 2
         try:
-            padded = [(fields + [""] * width)[:width] for fields, _, _ in chunk]
-            if any(any(fields[width:]) for fields, _, _ in chunk):
+            if texts is None:
+                texts = table_of(list(self.deck.rows(name, first, count)), width)
+            if np.any(texts[:, width:] != b""):
                 raise ValueError
-            columns = zip(*padded)
-            table = np.column_stack([integers(column) for column in columns])
+            table = np.zeros((len(texts), width), np.int64)
+            for at, column in enumerate(texts[:, :width].T):
+                table[:, at] = integers(column)
             corners = KINDS[name][0].size
             table[:, 1] = np.where(table[:, 1] == 0, table[:, 0], table[:, 1])
             if np.any(table < 0) or np.any(table[:, : corners + 2] < 1):
                 raise ValueError
             return table
         except (ValueError, OverflowError):
+            chunk = self.deck.rows(name, first, count)
             rows = [self._row(name, width, *one) for one in chunk]
             rows = [row for row in rows if row is not None]
             return np.array(rows, np.int64).reshape(-1, width)
