@@ -46,7 +46,7 @@ class Solids:
         try:
             if texts is None:
                 texts = table_of(list(self.deck.rows(name, first, count)), width)
-            if np.any(texts[:, width:] != b""):
+            elif np.any(texts[:, width:] != b""):
                 raise ValueError
             table = np.zeros((len(texts), width), np.int64)
             for at, column in enumerate(texts[:, :width].T):
