@@ -157,6 +157,14 @@ class Systems(unittest.TestCase):
         (load,) = one.options["load"].values()
         self.near(numbers(load["force"]), 6 * tangent)
 
+    def test_grids_on_the_axis_of_a_cylinder(self):
+        """Their components have the axes that define the system."""
+        outer = card("CORD2C", 7, 0, np.array([1.0, 1.0, -3.0]), turned((0, 0, 1), 30).T)
+        text = cube(force() + "SPC1,10,1,7\n" + outer).replace("1.,1.,1.", "1.,1.,1.,7")
+        one = imported(text)
+        self.assertIn({"clamped": "x", "frame": "cord_7_axis"}, one.options["constraint"].values())
+        self.near(frame_of(one.options, "cord_7_axis"), turned((0, 0, 1), 30).T)
+
     def test_axes_of_spherical_systems(self):
         outer = card("CORD2S", 7, 0, ORIGIN, np.eye(3))
         text = cube(force() + "SPC1,10,3,7\n" + outer).replace("1.,1.,1.", "1.,1.,1.,7")
@@ -285,6 +293,15 @@ class Materials(unittest.TestCase):
         text = cube(EIGRL, control=COMPLEX).replace("7.8-9", "7.8-9,,,.04")
         (row,) = refusals(text)
         self.assertIn("MAT1, GE: it needs the frequency", row)
+
+    def test_structural_damping_of_all(self):
+        """PARAM,G adds to GE; PARAM,W3 is its frequency."""
+        law = "MAT1,1,200.,,.25,3.,,,.04\nPARAM,G,.01\nPARAM,W3,100.\nPARAM,W4,100.\n"
+        found, _ = self.constants(law, EIGRL, COMPLEX)
+        self.assertAlmostEqual(found["loss_factor"], 0.05, 14)
+        self.assertAlmostEqual(found["loss_frequency"], 100 / (2 * np.pi), 12)
+        rows = refusals(cube(EIGRL + "PARAM,G,.01\n", control=COMPLEX))
+        self.assertIn("PARAM,G needs the frequency", rows[0])
 
     def test_quadratures(self):
         for words, mode in (("", None), (",,,,FULL", "none"), (",,TWO,,1", "none")):

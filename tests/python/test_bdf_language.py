@@ -182,7 +182,7 @@ class Order(unittest.TestCase):
         names = "CQUAD4 CTRIA3 CBAR CBEAM CROD CONM1 CELAS3 CGAP RBE1 RSPLINE MAT8 MAT2 MATS1 MATHP"
         names += " PLOAD PLOAD2 DLOAD SPOINT CMASS2 GENEL DMIG CFAST CWELD ACCEL NSM BOLT XYZ DTI"
         names = names.split()
-        text = cube(force() + "".join(f"{name},1,2,3\n" for name in names))
+        text = cube(force() + "".join(f"{name},20,2,3\n" for name in names))
         rows = refusals(text)
         self.assertEqual([row.split(": ")[1] for row in rows], names)
         lines = text.splitlines()
@@ -191,6 +191,19 @@ class Order(unittest.TestCase):
         one = imported(text, ignored=names)
         self.assertEqual(one.options, WANTED)
         self.assertEqual(one.account.count("ignored by --ignore"), len(names))
+
+    def test_loads_of_other_sets(self):
+        one = imported(cube(force() + "PLOAD2,21,3.,1\nACCEL1,22,,1.,0.,0.,1.\n"))
+        self.assertEqual(one.options, WANTED)
+        self.assertEqual(one.remarks("PLOAD2"), ("not used", "its set is not selected"))
+        (row,) = refusals(cube(force() + "PLOAD2,20,3.,1\n"))
+        self.assertIn("PLOAD2: pressures on shells", row)
+
+    def test_temperatures(self):
+        one = imported(cube(force() + "TEMPD,9,20.\n"))
+        self.assertEqual(one.remarks("TEMPD")[0], "not used")
+        (row,) = refusals(cube(force() + "TEMPD,9,20.\n", control=""))
+        self.assertIn("TEMPD: temperatures and their strains", row)
 
 
 class Files(unittest.TestCase):

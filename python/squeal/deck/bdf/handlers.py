@@ -56,9 +56,9 @@ WITHOUT_EFFECT = {
     "FREQ": "frequencies of a response that nothing selects",
     "FREQ1": "frequencies of a response that nothing selects",
     "TABLED1": "a table that nothing selects",
-    "TEMPD": "temperatures that nothing selects",
-    "TEMP": "temperatures that nothing selects",
 }
+# Loads that are refused if their set is selected.
+LOADS = ("PLOAD", "PLOAD1", "PLOAD2", "PLOADX1", "SLOAD", "FORCE2", "MOMENT2", "ACCEL", "ACCEL1")
 PROPERTIES = ("PSHELL", "PCOMP", "PCOMPG", "PBAR", "PBARL", "PBEAM", "PBEAML", "PROD", "PTUBE")
 PROPERTIES += ("PSHEAR", "PBUSHT", "PGAP", "PWELD", "PFAST", "PMASS")
 REASONS = {

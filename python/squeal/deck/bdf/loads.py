@@ -2,11 +2,11 @@
 """Loads of the selected set: FORCE, MOMENT, PLOAD4, GRAV, RFORCE; LOAD joins sets with factors."""
 import numpy as np
 
-from squeal.deck.bdf.handlers import handles
+from squeal.deck.bdf.handlers import LOADS, handles
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
 from squeal.deck.model import BodyLoad, Value
 
-SIMPLE = ("FORCE", "MOMENT", "FORCE1", "MOMENT1", "PLOAD4", "GRAV", "RFORCE", "SPCD")
+SIMPLE = ("FORCE", "MOMENT", "FORCE1", "MOMENT1", "PLOAD4", "GRAV", "RFORCE", "SPCD", *LOADS)
 
 
 def factors_of(reader):

@@ -9,7 +9,7 @@ from squeal.deck.bdf import rigid, springs, squeal, supports  # noqa: F401
 from squeal.deck.bdf.cards import Deck
 from squeal.deck.bdf.control import read_control, select
 from squeal.deck.bdf.grids import Grids
-from squeal.deck.bdf.handlers import BLOCKS, PROPERTIES, REASONS, TABLE, WITHOUT_EFFECT
+from squeal.deck.bdf.handlers import BLOCKS, LOADS, PROPERTIES, REASONS, TABLE, WITHOUT_EFFECT
 from squeal.deck.bdf.lines import read_sections
 from squeal.deck.bdf.solids import KINDS, Solids
 from squeal.deck.bdf.systems import Systems
@@ -101,8 +101,12 @@ class Reader:
         for name, sources in self.deck.sources.items():
             if name in TABLE or name in READ:
                 continue
+            sets = {fields[0] for fields, _, _ in self.deck.rows(name)} if name in LOADS else ()
             for _, source in sources:
-                self._idle(name, source)
+                if sets and not any(one in sets for one in map(str, self.load_factors)):
+                    self.journal.mark(source, UNUSED, "its set is not selected")
+                else:
+                    self._idle(name, source)
 
     def _idle(self, name, source):
         journal = self.journal
@@ -113,6 +117,8 @@ class Reader:
             journal.mark(source, UNUSED, "a property of elements that are not solid")
         elif name == "SUPORT" and not loaded:
             journal.mark(source, UNUSED, "without effect on free vibrations")
+        elif name.startswith("TEMP") and self.selection.everything:
+            journal.refuse(source, "temperatures and their strains are not supported")
         elif name.startswith("TEMP") or name.startswith("TABLE"):
             journal.mark(source, UNUSED, "nothing that is translated selects it")
         else:

@@ -2,7 +2,6 @@
 """Regions of contact: faces of elements (BSURFS, BCSURF), or bodies by elements and properties
 (BSURF, BCPROP, BCPROPS, through BCBODY1 as well), of which the faces that face each other count."""
 import numpy as np
-from scipy.spatial import cKDTree
 
 from squeal.deck.bdf.handlers import handles
 from squeal.deck.journal import TRANSLATED, USED, Fault
@@ -160,6 +159,8 @@ class Outside:
     def facing(self, one, other):
         """Returns the places among `one` of faces that have a face of `other` opposite to them,
         half their size before it or a tenth behind it, and their size beside it."""
+        from scipy.spatial import cKDTree  # only here: other decks do without this package
+
         if not len(one) or not len(other):
             return one[:0]
         tree = cKDTree(self.centres[other])
