@@ -92,6 +92,31 @@ class Motion(unittest.TestCase):
         moved = Imported(turn(-0.02, (5.0, 1.0)), dialect="calculix").options["motion"]["PLATE"]
         np.testing.assert_allclose(numbers(moved["axis"]), [0, 0, -1], atol=1e-9)
 
+    def test_a_large_turn(self):
+        """By 1.2 rad: its displacements are far from those of a small turn."""
+        one = Imported(turn(-1.2, (5.0, 1.0), finite=True), dialect="calculix")
+        moved = one.options["motion"]["PLATE"]
+        np.testing.assert_allclose(numbers(moved["axis"]), [0, 0, -1], atol=1e-9)
+        np.testing.assert_allclose(numbers(moved["origin"])[:2], [5, 1], rtol=1e-9)
+
+    def test_friction_that_the_step_of_the_modes_changes(self):
+        text = turn(0.02, (5.0, 1.0)).replace(
+            "*FREQUENCY\n12\n",
+            "*FREQUENCY\n12\n*CHANGE FRICTION, INTERACTION=RUB\n*FRICTION\n0.2, 5000.\n",
+        )
+        found = Imported(text, dialect="calculix").options["flutter"]["friction"]
+        self.assertEqual([float(word) for word in found.split(":")], [0.2, 0.3, 0.01])
+
+    def test_a_push_is_no_motion(self):
+        """The back of the pin is pressed by a prescribed displacement, across the contact."""
+        text = turn(0.02, (5.0, 1.0)).replace(
+            "*END STEP\n", "PIN_BACK, 3, 3, -0.01\n*END STEP\n", 1
+        )
+        one = Imported(text, dialect="calculix")
+        self.assertEqual(list(one.options["motion"]), ["PLATE"])
+        held = one.options["constraint"]["PIN_BACK"]
+        self.assertEqual(numbers(held["displacement"]), [0, 0, -0.01])
+
     def test_displacements_that_are_no_turn(self):
         text = turn(0.02, (5.0, 1.0)).replace("*END STEP\n", "1, 1, 1, 0.5\n*END STEP\n", 1)
         self.assertIn(

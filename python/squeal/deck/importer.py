@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Translates a deck into the folder of a case: mesh.msh, case.yaml and import.md."""
+"""Translates a deck, or matrices of other programs, into the folder of a case."""
 import argparse
 from pathlib import Path
 
@@ -10,12 +10,12 @@ from squeal.deck.inp.dialect import DIALECTS
 from squeal.deck.inp.reader import read_model
 from squeal.deck.journal import DeckError, Journal
 from squeal.deck.output.account import write_account
+from squeal.deck.output.folder import PARTIAL, prepare
 from squeal.deck.output.msh import write_mesh
-from squeal.deck.output.options import MARK, write_options
+from squeal.deck.output.options import write_options
+from squeal.matrices import importer as matrices
 
 NASTRAN = (".bdf", ".dat", ".nas")  # endings of decks of Nastran
-PARTIAL = "mesh.msh.partial"  # the mesh gets its name when all is written
-FILES = ("mesh.msh", "case.yaml", "import.md", PARTIAL)
 
 
 def _read(deck, dialect, subcase, journal):
@@ -36,7 +36,7 @@ def import_deck(deck, folder, dialect=None, ignored=(), speed=None, subcase=None
     model = _read(deck, dialect, subcase, journal)
     model.speed = speed
     case = translate(model, journal)
-    _prepare(folder)
+    prepare(folder)
     try:
         accounted = None if journal.refusals else case
         write_account(folder / "import.md", model, accounted, journal)
@@ -51,28 +51,15 @@ def import_deck(deck, folder, dialect=None, ignored=(), speed=None, subcase=None
     return journal
 
 
-def _prepare(folder):
-    """Makes the folder, and removes the files of an earlier import. Raises DeckError if a case is
-    there that was not imported."""
-    case = folder / "case.yaml"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        if case.exists() and not case.read_text(encoding="utf-8", errors="replace").startswith(
-            MARK
-        ):
-            raise DeckError(f"{case} was not made by squeal-import; choose another folder")
-        if not case.exists() and (folder / "mesh.msh").exists():
-            raise DeckError(f"{folder} has a mesh.msh of another origin; choose another folder")
-        for name in FILES:
-            (folder / name).unlink(missing_ok=True)
-    except OSError as error:
-        raise DeckError(f"{error.filename or folder}: {error.strerror}") from None
-
-
 def main(words):
-    parser = argparse.ArgumentParser(prog="squeal-import", description=__doc__)
+    pages = "docs/decks.md lists the cards, docs/matrices_import.md the formats of matrices."
+    parser = argparse.ArgumentParser(prog="squeal-import", description=__doc__, epilog=pages)
     add = parser.add_argument
-    add("deck", metavar="DECK", help="deck of Abaqus or CalculiX (.inp) or Nastran (.bdf)")
+    deck = (
+        "deck of Abaqus or CalculiX (.inp) or Nastran (.bdf, .dat, .nas), or the name of a job of"
+        " CalculiX that stored matrices (JOB.sti, JOB.mas, JOB.dof)"
+    )
+    add("deck", metavar="DECK", nargs="?", help=deck)
     folder = "folder of the case; default: the name of the deck, in the working folder"
     add("-o", "--output", metavar="FOLDER", help=folder)
     dialect = "program of the deck; default: the one whose words the deck has"
@@ -86,7 +73,12 @@ def main(words):
     add("--speed", metavar="V", type=float, help=speed)
     number = "subcase of a deck of Nastran; default: the first one that fits the solution"
     add("--subcase", metavar="NUMBER", type=int, help=number)
+    matrices.add_options(parser)
     given = parser.parse_args(words)
+    if files := matrices.files_of(given):
+        return matrices.run(given, files, parser)
+    if not given.deck or given.rows or given.whole or given.triangle:
+        parser.error("a deck, or a stiffness and a mass matrix, is needed")
     if given.speed is not None and not 0 < given.speed < float("inf"):
         raise DeckError(f"--speed {given.speed:g}: the speed of a motion is positive")
     folder = Path(given.output or Path(given.deck).stem)

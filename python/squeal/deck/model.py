@@ -305,7 +305,7 @@ class Motion:
 
 @dataclass
 class Squeal:
-    """A request for complex modes with friction: `friction` are the laws by interaction at that
+    """A request for complex modes with friction: `friction` are the laws by interaction in that
     step, `top` the upper frequency limit, Hz, or None, `count` the number of modes, or None."""
 
     source: Source

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/petsc/check.hpp"
+#include "base/system/mpi.hpp"
 
 namespace squeal {
 namespace {
@@ -52,7 +53,8 @@ LoggedStage::LoggedStage(const std::string& name) {
 LoggedStage::~LoggedStage() { PetscLogStagePop(); }
 
 Traffic trafficSoFar() {
-  return {petsc_isend_ct + petsc_send_ct, petsc_isend_len + petsc_send_len, petsc_allreduce_ct};
+  return {petsc_isend_ct + petsc_send_ct, petsc_isend_len + petsc_send_len,
+          petsc_allreduce_ct + mpi::reductionsSoFar()};
 }
 
 }  // namespace squeal

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Concatenates the parts of a distributed list on every rank.
+/// Concatenates the parts of a distributed list on every rank, or on rank 0.
 #include <mpi.h>
 
 #include <span>
@@ -34,8 +34,18 @@ class Concatenation {
     return all;
   }
 
+  /// Collective. Returns the entries of all ranks on rank 0, and none on the others.
+  template <class Entry>
+  std::vector<Entry> gatheredOnFirst(std::span<const Entry> own) const {
+    static_assert(std::is_trivially_copyable_v<Entry>);
+    std::vector<Entry> all(rank_ == 0 ? size() : 0);
+    gatherBytesOnFirst(own.data(), all.data(), sizeof(Entry));
+    return all;
+  }
+
  private:
   void gatherBytes(const void* own, void* all, int bytesPerEntry) const;
+  void gatherBytesOnFirst(const void* own, void* all, int bytesPerEntry) const;
   MPI_Comm comm_;
   int rank_;
   std::vector<int> counts_, begin_;  // [rank]
@@ -45,6 +55,13 @@ class Concatenation {
 template <class Entry>
 std::vector<Entry> concatenated(MPI_Comm comm, const std::vector<Entry>& own) {
   return Concatenation(comm, own.size()).gathered(own);
+}
+
+/// Collective. Returns the entries of all ranks in the order of the ranks on rank 0, and none on
+/// the others.
+template <class Entry>
+std::vector<Entry> concatenatedOnFirst(MPI_Comm comm, std::span<const Entry> own) {
+  return Concatenation(comm, own.size()).gatheredOnFirst(own);
 }
 
 }  // namespace squeal

@@ -35,10 +35,18 @@ int rank(MPI_Comm comm);
 /// Not collective. Returns the number of ranks.
 int size(MPI_Comm comm);
 
+/// Not collective. Returns the number of reductions and broadcasts of this file that this rank has
+/// taken part in so far, on communicators with several ranks.
+double reductionsSoFar();
+
+/// Collective. Replaces `count` values of a type by their reductions over all ranks. `count` may
+/// exceed an int.
+void reduceValues(MPI_Comm comm, void* values, std::size_t count, MPI_Datatype type,
+                  MPI_Op operation);
 /// Collective. Replaces each value by its reduction with `operation` over all ranks.
 template <class Number>
 void reduce(MPI_Comm comm, std::span<Number> values, MPI_Op operation) {
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), typeOf<Number>(), operation, comm);
+  reduceValues(comm, values.data(), values.size(), typeOf<Number>(), operation);
 }
 
 /// Collective. Returns the sum of the values of all ranks.
@@ -59,6 +67,26 @@ Number min(MPI_Comm comm, Number value) {
   reduce<Number>(comm, {&value, 1}, MPI_MIN);
   return value;
 }
+/// Collective. Replaces each value by its sum over all ranks, with the same round-off on all ranks.
+void sumAlike(MPI_Comm comm, std::span<double> values);
+
+/// Collective. Returns the sum of the values of the ranks before this one.
+template <class Number>
+Number sumBefore(MPI_Comm comm, Number value) {
+  Number before = 0;
+  MPI_Exscan(&value, &before, 1, typeOf<Number>(), MPI_SUM, comm);
+  return rank(comm) == 0 ? Number(0) : before;  // MPI leaves the value of rank 0 undefined
+}
+
+/// A value and the lowest rank that has it.
+struct Located {
+  double value;
+  int rank;
+};
+/// Collective. Return the largest and the smallest of the values of all ranks.
+Located maxLocated(MPI_Comm comm, double value);
+Located minLocated(MPI_Comm comm, double value);
+
 /// Collective. Returns true if the value is true on any rank.
 bool any(MPI_Comm comm, bool value);
 /// Collective. Returns true if the value is true on all ranks.
@@ -80,6 +108,12 @@ void broadcast(MPI_Comm comm, std::vector<Value>& values, int root = 0) {
   broadcast(comm, count, root);
   values.resize(count);
   broadcastBytes(comm, values.data(), count * sizeof(Value), root);
+}
+/// Collective. Copies entries from rank `root` to all ranks, which have equally many.
+template <class Entry>
+void broadcastEntries(MPI_Comm comm, std::span<Entry> entries, int root = 0) {
+  static_assert(std::is_trivially_copyable_v<Entry> && !std::is_pointer_v<Entry>);
+  broadcastBytes(comm, entries.data(), entries.size_bytes(), root);
 }
 /// Collective. Copies the text from rank `root` to all ranks.
 void broadcast(MPI_Comm comm, std::string& text, int root = 0);

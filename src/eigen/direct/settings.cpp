@@ -31,7 +31,7 @@ Settings Settings::given(const pencil::Settings& problem) {
   const auto band = bandOption.get();
   const bool off = band == std::vector<double>{0, 0};
   if (band.size() != 2 || (!off && band[0] >= band[1]))
-    throw Error("option -" + bandOption.fullName() + ": two frequencies, the lower one first");
+    throw Error("option " + bandOption.dashed() + ": two frequencies, the lower one first");
   return {.count = countOption.get(),
           .limit = limitOption.get(),
           .low = 2 * M_PI * band[0],

@@ -28,10 +28,10 @@ const RealListOption dampingOption(
 
 std::vector<double> ascending(const RealListOption& option) {
   auto list = option.get();
-  if (list.empty()) throw Error("option -" + option.fullName() + ": the list is empty");
+  if (list.empty()) throw Error("option " + option.dashed() + ": the list is empty");
   std::sort(list.begin(), list.end());  // each steady solution starts from a neighbour
   if (std::adjacent_find(list.begin(), list.end()) != list.end())
-    throw Error("option -" + option.fullName() + ": a value is given twice");
+    throw Error("option " + option.dashed() + ": a value is given twice");
   return list;
 }
 

@@ -66,8 +66,8 @@ Form springOf(const mesh::Mesh& mesh, const SpringSettings& spring) {
   const Point line = minus(to.position, from.position);
   if (!(mesh::length(line) > 0))
     throw Error("option " + springToName(spring.name) + ": both ends lie at " +
-                mesh::text(to.position) + ", so the spring has no direction; use -bushing_" +
-                spring.name + "_stiffness");
+                mesh::text(to.position) + ", so the spring has no direction; use " +
+                bushingStiffnessName(spring.name));
   const Point n = mesh::unit(line);
   return {.kind = "spring",
           .name = spring.name,
@@ -208,9 +208,8 @@ void addMasses(const mesh::Mesh& mesh, const MassSettings& given, const Settings
     return;
   }
   if (given.hasInertia || given.hasOffset)
-    throw Error("option " +
-                (given.hasInertia ? inertiaName(given.group) : "-mass_" + given.group + "_offset") +
-                ": '" + given.group +
+    throw Error("option " + (given.hasInertia ? inertiaName : massOffsetName)(given.group) + ": '" +
+                given.group +
                 "' is not a reference node; only these have a rotation. Make one with -reference_" +
                 given.group + "_position");
   std::vector<PointNode> own;

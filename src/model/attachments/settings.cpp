@@ -160,6 +160,7 @@ std::string bushingDampingName(const std::string& name) {
 std::string bushingFrameName(const std::string& name) { return bushingFrameOption.dashed(name); }
 std::string massName(const std::string& group) { return massOption.dashed(group); }
 std::string inertiaName(const std::string& group) { return inertiaOption.dashed(group); }
+std::string massOffsetName(const std::string& group) { return offsetOption.dashed(group); }
 std::string massFrameName(const std::string& group) { return massFrameOption.dashed(group); }
 std::string forceName(const std::string& group) { return forceOption.dashed(group); }
 std::string momentName(const std::string& group) { return momentOption.dashed(group); }

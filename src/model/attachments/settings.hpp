@@ -78,6 +78,7 @@ std::string bushingDampingName(const std::string& bushing);
 std::string bushingFrameName(const std::string& bushing);
 std::string massName(const std::string& group);
 std::string inertiaName(const std::string& group);
+std::string massOffsetName(const std::string& group);
 std::string massFrameName(const std::string& group);
 std::string forceName(const std::string& group);
 std::string momentName(const std::string& group);

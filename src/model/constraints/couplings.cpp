@@ -161,7 +161,7 @@ void Couplings::addRigid(int coupling) {
   // In the plane all components are x and y.
   const std::string components = given.components == "xyz" ? allowed : given.components;
   if (components.empty() || components.find_first_not_of(allowed) != std::string::npos)
-    throw Error("option -coupling_" + given.name + "_components " + given.components +
+    throw Error("option " + couplingComponentsName(given.name) + " " + given.components +
                 ": must be some of the letters " + allowed);
   std::string failure;
   for (const auto& group : given.groups) try {

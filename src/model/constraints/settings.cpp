@@ -352,6 +352,9 @@ std::string angleName(const std::string& group) { return angleOption.dashed(grou
 std::string clampFrameName(const std::string& group) { return frameOption.dashed(group); }
 std::string pinnedName(const std::string& coupling) { return pinnedOption.dashed(coupling); }
 std::string couplingNodesName(const std::string& coupling) { return nodesOption.dashed(coupling); }
+std::string couplingComponentsName(const std::string& coupling) {
+  return componentsOption.dashed(coupling);
+}
 std::string couplingFrameName(const std::string& coupling) {
   return couplingFrameOption.dashed(coupling);
 }

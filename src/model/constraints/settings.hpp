@@ -92,6 +92,7 @@ std::string clampedRotationName(const std::string& group);
 std::string angleName(const std::string& group);
 std::string clampFrameName(const std::string& group);
 std::string couplingNodesName(const std::string& coupling);
+std::string couplingComponentsName(const std::string& coupling);
 std::string couplingFrameName(const std::string& coupling);
 std::string pinnedName(const std::string& coupling);
 std::string equationName(const std::string& equation);

@@ -84,34 +84,29 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
 
 }  // namespace
 
-Contact assemble(const mesh::Mesh& mesh, elasticity::Bodies& bodies, interfaces::Interfaces ties,
-                 const Settings& settings) {
+Assembled assemble(const mesh::Mesh& mesh, elasticity::Bodies bodies, interfaces::Interfaces ties,
+                   const Settings& settings) {
   OwnedMat periodic = periodicity(mesh);
   auto all = interfaces::findNodes(mesh, bodies, periodic, std::move(ties));
-  elasticity::addLayers(interfaces::layerStiffness(mesh, all, periodic), bodies);
+  bodies =
+      elasticity::withLayers(std::move(bodies), interfaces::layerStiffness(mesh, all, periodic));
   requireRestingPads(mesh, bodies, all);
   requireFlatObstacles(mesh, all);
   auto kinematics = kinematicsOf(mesh, all, periodic);
   auto sliding = slidingOf({mesh, bodies, all, kinematics, periodic});
-  return {.mesh = &mesh,
-          .interfaces = std::move(all),
-          .law = settings.law,
-          .periodic = std::move(periodic),
-          .kinematics = std::move(kinematics),
-          .sliding = std::move(sliding)};
+  return {.bodies = std::move(bodies),
+          .contact = {.mesh = &mesh,
+                      .interfaces = std::move(all),
+                      .law = settings.law,
+                      .periodic = std::move(periodic),
+                      .kinematics = std::move(kinematics),
+                      .sliding = std::move(sliding)}};
 }
 
 void requireSupports(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                      const Contact& contact) {
   rejectRigidBodyModes(mesh, contact, bodies);
   rejectHourglassModes(mesh, contact, bodies);
-}
-
-Contact build(const mesh::Mesh& mesh, elasticity::Bodies& bodies, interfaces::Interfaces ties,
-              const Settings& settings) {
-  Contact contact = assemble(mesh, bodies, std::move(ties), settings);
-  requireSupports(mesh, bodies, contact);
-  return contact;
 }
 
 void lockBolts(Contact& contact, const elasticity::Bodies& bodies,

@@ -9,22 +9,23 @@
 
 namespace squeal::contact {
 
+/// The bodies with the stiffness of their compliant layers, and their contact.
+struct Assembled {
+  elasticity::Bodies bodies;
+  Contact contact;
+};
+
 /// Collective. Builds normals, slip directions, constraints and all matrices. `ties` is the result
-/// of ties::findTies(). Adds the stiffness of compliant layers to `bodies`. The result borrows
-/// `mesh`. Throws Error for surfaces that do not meet, a
+/// of ties::findTies(). The result borrows `mesh`. Throws Error for surfaces that do not meet, a
 /// wrong constraint, a moving pad, a held component that is not tangential at a contact node, and
 /// an obstacle face that is not flat.
-Contact assemble(const mesh::Mesh& mesh, elasticity::Bodies& bodies, interfaces::Interfaces ties,
-                 const Settings& settings);
+Assembled assemble(const mesh::Mesh& mesh, elasticity::Bodies bodies, interfaces::Interfaces ties,
+                   const Settings& settings);
 
 /// Collective. Throws Error for a rigid-body mode with closed contact, naming body and motion, and
 /// for an hourglass mode that nothing holds.
 void requireSupports(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                      const Contact& contact);
-
-/// Collective. Does both.
-Contact build(const mesh::Mesh& mesh, elasticity::Bodies& bodies, interfaces::Interfaces ties,
-              const Settings& settings);
 
 /// Collective. Keeps the lengths of bolts from now on: `openings` of their sections along the
 /// normal, m, [section of the mesh].

@@ -105,13 +105,19 @@ std::vector<double> Contact::nodalGap(const std::vector<double>& gap) const {
   return interfaces.gapBasis ? applied(*this, MatMult, interfaces.gapBasis.matrix, gap) : gap;
 }
 
-void Contact::moveFromLayers(Vec forces) const {
-  const WriteArray values(forces);
-  const PetscInt dimension = mesh->dimension;
-  for (const auto& node : interfaces.nodes)
-    for (PetscInt d = 0; d < dimension && node.hasLayer(); ++d)
-      values[dimension * node.surfaceNode + d] +=
-          std::exchange(values[dimension * node.node + d], 0.0);
+OwnedVec Contact::movedFromLayers(Vec forces) const {
+  OwnedVec moved;
+  check(VecDuplicate(forces, moved.out()));
+  check(VecCopy(forces, moved));
+  {
+    const WriteArray values(moved);
+    const PetscInt dimension = mesh->dimension;
+    for (const auto& node : interfaces.nodes)
+      for (PetscInt d = 0; d < dimension && node.hasLayer(); ++d)
+        values[dimension * node.surfaceNode + d] +=
+            std::exchange(values[dimension * node.node + d], 0.0);
+  }
+  return moved;
 }
 
 std::vector<int> Contact::frictionExponents() const {

@@ -90,9 +90,10 @@ struct Contact {
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
   /// Collective. Returns E⁻¹ v for gaps v at the nodes; both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
-  /// Collective. Moves nodal forces, N, on layer nodes to the nodes on the faces, with which
-  /// they move along the face. The normal forces of a layer on its two sides then cancel.
-  void moveFromLayers(Vec forces) const;
+  /// Collective. Returns nodal forces, N entries, N, with those on layer nodes moved to the nodes
+  /// on the faces, with which they move along the face. The normal forces of a layer on its two
+  /// sides then cancel.
+  OwnedVec movedFromLayers(Vec forces) const;
   /// Returns the powers of the swept friction in the coefficients of the interfaces: 0 if any
   /// coefficient is fixed, 1 if any is swept. The same on all ranks.
   std::vector<int> frictionExponents() const;

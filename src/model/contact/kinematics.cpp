@@ -35,7 +35,7 @@ struct Frame {
   std::vector<int> heldComponent;  ///< [tangent] component of the node's axes held along it, or −1
 };
 
-/// Returns how the contact can let a node be held along its normal.
+/// Returns how the contact can let a node be held along its normal, or at all if it sticks.
 std::string otherSide(const ContactNode& node, const interfaces::Interfaces& all) {
   const auto& options = all.options[node.interface];
   const std::string& name = options.surfaces.name;
@@ -55,16 +55,15 @@ Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int di
                                         ? "the direction " + text(e)
                                         : std::string("component ") + "xyz"[d];
       if (node.role == Role::sticking)
-        throw Error("option -constraint_" + constraints.groups[constraints.heldBy[at]] +
-                    "_clamped holds " + component + " of a node of " +
-                    all.options[node.interface].label() + " at " + text(node.position) +
-                    ", which sticks to the other side; let the other side bear the gaps by " +
-                    interfaces::slaveName(all.options[node.interface].surfaces.name) +
-                    (node.side > 0 ? " disc" : " pad"));
+        throw Error("option " +
+                    constraints::clampedName(constraints.groups[constraints.heldBy[at]]) +
+                    " holds " + component + " of a node of " + all.options[node.interface].label() +
+                    " at " + text(node.position) + ", which sticks to the other side; " +
+                    otherSide(node, all));
       if (std::abs(dot(e, node.normal)) > 1e-6)
-        throw Error("option -constraint_" + constraints.groups[constraints.heldBy[at]] +
-                    "_clamped holds " + component + " of the contact node at " +
-                    text(node.position) +
+        throw Error("option " +
+                    constraints::clampedName(constraints.groups[constraints.heldBy[at]]) +
+                    " holds " + component + " of the contact node at " + text(node.position) +
                     ", which is not tangential there; contact determines the normal component: " +
                     otherSide(node, all));
       frame.tangents.push_back(e);

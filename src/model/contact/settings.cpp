@@ -26,7 +26,7 @@ const RealListOption tableFactorOption(
 void rejectIdle(const std::string& law) {
   const auto idle = [&](const Option& option, const char* owner) {
     if (option.given() && law != owner)
-      throw Error("option -" + option.fullName() + " is used only by -friction_law " + owner +
+      throw Error("option " + option.dashed() + " is used only by -friction_law " + owner +
                   ", not by '" + law + "'");
   };
   idle(ratioOption, "exponential");
@@ -38,11 +38,11 @@ void rejectIdle(const std::string& law) {
 FrictionLaw tableGiven() {
   auto speeds = tableSpeedOption.get(), factors = tableFactorOption.get();
   if (speeds.empty() || speeds.size() != factors.size())
-    throw Error("options -" + tableSpeedOption.fullName() + " and -" +
-                tableFactorOption.fullName() + ": the lists must have the same length");
+    throw Error("options " + tableSpeedOption.dashed() + " and " + tableFactorOption.dashed() +
+                ": the lists must have the same length");
   for (std::size_t i = 0; i + 1 < speeds.size(); ++i)
     if (!(speeds[i] < speeds[i + 1]))
-      throw Error("option -" + tableSpeedOption.fullName() + ": the speeds must ascend");
+      throw Error("option " + tableSpeedOption.dashed() + ": the speeds must ascend");
   return FrictionLaw::table(std::move(speeds), std::move(factors));
 }
 

@@ -76,13 +76,12 @@ std::vector<AttachedPart> attachedParts(const mesh::Mesh& mesh, const Bodies& bo
     add("_stiffness", &Form::stiffness, &AttachedPart::stiffness);
     add("_damping", &Form::damping, &AttachedPart::damping);
   }
-  const auto carried = carriedMasses(mesh, settings, bodies.motions);
   for (const auto& forms : bySubject(attachments::massesOf(mesh, settings.attachments))) {
     AttachedPart part;
     part.parameter = "mass_" + forms.front().name;
     part.mass = formMatrix(mesh, forms, &Form::mass);
     std::vector<CarriedMass> own;
-    for (const auto& one : carried)
+    for (const auto& one : bodies.carried)
       if (one.mass.group == forms.front().name) own.push_back(one);
     if (settings.centrifugal) {
       part.centrifugal = nodalVector(mesh);

@@ -27,8 +27,9 @@ Point product(const Matrix3& matrix, const Point& vector) {
 /// The bodies that nodes and couplings connect with a group of nodes or a reference node.
 class Connections {
  public:
-  Connections(const mesh::Mesh& mesh, const Settings& settings) : mesh_(mesh) {
-    for (const auto& coupling : settings.couplings)
+  Connections(const mesh::Mesh& mesh, const std::vector<constraints::CouplingSettings>& couplings)
+      : mesh_(mesh) {
+    for (const auto& coupling : couplings)
       for (const auto& group : coupling.groups) {
         next_[coupling.reference].insert(group);
         if (mesh.reference(group)) next_[group].insert(coupling.reference);
@@ -147,11 +148,12 @@ void requireSteady(const mesh::Mesh& mesh, const CarriedMass& carried, const Mot
 }  // namespace
 
 std::vector<CarriedMass> carriedMasses(const mesh::Mesh& mesh, const Settings& settings,
+                                       const std::vector<constraints::CouplingSettings>& couplings,
                                        const std::vector<Motion>& motions) {
   std::vector<CarriedMass> carried;
   if (settings.attachments.masses.empty() || std::ranges::none_of(motions, &Motion::moves))
     return carried;
-  const Connections connections(mesh, settings);
+  const Connections connections(mesh, couplings);
   std::map<std::string, int> carriers;  // [group]
   for (const auto& given : settings.attachments.masses)
     carriers[given.group] = carrier(mesh, given.group, connections.bodiesOf(given.group), motions);

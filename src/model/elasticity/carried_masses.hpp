@@ -5,6 +5,7 @@
 
 #include "base/petsc/owned.hpp"
 #include "model/attachments/forms.hpp"
+#include "model/constraints/settings.hpp"
 #include "model/elasticity/motion.hpp"
 #include "model/elasticity/settings.hpp"
 #include "model/mesh/mesh.hpp"
@@ -23,6 +24,7 @@ struct CarriedMass {
 /// steady in the axes of the vehicle: a rotating one must have its centre on the axis and an
 /// inertia that looks the same at all angles, both within a thousandth.
 std::vector<CarriedMass> carriedMasses(const mesh::Mesh& mesh, const Settings& settings,
+                                       const std::vector<constraints::CouplingSettings>& couplings,
                                        const std::vector<Motion>& motions);
 
 /// Collective. Adds the centrifugal forces [M.85] of rotating masses to `forces`, N entries, N.

@@ -12,7 +12,6 @@
 #include "model/elasticity/assembly.hpp"
 #include "model/elasticity/attached_parts.hpp"
 #include "model/elasticity/carried_axes.hpp"
-#include "model/elasticity/carried_masses.hpp"
 #include "model/elasticity/convection.hpp"
 #include "model/elasticity/element.hpp"
 #include "model/elasticity/ground.hpp"
@@ -119,8 +118,7 @@ void rejectSections(const mesh::Mesh& mesh, const Settings& settings) {
   };
   for (const auto& [name, motion] : settings.motions) reject(name, motion.option);
   for (const auto& [name, spin] : settings.spins) reject(name, spin.option);
-  for (const auto& [name, given] : settings.accelerations)
-    reject(name, "-load_" + name + "_acceleration");
+  for (const auto& [name, given] : settings.accelerations) reject(name, accelerationName(name));
 }
 
 void assembleMatrices(const mesh::Mesh& mesh, Bodies& bodies) {
@@ -158,11 +156,10 @@ void attach(const mesh::Mesh& mesh, const std::vector<attachments::Form>& masses
 /// Collective. Adds the terms of point masses that move with a body.
 void carry(const mesh::Mesh& mesh, Bodies& bodies) {
   const auto& settings = bodies.settings;
-  const auto carried = carriedMasses(mesh, settings, bodies.motions);
-  if (settings.centrifugal && !carried.empty())
-    addCentrifugal(mesh, carried, bodies.motions, bodies.centrifugal);
+  if (settings.centrifugal && !bodies.carried.empty())
+    addCentrifugal(mesh, bodies.carried, bodies.motions, bodies.centrifugal);
   if (!settings.convective) return;
-  const OwnedMat spin = gyroscopicOf(mesh, carried, bodies.motions);
+  const OwnedMat spin = gyroscopicOf(mesh, bodies.carried, bodies.motions);
   if (!spin) return;
   check(MatAXPY(bodies.gyroscopic, 1, spin, DIFFERENT_NONZERO_PATTERN));
   check(MatSetOption(bodies.gyroscopic, MAT_SYMMETRIC, PETSC_FALSE));
@@ -186,9 +183,10 @@ void assembleLoads(const mesh::Mesh& mesh, const std::vector<attachments::Form>&
 
 }  // namespace
 
-void addLayers(OwnedMat stiffness, Bodies& bodies) {
+Bodies withLayers(Bodies bodies, OwnedMat stiffness) {
   addMatrix(bodies.stiffness, stiffness);
   bodies.layerStiffness = std::move(stiffness);
+  return bodies;
 }
 
 bool locks(double poisson) { return poisson > leastLocking; }
@@ -214,6 +212,7 @@ OwnedVec nodalVector(const mesh::Mesh& mesh) {
 }
 
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
+                const std::vector<constraints::CouplingSettings>& couplings,
                 const Settings& settings) {
   Bodies bodies;
   bodies.settings = settings;
@@ -234,6 +233,7 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
   }
   const auto masses = attachments::massesOf(mesh, settings.attachments);
   attach(mesh, masses, bodies);
+  bodies.carried = carriedMasses(mesh, settings, couplings, bodies.motions);
   assembleLoads(mesh, masses, bodies);
   return bodies;
 }

@@ -7,6 +7,8 @@
 
 #include "base/petsc/owned.hpp"
 #include "model/attachments/forms.hpp"
+#include "model/constraints/settings.hpp"
+#include "model/elasticity/carried_masses.hpp"
 #include "model/elasticity/hourglass.hpp"
 #include "model/elasticity/motion.hpp"
 #include "model/elasticity/settings.hpp"
@@ -34,6 +36,7 @@ struct Bodies {
   OwnedMat springs;  ///< the part of K of grounded springs, N×N, with entries between the
                      ///< components of a node, N/m; null if none
   std::vector<Motion> motions;                ///< [body], base motions
+  std::vector<CarriedMass> carried;           ///< point masses that move with a body
   std::vector<material::Material> materials;  ///< [material group]
   std::vector<ExposedCell> exposed;           ///< of all ranks
   Settings settings;
@@ -42,12 +45,15 @@ struct Bodies {
 /// Collective. Assembles the matrices and loads of all bodies. Throws Error for materials and
 /// motions that do not suit the mesh, for an inverted element (the message names body and cell),
 /// for convective terms on a body whose place changes as its matter moves, and for reduced
-/// integration of other cells than hex20.
+/// integration of other cells than hex20. The couplings connect point masses with the bodies that
+/// carry them.
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
+                const std::vector<constraints::CouplingSettings>& couplings,
                 const Settings& settings);
 
-/// Collective. Adds the stiffness of compliant contact layers, N×N, N/m, which may be null.
-void addLayers(OwnedMat stiffness, Bodies& bodies);
+/// Collective. Returns the bodies with the stiffness of compliant contact layers, N×N, N/m, which
+/// may be null.
+Bodies withLayers(Bodies bodies, OwnedMat stiffness);
 
 /// Returns true if a material of this Poisson's ratio is so nearly incompressible that linear cells
 /// without incompatible modes lock: such a cell cannot deform at constant volume at each point of

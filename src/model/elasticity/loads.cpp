@@ -32,7 +32,7 @@ std::vector<Point> accelerationsOf(const LoadInput& input) {
   for (const auto& [body, given] : settings.accelerations) {
     const auto found = std::ranges::find(mesh.bodies, body);
     if (found == mesh.bodies.end())
-      throw Error("option -load_" + body + "_acceleration: '" + body +
+      throw Error("option " + accelerationName(body) + ": '" + body +
                   "' is not a body (a group with a material)");
     Point& sum = accelerations[found - mesh.bodies.begin()];
     sum = mesh::plus(sum, given.in(mesh.dimension));

@@ -28,7 +28,7 @@ std::vector<Motion> motionsOf(const std::vector<std::string>& bodies, int dimens
     const auto& [option, moves, velocity, speed, axis, origin] = given->second;
     motion = {velocity.in(dimension), speed, axis.in(dimension), origin.in(dimension)};
     if (!(mesh::length(motion.axis) > 0))
-      throw Error("option -motion_" + body + "_axis: the axis has no length");
+      throw Error("option " + axisName(body) + ": the axis has no length");
     motion.axis = mesh::unit(motion.axis);
   }
   return motions;

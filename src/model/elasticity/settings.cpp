@@ -74,11 +74,11 @@ std::vector<std::string> incompatibleGiven() {
 double rotationSpeed(const std::string& body) {
   const bool inRpm = rpmOption.given(body);
   if (inRpm && speedOption.given(body))
-    throw Error("options -" + speedOption.fullName(body) + " and -" + rpmOption.fullName(body) +
+    throw Error("options " + speedOption.dashed(body) + " and " + rpmOption.dashed(body) +
                 ": give the speed once");
   if (velocityOption.given(body) && (inRpm || speedOption.given(body)))
-    throw Error("options -" + velocityOption.fullName(body) + " and -" +
-                (inRpm ? rpmOption : speedOption).fullName(body) +
+    throw Error("options " + velocityOption.dashed(body) + " and " +
+                (inRpm ? rpmOption : speedOption).dashed(body) +
                 ": a body translates or rotates, not both");
   return inRpm ? rpmOption.get(body) * 2 * M_PI / 60 : speedOption.get(body);
 }
@@ -88,7 +88,7 @@ std::map<std::string, MotionSettings> motionsGiven() {
   for (const Option* option : std::vector<const Option*>{&velocityOption, &speedOption, &rpmOption,
                                                          &axisOption, &originOption})
     for (const auto& body : option->subjects())
-      motions.try_emplace(body, MotionSettings{.option = "-" + option->fullName(body)});
+      motions.try_emplace(body, MotionSettings{.option = option->dashed(body)});
   for (auto& [body, motion] : motions) {
     motion.moves = velocityOption.given(body) || speedOption.given(body) || rpmOption.given(body);
     motion.velocity = velocityOption.vector(body);
@@ -107,12 +107,12 @@ void readBodyForces(Settings& settings) {
   for (const Option* option : std::vector<const Option*>{&spinAxisOption, &spinOriginOption})
     for (const auto& body : option->subjects())
       if (!spinOption.given(body))
-        throw Error("option -" + option->fullName(body) + " needs -" + spinOption.fullName(body));
+        throw Error("option " + option->dashed(body) + " needs " + spinOption.dashed(body));
   for (const auto& body : spinOption.subjects()) {
     if (settings.motions.contains(body) && settings.motions.at(body).speed != 0)
-      throw Error("option -" + spinOption.fullName(body) + ": the body rotates, and " +
+      throw Error("option " + spinOption.dashed(body) + ": the body rotates, and " +
                   "-load_centrifugal gives its centrifugal forces already");
-    settings.spins[body] = {.option = "-" + spinOption.fullName(body),
+    settings.spins[body] = {.option = spinOption.dashed(body),
                             .speed = spinOption.get(body),
                             .axis = spinAxisOption.vector(body),
                             .origin = spinOriginOption.vector(body)};
@@ -155,7 +155,6 @@ Settings Settings::given() {
   settings.motions = motionsGiven();
   readBodyForces(settings);
   settings.attachments = attachments::Settings::given();
-  settings.couplings = constraints::Settings::given().couplings;
   settings.ground = groundGiven();
   return settings;
 }
@@ -174,17 +173,19 @@ std::vector<std::string> movingBodies(const Settings& settings) {
 std::vector<mesh::GroupRequest> loadedSurfaces(const Settings& settings) {
   std::vector<mesh::GroupRequest> requests;
   for (const auto& [surface, pressure] : settings.pressure)
-    requests.push_back({surface, "-" + pressureOption.fullName(surface)});
+    requests.push_back({surface, pressureOption.dashed(surface)});
   return requests;
 }
 
 std::string groundFrameName(const std::string& group) { return groundFrameOption.dashed(group); }
+std::string accelerationName(const std::string& body) { return accelerationOption.dashed(body); }
+std::string axisName(const std::string& body) { return axisOption.dashed(body); }
+std::string pressureName(const std::string& surface) { return pressureOption.dashed(surface); }
 
 std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings) {
   std::vector<mesh::GroupRequest> requests;
   for (const auto& [group, ground] : settings.ground)
-    requests.push_back(
-        {group, "-" + (ground.springs ? stiffnessOption : dampingOption).fullName(group)});
+    requests.push_back({group, (ground.springs ? stiffnessOption : dampingOption).dashed(group)});
   return requests;
 }
 

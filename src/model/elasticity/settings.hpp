@@ -9,7 +9,6 @@
 
 #include "base/options/option_types.hpp"
 #include "model/attachments/settings.hpp"
-#include "model/constraints/settings.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {
@@ -48,9 +47,8 @@ struct Settings {
   std::map<std::string, MotionSettings> spins;  ///< [body] a rotation whose centrifugal forces act
   bool bodyForces = false;                      ///< gravity, an acceleration or a spin is given
   attachments::Settings attachments;
-  std::vector<constraints::CouplingSettings> couplings;  ///< which connect masses with bodies
-  std::map<std::string, MotionSettings> motions;         ///< [body], those with an option
-  std::map<std::string, GroundSettings> ground;          ///< [group]
+  std::map<std::string, MotionSettings> motions;  ///< [body], those with an option
+  std::map<std::string, GroundSettings> ground;   ///< [group]
 
   /// Reads the options. Throws Error if rotation and translation, or both units of the speed, are
   /// given for one body, and for an unknown cell type.
@@ -65,8 +63,11 @@ std::vector<std::string> movingBodies(const Settings& settings);
 /// dashpots.
 std::vector<mesh::GroupRequest> loadedSurfaces(const Settings& settings);
 std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings);
-/// Returns the option `-ground_<group>_frame`, for messages.
+/// Return names of options with their dash, for messages.
 std::string groundFrameName(const std::string& group);
+std::string accelerationName(const std::string& body);
+std::string axisName(const std::string& body);
+std::string pressureName(const std::string& surface);
 /// Returns the options that give a motion, for messages.
 inline const char* motionOptions() { return "-motion_<body>_*"; }
 

@@ -35,11 +35,11 @@ std::map<std::string, FrameSettings> framesGiven() {
   for (const auto& name : names) {
     const bool cylindrical = axisOption.given(name), rectangular = xOption.given(name);
     if (cylindrical == rectangular)
-      throw Error("frame '" + name + "': give either -" + xOption.fullName(name) +
-                  ", for rectangular axes, or -" + axisOption.fullName(name) +
+      throw Error("frame '" + name + "': give either " + xOption.dashed(name) +
+                  ", for rectangular axes, or " + axisOption.dashed(name) +
                   ", for cylindrical ones");
     if (cylindrical && xyOption.given(name))
-      throw Error("option -" + xyOption.fullName(name) + " needs -" + xOption.fullName(name));
+      throw Error("option " + xyOption.dashed(name) + " needs " + xOption.dashed(name));
     if (turnAxisOption.given(name) && !turnOption.given(name))
       throw Error("option " + turnAxisOption.dashed(name) + " needs " + turnOption.dashed(name));
     frames[name] = {.name = name,
@@ -49,10 +49,10 @@ std::map<std::string, FrameSettings> framesGiven() {
                     .second = xyOption.vector(name),
                     .turn = turnOption.get(name) * M_PI / 180,
                     .turnAxis = turnAxisOption.get(name)[0] - 'x',
-                    .firstOption = "-" + (cylindrical ? axisOption : xOption).fullName(name),
-                    .secondOption = "-" + xyOption.fullName(name),
+                    .firstOption = (cylindrical ? axisOption : xOption).dashed(name),
+                    .secondOption = xyOption.dashed(name),
                     .turnAxisOption = turnAxisOption.dashed(name)};
-    if (originOption.given(name)) frames[name].originOption = "-" + originOption.fullName(name);
+    if (originOption.given(name)) frames[name].originOption = originOption.dashed(name);
   }
   return frames;
 }

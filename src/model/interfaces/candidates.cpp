@@ -153,12 +153,11 @@ void Claims::add(const std::vector<PetscInt>& nodes, const std::vector<Interface
   for (PetscInt node : nodes) {
     const int before = claimed[node] - 1;
     if (role == Role::sliding && before >= 0)
-      failure =
-          "interfaces '" + options[before].surfaces.name + "' and '" +
-          options[interface].surfaces.name + "' both contain the node at " +
-          text(mesh_.coordinates[node]) +
-          " as sliding; a node has only one gap: give both the same disc group, and -contact_" +
-          options[interface].surfaces.name + "_slave pad";
+      failure = "interfaces '" + options[before].surfaces.name + "' and '" +
+                options[interface].surfaces.name + "' both contain the node at " +
+                text(mesh_.coordinates[node]) +
+                " as sliding; a node has only one gap: give both the same disc group, and " +
+                slaveName(options[interface].surfaces.name) + " pad";
     claimed[node] = interface + 1;
   }
   failTogether(mesh_.comm, failure);

@@ -62,7 +62,8 @@ std::string Elimination::nameOf(const Source& source) const {
                                         text(source.place) + ", which follows other nodes; ";
   const std::string what = source.isTurned ? "the direction " + text(source.direction)
                                            : std::string("component ") + "xyz"[source.component];
-  return "option -constraint_" + group + "_clamped holds " + what + " of a node of " + follows;
+  return "option " + constraints::clampedName(group) + " holds " + what + " of a node of " +
+         follows;
 }
 
 void Elimination::setIdle(const Equation& equation) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "model/interfaces/layers.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "base/petsc/arrays.hpp"
@@ -33,11 +35,6 @@ double root(double stiffness, const ContactNode& node) {
   return std::sqrt(stiffness * node.area / node.wholeArea);
 }
 
-/// Collective. Returns a mark at the components of the nodes on the faces below layers.
-OwnedVec marks(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
-  return onFaces(mesh, all, periodic, [](const ContactNode&, double* at) { *at = 1; });
-}
-
 bool anyLayer(const mesh::Mesh& mesh, const Interfaces& all) {
   return mesh.layerNodes > 0 && std::ranges::any_of(all.options, [](const auto& interface) {
            return interface.layerStiffness > 0;
@@ -46,9 +43,8 @@ bool anyLayer(const mesh::Mesh& mesh, const Interfaces& all) {
 
 /// The springs of the layers at all local nodes, [local node][component].
 struct Springs {
-  std::vector<double> normal;      // √k n
-  std::vector<double> tangential;  // √k_t in the first component
-  std::vector<double> direction;   // n
+  std::vector<double> normal;  // n
+  std::vector<double> roots;   // √k, √k_t in the first two components
 };
 
 Springs springsOf(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
@@ -57,14 +53,12 @@ Springs springsOf(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
     return elasticity::localValues(mesh, onFaces(mesh, all, periodic, set));
   };
   return {local([&](const ContactNode& node, double* at) {
-            const double factor = root(all.options[node.interface].layerStiffness, node);
-            for (int d = 0; d < dimension; ++d) at[d] = factor * node.normal[d];
-          }),
-          local([&](const ContactNode& node, double* at) {
-            *at = root(all.options[node.interface].layerTangentialStiffness, node);
-          }),
-          local([&](const ContactNode& node, double* at) {
             for (int d = 0; d < dimension; ++d) at[d] = node.normal[d];
+          }),
+          local([&](const ContactNode& node, double* at) {
+            const auto& interface = all.options[node.interface];
+            at[0] = root(interface.layerStiffness, node);
+            at[1] = root(interface.layerTangentialStiffness, node);
           })};
 }
 
@@ -72,18 +66,18 @@ Springs springsOf(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
 std::vector<double> blockOf(const Springs& springs, PetscInt a, PetscInt b, int dimension) {
   const double *na = springs.normal.data() + dimension * a,
                *nb = springs.normal.data() + dimension * b,
-               *ea = springs.direction.data() + dimension * a,
-               *eb = springs.direction.data() + dimension * b;
-  const double tangential = springs.tangential[dimension * a] * springs.tangential[dimension * b];
+               *ra = springs.roots.data() + dimension * a,
+               *rb = springs.roots.data() + dimension * b;
+  const double tangential = ra[1] * rb[1];
   double cosine = 0;
-  for (int d = 0; d < dimension; ++d) cosine += ea[d] * eb[d];
+  for (int d = 0; d < dimension; ++d) cosine += na[d] * nb[d];
   std::vector<double> block(dimension * dimension);
   //   √k_i n_i √k_j n_jᵀ + √k_t,i (1 − n_i n_iᵀ) √k_t,j (1 − n_j n_jᵀ)
   for (int i = 0; i < dimension; ++i)
     for (int j = 0; j < dimension; ++j)
       block[i * dimension + j] =
-          na[i] * nb[j] +
-          tangential * ((i == j ? 1 : 0) - ea[i] * ea[j] - eb[i] * eb[j] + cosine * ea[i] * eb[j]);
+          ra[0] * na[i] * (rb[0] * nb[j]) +
+          tangential * ((i == j ? 1 : 0) - na[i] * na[j] - nb[i] * nb[j] + cosine * na[i] * nb[j]);
   return block;
 }
 
@@ -119,11 +113,9 @@ OwnedMat springMatrix(const mesh::Mesh& mesh, const Interfaces& all, const Sprin
 }
 
 /// Collective. Returns the matrix of the differences u_P − u_L, in the rows of P.
-OwnedMat differences(const mesh::Mesh& mesh, Vec below) {
+OwnedMat differences(const mesh::Mesh& mesh, const std::vector<mesh::LayerNode>& layers) {
   OwnedMat rows = nodalMatrix(mesh, 2);
-  const ReadArray isBelow(below);
-  for (const auto& [node, layer] : mesh.layers) {
-    if (isBelow[mesh.dimension * node] == 0) continue;
+  for (const auto& [node, layer] : layers) {
     setBlock(rows, mesh.dimension, mesh.firstNode + node, mesh.firstNode + node,
              identity(mesh.dimension, 1));
     setBlock(rows, mesh.dimension, mesh.firstNode + node, mesh.firstNode + layer,
@@ -135,14 +127,23 @@ OwnedMat differences(const mesh::Mesh& mesh, Vec below) {
 
 }  // namespace
 
-OwnedMat layerExchange(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
+std::vector<mesh::LayerNode> layersInContact(const mesh::Mesh& mesh, const Interfaces& all,
+                                             Mat periodic) {
   if (!anyLayer(mesh, all)) return {};
-  const OwnedVec below = marks(mesh, all, periodic);
-  const ReadArray isBelow(below);
+  const OwnedVec marks =
+      onFaces(mesh, all, periodic, [](const ContactNode&, double* at) { *at = 1; });
+  const ReadArray isBelow(marks);
+  std::vector<mesh::LayerNode> layers;
+  std::ranges::copy_if(mesh.layers, std::back_inserter(layers),
+                       [&](const auto& one) { return isBelow[mesh.dimension * one.node] != 0; });
+  return layers;
+}
+
+OwnedMat layerExchange(const mesh::Mesh& mesh, const Interfaces& all) {
+  if (!anyLayer(mesh, all)) return {};
   std::vector<PetscInt> other(mesh.ownedNodes);
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) other[node] = node;
-  for (const auto& [node, layer] : mesh.layers)
-    if (isBelow[mesh.dimension * node] != 0) other[node] = layer, other[layer] = node;
+  for (const auto& [node, layer] : all.layers) other[node] = layer, other[layer] = node;
   OwnedMat exchange = nodalMatrix(mesh, 1);
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d)
@@ -155,7 +156,7 @@ OwnedMat layerExchange(const mesh::Mesh& mesh, const Interfaces& all, Mat period
 OwnedMat layerStiffness(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
   if (!anyLayer(mesh, all)) return {};
   const OwnedMat springs = springMatrix(mesh, all, springsOf(mesh, all, periodic)),
-                 rows = differences(mesh, marks(mesh, all, periodic));
+                 rows = differences(mesh, all.layers);
   OwnedMat stiffness;
   check(MatPtAP(springs, rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness.out()));
   check(MatProductClear(stiffness));

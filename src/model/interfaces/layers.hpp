@@ -7,16 +7,23 @@
 /// and along the face L moves with P. A layer of a sticking interface is a spring along the face
 /// too. Where the other side covers only a part of the integral of a shape function, its factor √k
 /// is reduced by the square root of that part.
+#include <vector>
+
 #include "model/interfaces/nodes.hpp"
+#include "model/mesh/mesh.hpp"
 
 namespace squeal::interfaces {
 
-/// Collective. Returns for the contact nodes of `all`, which are layer nodes where their interface
-/// has a layer, the N×N permutation that exchanges each of these with its node on the face, images
-/// included; null without layers.
-OwnedMat layerExchange(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic);
+/// Collective. Returns the layer nodes of this rank with a gap, images included, for the contact
+/// nodes of `all`, which are layer nodes where their interface has a layer.
+std::vector<mesh::LayerNode> layersInContact(const mesh::Mesh& mesh, const Interfaces& all,
+                                             Mat periodic);
 
-/// Collective. Returns the stiffness of the layers, N×N, symmetric, N/m; null without layers.
+/// Collective. Returns the N×N permutation that exchanges each node of `all.layers` with its node
+/// on the face; null without layers.
+OwnedMat layerExchange(const mesh::Mesh& mesh, const Interfaces& all);
+
+/// Collective. Returns the stiffness of `all.layers`, N×N, symmetric, N/m; null without layers.
 OwnedMat layerStiffness(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic);
 
 }  // namespace squeal::interfaces

@@ -71,11 +71,14 @@ class Owners {
     const auto found = gaps_.find(mesh_.firstNode + node);
     return found == gaps_.end() ? -1 : found->second;
   }
-  /// Returns true if the contact has the gap of the lost node nevertheless.
-  bool isMet(const LostNode& lost) const {
+  /// Returns true if another interface has the gap of the lost node, with the same friction.
+  bool isShared(const LostNode& lost) const {
     const auto own = gaps_.find(mesh_.firstNode + lost.node);
-    if (own != gaps_.end() && all_.slideTogether(own->second, lost.interface))
-      return all_.options[own->second].friction == all_.options[lost.interface].friction;
+    return own != gaps_.end() && all_.slideTogether(own->second, lost.interface) &&
+           all_.options[own->second].friction == all_.options[lost.interface].friction;
+  }
+  /// Returns true if a tie binds the lost node of a contact to what it touches.
+  bool isBonded(const LostNode& lost) const {
     const auto tied = tied_.find(lost.node);
     if (tied == tied_.end() || all_.options[lost.interface].isTied()) return false;
     if (const auto other = parts_.find(lost.interface); other != parts_.end())
@@ -117,29 +120,47 @@ class Owners {
 struct Loss {
   LossReport report;
   std::array<double, 2> areas{};  // of the lost nodes, of the slave, m² (m)
+  PetscInt bonded = 0;            // nodes that a tie binds to what they touch
+  std::vector<std::string> ties;  // the labels of these ties
 };
+
+/// Returns the labels of the marked interfaces.
+std::vector<std::string> labelsOf(const Interfaces& all, const std::vector<int>& marks) {
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i]) labels.push_back(all.options[i].label());
+  return labels;
+}
 
 /// Collective.
 Loss lossOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, const Interfaces& all,
             int interface, const Owners& owners) {
   std::vector<Point> places;
-  std::vector<int> owns(all.options.size(), 0);
+  std::vector<int> owns(all.options.size(), 0), ties = owns;
   std::vector<double> marks(mesh.localNodes(), 0.0);
+  Loss loss;
   for (const auto& lost : all.lost) {
-    if (lost.interface != interface || owners.isMet(lost)) continue;
+    if (lost.interface != interface || owners.isShared(lost)) continue;
+    const int owner = owners.of(lost.node);
+    if (owners.isBonded(lost)) {
+      ++loss.bonded;
+      ties[owner] = 1;
+      continue;
+    }
     places.push_back(mesh.coordinates[lost.node]);
     marks[lost.node] = 1;
-    if (const int owner = owners.of(lost.node); owner >= 0) owns[owner] = 1;
+    if (owner >= 0) owns[owner] = 1;
   }
-  Loss loss;
   places = concatenated(mesh.comm, places);
   mpi::reduce<int>(mesh.comm, owns, MPI_MAX);
+  mpi::reduce<int>(mesh.comm, ties, MPI_MAX);
+  loss.bonded = mpi::sum(mesh.comm, loss.bonded);
+  loss.ties = labelsOf(all, ties);
   loss.report.nodes = places.size();
   if (places.empty()) return loss;
   loss.report.first = *std::min_element(places.begin(), places.end());
   loss.areas = areasOf(mesh, exchange, all.slaves[interface].surface, marks);
-  for (std::size_t i = 0; i < owns.size(); ++i)
-    if (owns[i]) loss.report.owners.push_back(all.options[i].label());
+  loss.report.owners = labelsOf(all, owns);
   return loss;
 }
 
@@ -161,7 +182,14 @@ void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, 
   for (int i = 0; i < std::ssize(all.options); ++i) {
     const auto& options = all.options[i];
     if (options.isTied() != (role == Role::tied)) continue;
-    const auto [loss, areas] = lossOf(mesh, exchange, all, i, owners);
+    const auto [loss, areas, bonded, ties] = lossOf(mesh, exchange, all, i, owners);
+    if (bonded > 0 && all.reports[i].nodes == 0)
+      throw Error(formatted("%s: all %" PetscInt_FMT
+                            " nodes of '%s' are bonded to what they touch, by %s; remove one of "
+                            "the two",
+                            options.label().c_str(), bonded, all.slaves[i].surface.c_str(),
+                            joined(ties, " and ").c_str()));
+    all.reports[i].bonded = bonded;
     if (loss.nodes == 0) continue;
     if (all.reports[i].matching && !options.isTied()) all.reports[i].dropped = loss.nodes;
     all.reports[i].loss = loss;

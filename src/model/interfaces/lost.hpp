@@ -16,7 +16,8 @@ double areaOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange
 /// Collective. Reports the lost nodes of ties (Role::tied) or of interfaces in contact (any other
 /// role) in InterfaceReport::loss, and warns of them with number, area, position and remedy. Nodes
 /// whose condition holds nevertheless do not count: nodes that follow a node with the same gap, and
-/// nodes tied to the surface they touch.
+/// nodes tied to the surface they touch, InterfaceReport::bonded. Throws Error for a contact all
+/// nodes of which are bonded.
 void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all,
                 Role role);
 

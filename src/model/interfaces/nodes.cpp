@@ -148,9 +148,10 @@ std::vector<int> interfacesOf(const mesh::Mesh& mesh, const coupling::NodeExchan
   return found;
 }
 
-/// Collective. Moves the gap basis to the layer nodes.
+/// Collective. Sets the layers with a gap, and moves the gap basis to their nodes.
 void moveToLayers(const mesh::Mesh& mesh, Mat periodic, Interfaces& all) {
-  all.layerExchange = layerExchange(mesh, all, periodic);
+  all.layers = layersInContact(mesh, all, periodic);
+  all.layerExchange = layerExchange(mesh, all);
   if (!all.layerExchange || !all.gapBasis) return;
   for (OwnedMat* basis : {&all.gapBasis.matrix, &all.gapBasis.inverse})
     *basis = product(product(all.layerExchange, *basis), all.layerExchange);
@@ -214,6 +215,8 @@ std::string describe(const Interfaces& all, int interface) {
                       report.untied);
   else if (report.dropped > 0)
     line += formatted("; %" PetscInt_FMT " nodes at its rim have no condition", report.dropped);
+  if (report.bonded > 0)
+    line += formatted("; %" PetscInt_FMT " more are bonded to it by a tie", report.bonded);
   if (options.layerStiffness > 0)
     line += formatted("; with a soft layer of %.4g N/m3", options.layerStiffness);
   if (!options.separates) line += "; they do not separate";

@@ -98,6 +98,7 @@ struct InterfaceReport {
   PetscInt dropped = 0;    ///< touching nodes without a condition: too little covered, or left
                            ///< to another interface
   LossReport loss;
+  PetscInt bonded = 0;  ///< nodes of a contact that a tie binds to what they touch
   // The following apply only to ties.
   PetscInt carried = 0;          ///< held components of tied nodes that the master carries
   PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
@@ -135,8 +136,9 @@ struct Interfaces {
   /// [local node] index into `options` of the contact with a gap at the node, −1 if there is none;
   /// includes ghosts and periodic images
   std::vector<int> interfaceOf;
-  int levels = 1;     ///< largest level of a connection of all ranks
-  GapBasis gapBasis;  ///< E
+  int levels = 1;                       ///< largest level of a connection of all ranks
+  GapBasis gapBasis;                    ///< E
+  std::vector<mesh::LayerNode> layers;  ///< those with a gap, images included
   /// N×N, exchanges each node below a compliant layer with its layer node; null without layers
   OwnedMat layerExchange;
 

@@ -77,7 +77,7 @@ const FlagOption adjustOption("tie", "tie_<name>_adjust", true,
 
 mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
   const std::string group = option.get(name);
-  return {group, "-" + option.fullName(name) + " " + group};
+  return {group, option.dashed(name) + " " + group};
 }
 
 /// Returns the value of an enumeration that an option gives by its name.
@@ -91,38 +91,38 @@ Enumeration valueOf(const ChoiceOption& option, const std::vector<std::string>& 
 void rejectIdleOptions(const InterfaceSettings& interface) {
   const std::string& name = interface.surfaces.name;
   const auto reject = [&](const Option& option, const std::string& why) {
-    if (option.given(name)) throw Error("option -" + option.fullName(name) + " " + why);
+    if (option.given(name)) throw Error("option " + option.dashed(name) + " " + why);
   };
   if (interface.onObstacle()) {
-    const std::string why = "needs -" + discOption.fullName(name);
+    const std::string why = "needs " + discOption.dashed(name);
     for (const Option* option : std::vector<const Option*>{&slaveOption, &searchOption, &gapOption})
       reject(*option, why);
     if (interface.isTied() || interface.role == Role::sticking)
-      throw Error("option -" + roleOption.fullName(name) + " " + roleOption.get(name) + " " + why);
+      throw Error("option " + roleOption.dashed(name) + " " + roleOption.get(name) + " " + why);
   }
-  const std::string role = "needs -" + roleOption.fullName(name);
+  const std::string role = "needs " + roleOption.dashed(name);
   if (interface.role != Role::sliding) reject(factorOption, role + " sliding");
   if (interface.role != Role::sliding && interface.role != Role::sticking)
     reject(frictionOption, role + " sliding or sticking");
   if (interface.role != Role::sticking) reject(releaseOption, role + " sticking");
   if (!frictionOption.given(name))
-    reject(releaseOption, "needs -" + frictionOption.fullName(name) + ", the limit");
+    reject(releaseOption, "needs " + frictionOption.dashed(name) + ", the limit");
   if (frictionOption.given(name))
-    reject(factorOption, "is a factor on -flutter_friction, which -" +
-                             frictionOption.fullName(name) + " replaces; give one of them");
+    reject(factorOption, "is a factor on -flutter_friction, which " + frictionOption.dashed(name) +
+                             " replaces; give one of them");
   if (interface.isTied()) reject(separationOption, "has no effect on a tied interface");
   if (!interface.separates && (interface.gapIsMeasured || interface.gap > 0))
-    throw Error("option -" + separationOption.fullName(name) + " off needs -" +
-                gapOption.fullName(name) + " zero or negative: it would pull an open gap shut");
+    throw Error("option " + separationOption.dashed(name) + " off needs " + gapOption.dashed(name) +
+                " zero or negative: it would pull an open gap shut");
   if (interface.isTied())
     reject(stiffnessOption, "has no effect on a tied interface; model the layer as a body");
   if (interface.role != Role::sticking || interface.layerStiffness == 0)
-    reject(tangentialStiffnessOption, role + " sticking and -" + stiffnessOption.fullName(name));
+    reject(tangentialStiffnessOption, role + " sticking and " + stiffnessOption.dashed(name));
   if (interface.role == Role::sticking && interface.layerStiffness > 0 &&
       interface.layerTangentialStiffness == 0)
-    throw Error("option -" + stiffnessOption.fullName(name) +
-                ": a sticking interface with a soft layer also needs -" +
-                tangentialStiffnessOption.fullName(name));
+    throw Error("option " + stiffnessOption.dashed(name) +
+                ": a sticking interface with a soft layer also needs " +
+                tangentialStiffnessOption.dashed(name));
   if (interface.isTied()) reject(gapOption, "has no effect on a tied interface, which has no gap");
 }
 
@@ -142,8 +142,8 @@ mesh::InterfaceRequest surfacesOf(const std::string& name) {
   const bool disc = discOption.given(name), obstacle = obstacleVelocityOption.given(name) ||
                                                        obstacleDisplacementOption.given(name);
   if (disc == obstacle)
-    throw Error("option -" + padOption.fullName(name) + ": give either -" +
-                discOption.fullName(name) + " or -" + obstacleVelocityOption.fullName(name));
+    throw Error("option " + padOption.dashed(name) + ": give either " + discOption.dashed(name) +
+                " or " + obstacleVelocityOption.dashed(name));
   return {name, "interface '" + name + "'", groupOf(padOption, name),
           disc ? groupOf(discOption, name) : mesh::GroupRequest{}};
 }
@@ -234,12 +234,12 @@ std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings) 
 std::string text(Role role) { return roleNames.at(std::size_t(role)); }
 
 std::string obstacleVelocityName(const std::string& interface) {
-  return "-" + obstacleVelocityOption.fullName(interface);
+  return obstacleVelocityOption.dashed(interface);
 }
 
 std::string searchName(const InterfaceSettings& interface) {
   const std::string& name = interface.surfaces.name;
-  return "-" + (interface.isTie() ? toleranceOption.fullName(name) : searchOption.fullName(name));
+  return (interface.isTie() ? toleranceOption : searchOption).dashed(name);
 }
 
 std::string searchText(const InterfaceSettings& interface) {
@@ -248,20 +248,18 @@ std::string searchText(const InterfaceSettings& interface) {
                                       : std::string(", half the size of a face"));
 }
 
-std::string roleName(const std::string& interface) { return "-" + roleOption.fullName(interface); }
+std::string roleName(const std::string& interface) { return roleOption.dashed(interface); }
 
 std::string separationName(const std::string& interface) {
-  return "-" + separationOption.fullName(interface);
+  return separationOption.dashed(interface);
 }
 
-std::string slaveName(const std::string& interface) {
-  return "-" + slaveOption.fullName(interface);
-}
+std::string slaveName(const std::string& interface) { return slaveOption.dashed(interface); }
 
 std::string stiffnessName(const std::string& interface) {
-  return "-" + stiffnessOption.fullName(interface);
+  return stiffnessOption.dashed(interface);
 }
 
-std::string adjustName(const std::string& tie) { return "-" + adjustOption.fullName(tie); }
+std::string adjustName(const std::string& tie) { return adjustOption.dashed(tie); }
 
 }  // namespace squeal::interfaces

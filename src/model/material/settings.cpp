@@ -81,7 +81,7 @@ std::vector<double> numbers(const RealListOption& option, const std::string& bod
                             std::size_t count) {
   auto values = option.get(body);
   if (values.size() != count)
-    throw Error("option -" + option.fullName(body) + ": " + std::to_string(count) +
+    throw Error("option " + option.dashed(body) + ": " + std::to_string(count) +
                 " numbers are required, " + std::to_string(values.size()) + " are given");
   return values;
 }
@@ -98,7 +98,7 @@ EngineeringConstants constants(const std::string& body) {
     c = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]};
   const std::string rule = violatedRule(c);
   if (!rule.empty())
-    throw Error("option -" + option.fullName(body) +
+    throw Error("option " + option.dashed(body) +
                 ": the strain energy is not positive for every strain: " + rule +
                 (transverse ? " (E1 = E2 = Ep, E3 = Et, nu12 = nup, nu13 = nu23 = nupt, G12 = Ep / "
                               "2(1 + nup), G13 = G23 = Gt)"
@@ -116,7 +116,7 @@ Hooke stiffnessMatrix(const std::string& body, const RealListOption& option, std
   const Hooke stiffness = anisotropic(numbers(option, body, count));
   const std::string rule = violatedRule(stiffness);
   if (!rule.empty())
-    throw Error("option -" + option.fullName(body) +
+    throw Error("option " + option.dashed(body) +
                 ": the strain energy is not positive for every strain: " + rule);
   return stiffness;
 }
@@ -124,7 +124,7 @@ Hooke stiffnessMatrix(const std::string& body, const RealListOption& option, std
 /// Returns the anisotropic law that the option gives, without axes.
 Anisotropy anisotropy(const std::string& body, const RealListOption& option) {
   const bool general = &option == &anisotropicOption;
-  Anisotropy law{{}, {}, general, "-" + option.fullName(body), {}};
+  Anisotropy law{{}, {}, general, option.dashed(body), {}};
   if (general || &option == &orthotropicOption)
     law.stiffness = stiffnessMatrix(body, option, general ? 21 : 9);
   else
@@ -158,7 +158,7 @@ CylinderAxis cylinderAxis(const std::string& body) {
 /// Throws Error if both options are given.
 void exclude(const std::string& body, const Option& one, const Option& other) {
   if (one.given(body) && other.given(body))
-    throw Error("options -" + one.fullName(body) + " and -" + other.fullName(body) +
+    throw Error("options " + one.dashed(body) + " and " + other.dashed(body) +
                 " exclude each other");
 }
 
@@ -326,10 +326,10 @@ std::set<std::string> groupsGiven(const std::map<std::string, std::vector<std::s
   for (const Option* option : materialOptions())
     for (const auto& group : option->subjects())
       if (!groups.count(group) && !sections.contains(group))
-        throw Error("option -" + youngOption.fullName(group) +
+        throw Error("option " + youngOption.dashed(group) +
                     " (or _engineering_constants, _transverse, _orthotropic, _anisotropic) is "
-                    "missing, but -" +
-                    option->fullName(group) + " is given");
+                    "missing, but " +
+                    option->dashed(group) + " is given");
   for (const auto& [body, list] : sections) groups.erase(body);
   if (groups.empty())
     throw Error("no body: " + howToGiveMaterials() + " for each volume group of the mesh");

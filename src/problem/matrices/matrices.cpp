@@ -13,7 +13,7 @@ NamedTerm readTerm(MPI_Comm comm, const std::string& name, const MatrixSettings&
   try {
     matrix = read(comm, settings.file, settings.dataset);
   } catch (const Error& error) {
-    throw Error("option -" + fileOptionOf(name) + ": " + error.what());
+    throw Error("option " + fileOptionOf(name) + ": " + error.what());
   }
   pencil::Term term{.matrix = std::move(matrix),
                     .power = settings.power,
@@ -33,8 +33,7 @@ void requireEqualSizes(const std::vector<NamedTerm>& terms) {
   for (const auto& [name, term] : terms) {
     check(MatGetSize(term.matrix, &size, nullptr));
     if (size != wanted)
-      throw Error(formatted("option -%s: %" PetscInt_FMT
-                            " rows, but matrix '%s' has %" PetscInt_FMT,
+      throw Error(formatted("option %s: %" PetscInt_FMT " rows, but matrix '%s' has %" PetscInt_FMT,
                             fileOptionOf(name).c_str(), size, terms[0].name.c_str(), wanted));
   }
 }

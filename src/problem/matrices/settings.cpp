@@ -62,7 +62,7 @@ void rejectOrphans() {
            &dampingOption, &ofFrictionOption})
     for (const auto& name : option->subjects())
       if (!known.count(name))
-        throw Error("option -" + option->fullName(name) + ": there is no -" + fileOptionOf(name));
+        throw Error("option " + option->dashed(name) + ": there is no " + fileOptionOf(name));
 }
 
 void rejectMeshOptions() {
@@ -70,7 +70,7 @@ void rejectMeshOptions() {
                                      "constraint", "load",     "motion",     "friction",
                                      "contact",    "tie",      "steady"};
   const auto reject = [&](const std::string& name) {
-    throw Error("option -" + name + ": a run uses either a mesh or matrices (-" +
+    throw Error("option " + name + ": a run uses either a mesh or matrices (" +
                 fileOptionOf(fileOption.subjects()[0]) + "), not both");
   };
   for (const auto* option : Option::all()) {
@@ -78,15 +78,15 @@ void rejectMeshOptions() {
     for (const auto& subject : option->name.find('<') == std::string::npos
                                    ? std::vector<std::string>{""}
                                    : option->subjects())
-      if (option->given(subject)) reject(option->fullName(subject));
+      if (option->given(subject)) reject(option->dashed(subject));
   }
   for (const auto* solver : SolverPrefix::all())
-    if (ofMesh.count(solver->stage) && solver->given()) reject(solver->names()[0].substr(1));
+    if (ofMesh.count(solver->stage) && solver->given()) reject(solver->names()[0]);
 }
 
 }  // namespace
 
-std::string fileOptionOf(const std::string& name) { return fileOption.fullName(name); }
+std::string fileOptionOf(const std::string& name) { return fileOption.dashed(name); }
 
 ExportSettings ExportSettings::given() {
   ExportSettings settings{.folder = folderOption.get()};

@@ -41,7 +41,7 @@ struct Settings {
   static Settings given();
 };
 
-/// Returns the full name, without the dash, of the option for the file of a matrix.
+/// Returns the option for the file of a matrix, with its dash, for messages.
 std::string fileOptionOf(const std::string& name);
 
 }  // namespace squeal::matrices

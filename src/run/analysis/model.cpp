@@ -41,7 +41,8 @@ mesh::Mesh readMesh(MPI_Comm comm, const ModelSettings& settings) {
 
 elasticity::Bodies assembleBodies(const mesh::Mesh& mesh, const ModelSettings& settings) {
   Stage stage(mesh.comm, "elasticity");
-  elasticity::Bodies bodies = elasticity::assemble(mesh, settings.materials, settings.elasticity);
+  elasticity::Bodies bodies = elasticity::assemble(
+      mesh, settings.materials, settings.constraints.couplings, settings.elasticity);
   stage.finish(formatted("stiffness, mass and loads on %" PetscInt_FMT " displacements",
                          mesh.dimension * mesh.totalNodes));
   return bodies;
@@ -54,16 +55,17 @@ interfaces::Interfaces findTies(mesh::Mesh& mesh, const ModelSettings& settings)
   return ties;
 }
 
-contact::Contact buildContact(const mesh::Mesh& mesh, elasticity::Bodies& bodies,
-                              interfaces::Interfaces ties, const contact::Settings& settings) {
+contact::Assembled assembleContact(const mesh::Mesh& mesh, elasticity::Bodies bodies,
+                                   interfaces::Interfaces ties, const contact::Settings& settings) {
   Stage stage(mesh.comm, "contact");
-  contact::Contact contact = contact::assemble(mesh, bodies, std::move(ties), settings);
+  auto assembled = contact::assemble(mesh, std::move(bodies), std::move(ties), settings);
+  const contact::Contact& contact = assembled.contact;
   stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces",
                          contact.interfaces.totalNodes, contact.interfaces.names.size()));
   for (int i = 0; i < std::ssize(contact.interfaces.names); ++i)
     if (contact.interfaces.names.size() > 1 || !contact.interfaces.reports[i].matching)
       printLine(mesh.comm, "  " + interfaces::describe(contact.interfaces, i));
-  return contact;
+  return assembled;
 }
 
 }  // namespace
@@ -73,8 +75,10 @@ Model buildModel(MPI_Comm comm, const ModelSettings& settings) {
   model.mesh = std::make_unique<mesh::Mesh>(readMesh(comm, settings));
   warnOfIdleOptions(*model.mesh, settings);
   auto ties = findTies(*model.mesh, settings);  // may move nodes, so before elements
-  model.bodies = assembleBodies(*model.mesh, settings);
-  model.contact = buildContact(*model.mesh, model.bodies, std::move(ties), settings.contact);
+  auto assembled = assembleContact(*model.mesh, assembleBodies(*model.mesh, settings),
+                                   std::move(ties), settings.contact);
+  model.bodies = std::move(assembled.bodies);
+  model.contact = std::move(assembled.contact);
   return model;
 }
 
@@ -91,7 +95,8 @@ void requireSupports(const Model& model) {
 audit::Audit auditModel(const Model& model, const ModelSettings& settings,
                         const std::string& place) {
   Stage stage(model.mesh->comm, "audit");
-  auto found = audit::auditOf({*model.mesh, model.bodies, model.contact, settings.materials});
+  auto found = audit::auditOf({*model.mesh, model.bodies, model.contact, settings.materials,
+                               settings.constraints.couplings});
   stage.finish(audit::summaryOf(found) + place);
   return found;
 }

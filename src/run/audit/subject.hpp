@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The model that is audited.
+#include <vector>
+
+#include "model/constraints/settings.hpp"
 #include "model/contact/contact.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/material/settings.hpp"
@@ -14,6 +17,7 @@ struct Subject {
   const elasticity::Bodies& bodies;
   const contact::Contact& contact;
   const material::Settings& materials;
+  const std::vector<constraints::CouplingSettings>& couplings;
 };
 
 }  // namespace squeal::audit

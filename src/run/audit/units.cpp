@@ -123,7 +123,7 @@ void judgePressure(const Subject& model, const std::vector<Elastic>& bodies,
       if (!loaded[b]) continue;
       const std::string head = formatted("the pressure of %.4g Pa on '%s' of %s", pressure,
                                          surface.c_str(), bodies[b].name.c_str());
-      const std::string option = "-load_" + surface + "_pressure";
+      const std::string option = elasticity::pressureName(surface);
       if (std::abs(pressure) > largestStrain * moduli[b].least)
         findings.push_back({Kind::units, Severity::warning,
                             head + formatted(" is %.3g times its modulus of %.4g Pa",

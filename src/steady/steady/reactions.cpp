@@ -108,7 +108,7 @@ Reactions::ContactForces Reactions::contactForces(const Solution& solution) cons
     found.sums[i] = ownWrench(mesh_, forces);
     check(VecAXPY(found.rest, -1, forces));
   }
-  contact_.moveFromLayers(found.rest);
+  found.rest = contact_.movedFromLayers(found.rest);
   return found;
 }
 

@@ -192,7 +192,7 @@ Resultant resultantOf(const contact::Contact& contact, int interface, const Solu
   return resultant;
 }
 
-void addTieForces(const contact::Contact& contact, Vec nodalForces, Vec contactForces) {
+OwnedVec withTieForces(const contact::Contact& contact, Vec nodalForces, OwnedVec contactForces) {
   const auto& mesh = *contact.mesh;
   const int dimension = mesh.dimension;
   for (int level = contact.interfaces.levels; level > 0; --level) {
@@ -217,6 +217,7 @@ void addTieForces(const contact::Contact& contact, Vec nodalForces, Vec contactF
     check(VecAssemblyEnd(ties));
     check(VecAXPY(contactForces, 1, ties));
   }
+  return contactForces;
 }
 
 }  // namespace squeal::steady

@@ -30,9 +30,9 @@ std::vector<Point> forcesOnPads(const contact::Contact& contact, const Solution&
 Resultant resultantOf(const contact::Contact& contact, int interface, const Solution& solution,
                       const std::vector<Point>& onPads);
 
-/// Collective. Adds the forces of ties and couplings to `contactForces`, N entries: on the slaves,
-/// the forces that balance the nodal forces of the bodies, and on the masters, their opposites. The
-/// slaves of the highest level come first, since no other slave depends on them.
-void addTieForces(const contact::Contact& contact, Vec nodalForces, Vec contactForces);
+/// Collective. Returns `contactForces`, N entries, with the forces of ties and couplings added: on
+/// the slaves, the forces that balance the nodal forces of the bodies, and on the masters, their
+/// opposites. The slaves of the highest level come first, since no other slave depends on them.
+OwnedVec withTieForces(const contact::Contact& contact, Vec nodalForces, OwnedVec contactForces);
 
 }  // namespace squeal::steady

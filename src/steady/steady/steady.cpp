@@ -350,18 +350,17 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
 double Problem::imbalance(const Solution& solution, Vec nodalForces,
                           const std::vector<Point>& onPads) const {
   const int dimension = mesh_.dimension;
-  contact_.moveFromLayers(nodalForces);
-  const OwnedVec atNodes = elasticity::nodalVector(mesh_),
-                 contactForces = elasticity::nodalVector(mesh_);
+  const OwnedVec balanced = contact_.movedFromLayers(nodalForces),
+                 atNodes = elasticity::nodalVector(mesh_);
   {
     const WriteArray values(atNodes);
     for (std::size_t i = 0; i < contact_.interfaces.nodes.size(); ++i)
       for (int d = 0; d < dimension; ++d)
         values[dimension * contact_.interfaces.nodes[i].node + d] = onPads[i][d];
   }
+  OwnedVec contactForces = elasticity::nodalVector(mesh_);
   check(MatMultTranspose(contact_.sliding.jump, atNodes, contactForces));
-  contact_.moveFromLayers(contactForces);
-  addTieForces(contact_, nodalForces, contactForces);
+  contactForces = withTieForces(contact_, balanced, contact_.movedFromLayers(contactForces));
   // [part][contact, supports, load][component], and at the end the sum of all magnitudes, the scale
   // of the terms that cancel: resultants may be zero.
   std::vector<double> sums(mesh_.parts * 9 + 1, 0.0);
@@ -372,7 +371,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
   if (bodies_.springs) check(MatMult(bodies_.springs, solution.displacement, springs));
   if (bodies_.linkStiffness)
     check(MatMultAdd(bodies_.linkStiffness, solution.displacement, springs, springs));
-  const ReadArray forces(nodalForces), loads(load), grounded(springs), contacts(contactForces);
+  const ReadArray forces(balanced), loads(load), grounded(springs), contacts(contactForces);
   for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
     for (int d = 0; d < dimension && !mesh_.isRotation(mesh_.firstNode + node); ++d) {
       const int part = mesh_.nodePart[node];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 /// What a model is made of: a pad on something that moves, and beside or above it, at random, a
 /// back plate, a holder and a second pad.
-#include <algorithm>
 #include <cmath>
 
 #include "fuzz/models/joints.hpp"
 #include "fuzz/models/model.hpp"
+#include "fuzz/models/study.hpp"
 #include "fuzz/random.hpp"
 
 namespace squeal::fuzz {
@@ -34,34 +34,17 @@ class Generator {
     if (disc_ != Disc::obstacle && random_.chance(0.3)) makeSecondPad();
     support();
     press();
-    for (const auto& box : model_.mesh.boxes) makeMaterial(box.name);
-    damp();
-    sweep();
-    chooseMethod();
+    addStudy(random_, model_);
     if (random_.chance(0.35)) makeJoints();
     note(std::to_string(model_.mesh.boxes.size()) + " bodies");
     return model_;
-  }
-
-  /// Not many more than the unknowns of the model.
-  int unknowns() const {
-    int count = 0;
-    for (const auto& box : model_.mesh.boxes) {
-      int nodes = model_.mesh.dimension;
-      for (int a = 0; a < model_.mesh.dimension; ++a)
-        nodes *= orderOf(box.shape) * box.cellsAlong(a) + 1;
-      count += nodes;
-    }
-    return count;
   }
 
  private:
   bool ring() const { return disc_ == Disc::ring; }
   bool plane() const { return model_.mesh.dimension == 2; }
   int up() const { return model_.mesh.up(); }
-  void note(const std::string& feature) {
-    if (!model_.has(feature)) model_.features.push_back(feature);
-  }
+  void note(const std::string& feature) { model_.note(feature); }
   std::size_t addBox(const std::string& name, Shape shape,
                      const std::array<std::vector<double>, 3>& cuts) {
     model_.mesh.boxes.push_back({name, cuts, shape, false});
@@ -355,84 +338,6 @@ class Generator {
     }
   }
 
-  void makeMaterial(const std::string& body) {
-    auto& settings = model_.settings;
-    const std::string key = "material_" + body;
-    settings.set(key + "_density", random_.uniform(2000, 8000));
-    const double young = random_.logarithmic(5e9, 2.1e11);
-    if (!plane() && random_.chance(0.1)) {
-      settings.setList(key + "_engineering_constants",
-                       {young, 0.8 * young, 0.3 * young, 0.2, 0.25, 0.3, 0.35 * young, 0.12 * young,
-                        0.1 * young});
-      settings.setPair(key + "_orientation", {1, 0, 0}, {0, 1, 0});
-      return;
-    }
-    settings.set(key + "_young", young);
-    settings.set(key + "_poisson", random_.uniform(0, 0.4));
-  }
-
-  void damp() {
-    auto& settings = model_.settings;
-    if (random_.chance(0.5))
-      settings.set("flutter_friction_damping", "off");
-    else
-      note("friction damping");
-    if (random_.chance(0.45)) {
-      note("damped");
-      for (const auto& box : model_.mesh.boxes) {
-        const std::string key = "material_" + box.name;
-        const double kind = random_.fraction();
-        if (kind < 0.4)
-          settings.set(key + "_rayleigh_stiffness", random_.logarithmic(1e-9, 3e-7));
-        else if (kind < 0.6)
-          settings.set(key + "_rayleigh_mass", random_.logarithmic(10, 3000));
-        else if (kind < 0.75) {
-          settings.set(key + "_loss_factor", random_.uniform(0.001, 0.05));
-          settings.set(key + "_loss_frequency", 20000.0);
-        }
-      }
-    }
-    if (random_.chance(0.08)) {
-      settings.setList("flutter_modal_damping", {0.001, 0.005, 0.01});
-      model_.modalDamping = true;
-      note("modal damping");
-    }
-    if (random_.chance(0.15)) {
-      settings.set("friction_law", "exponential");
-      settings.set("friction_static_ratio", random_.uniform(1, 1.5));
-      settings.set("friction_decay_speed", random_.uniform(0.5, 5));
-      note("friction law");
-    }
-  }
-
-  void sweep() {
-    auto& settings = model_.settings;
-    const int count = random_.between(2, 5);
-    const double last = random_.uniform(0.2, 0.9);
-    double first = random_.chance(0.7) ? 0 : random_.uniform(0.02, 0.15);
-    for (int i = 0; i < count; ++i)
-      model_.frictions.push_back(std::round(1e4 * (first + (last - first) * i / (count - 1))) /
-                                 1e4);
-    settings.setList("flutter_friction", model_.frictions);
-    if (random_.chance(0.08)) settings.setList("flutter_speed", {1, 3}), note("speeds");
-    if (random_.chance(0.08)) settings.setList("flutter_pressure", {0.5, 2}), note("pressures");
-    if (model_.has("damped") && random_.chance(0.2))
-      settings.setList("flutter_damping", {0, 1}), note("dampings");
-  }
-
-  void chooseMethod() {
-    auto& settings = model_.settings;
-    settings.set("modes_count", random_.between(4, std::clamp(unknowns() / 3, 6, 40)));
-    if (random_.chance(0.25))
-      settings.set("flutter_band", std::round(random_.logarithmic(2e4, 2e5))), note("band");
-    if (random_.chance(0.1)) settings.set("elasticity_prestress", "on"), note("prestress");
-    if (random_.chance(0.15)) settings.set("elasticity_mass", "higher_order");
-    if (random_.chance(0.3)) settings.set("elasticity_incompatible_modes", "none");
-    if (plane() && random_.chance(0.3)) settings.set("elasticity_plane", "stress");
-    if (random_.chance(0.3)) settings.set("flutter_track", "on");
-    settings.set("steady_uniqueness", random_.chance(0.1) ? "on" : "off");
-  }
-
   /// The last draws, so that all other features of a model stay the same.
   void makeJoints() {
     const std::size_t number = plate_.value_or(pad_);
@@ -468,7 +373,7 @@ Model modelOf(std::uint64_t seed) {
   for (int i = 0;; ++i) {
     Generator generator(seed, seed * tries + i);
     Model model = generator.model();
-    if (generator.unknowns() <= mostUnknowns || i + 1 == tries) return model;
+    if (unknownsOf(model.mesh) <= mostUnknowns || i + 1 == tries) return model;
   }
 }
 

@@ -31,7 +31,7 @@ class Joints {
 
  private:
   bool plane() const { return model_.mesh.dimension == 2; }
-  void note(const std::string& feature) { model_.features.push_back(feature); }
+  void note(const std::string& feature) { model_.note(feature); }
 
   void addReference(const std::string& name, const std::string& face, bool isRigid) {
     const std::string key = "coupling_" + name;

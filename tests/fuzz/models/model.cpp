@@ -14,6 +14,10 @@ bool Model::has(const std::string& feature) const {
   return std::find(features.begin(), features.end(), feature) != features.end();
 }
 
+void Model::note(const std::string& feature) {
+  if (!has(feature)) features.push_back(feature);
+}
+
 Written written(const Model& model, const Form& form) {
   Writing writing;
   writing.shuffled = form.shuffled;

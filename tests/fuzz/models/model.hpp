@@ -39,6 +39,8 @@ struct Model {
   bool modalDamping = false;  ///< the direct method does not know it
 
   bool has(const std::string& feature) const;
+  /// Adds a feature, once.
+  void note(const std::string& feature);
 };
 
 /// Another form of a model, which has the same eigenvalues.

@@ -99,6 +99,9 @@ Outcome outcomeOf(const analysis::Analysis& analysis) {
   outcome.stiffest =
       std::sqrt(largestDiagonal(*analysis.model.mesh, analysis.model.bodies.stiffness, false) /
                 largestDiagonal(*analysis.model.mesh, analysis.model.bodies.mass, true));
+  const auto& interfaces = analysis.model.contact.interfaces;
+  for (std::size_t i = 0; i < interfaces.reports.size(); ++i)
+    if (interfaces.options[i].isTied()) outcome.lost += interfaces.reports[i].loss.nodes;
   bool gaps = false, any = false;
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& followed : segment.trackedLines) {
@@ -139,6 +142,7 @@ json toJson(const Outcome& outcome) {
           {"points", points},
           {"steady", steady},
           {"criticals", criticals},
+          {"lost", outcome.lost},
           {"followed", outcome.followed},
           {"failures", outcome.failures}};
 }
@@ -147,6 +151,7 @@ Outcome fromJson(const json& all) {
   Outcome outcome;
   outcome.refusal = all["refusal"];
   outcome.stiffest = number(all["stiffest"]);
+  outcome.lost = all["lost"];
   outcome.followed = all["followed"];
   outcome.failures = all["failures"].get<std::vector<std::string>>();
   for (const auto& point : all["points"]) {

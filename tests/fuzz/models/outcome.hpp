@@ -48,6 +48,7 @@ struct Outcome {
   std::vector<FoundPoint> points;
   std::vector<FoundSteady> steady;
   std::vector<FoundCritical> criticals;
+  PetscInt lost = 0;      ///< nodes that are not tied, because they follow from another tie
   bool followed = false;  ///< eigenvalues are followed, without gaps
 };
 

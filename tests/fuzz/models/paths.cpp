@@ -118,7 +118,11 @@ class Paths {
     for (int i = 0; i < bondForms; ++i)
       if (Bond(i) != own) others.push_back(Bond(i));
     const Bond form = others[random_.below(others.size())];
-    auto found = compared({false, 0, form}, {}, {});
+    const Outcome other = run(model_, {false, 0, form}, {}, folder_);
+    // An edge that another tie shares: the program warns that some of its nodes are not tied here,
+    // and the forms differ in these.
+    if (model_.has("tie apart") && base_.lost + other.lost > 0) return "";
+    const auto found = difference(base_, other, {});
     return found.empty() ? "" : std::string(text(own)) + " against " + text(form) + ": " + found;
   }
 

@@ -59,13 +59,15 @@ def motion(name="PLATE", speed=4.0, a=(0, 0, 0), b=(0, 0, 1)):
     return f"*MOTION, ROTATION, TYPE=VELOCITY\n{name}, {fields}\n"
 
 
-def turn(angle, centre, law="*FRICTION\n0.3, 5000.\n"):
+def turn(angle, centre, law="*FRICTION\n0.3, 5000.\n", finite=False):
     """Returns a deck of CalculiX in which the bottom of the plate is turned about an axis along z
-    by an angle (rad, to first order), and that asks for modes."""
+    by an angle (rad, to first order or as a whole), and that asks for modes."""
     _, _, at = box(PLATE, (0, 0, 0), 1, 1)
     lines = ["*STEP", "*STATIC", "*DSLOAD", "BACK, P, 2.", "*BOUNDARY"]
+    inwards, along = (np.cos(angle) - 1, np.sin(angle)) if finite else (0.0, angle)
     for i, j in np.ndindex(PLATE[0] + 1, PLATE[1] + 1):
         x, y = i - centre[0], j - centre[1]
-        lines += [f"{at[i, j, 0]}, 1, 1, {-angle * y!r}", f"{at[i, j, 0]}, 2, 2, {angle * x!r}"]
+        lines.append(f"{at[i, j, 0]}, 1, 1, {inwards * x - along * y!r}")
+        lines.append(f"{at[i, j, 0]}, 2, 2, {along * x + inwards * y!r}")
     lines += ["*END STEP", "*STEP, PERTURBATION", "*FREQUENCY", "12", "*END STEP"]
     return deck(law, "\n".join(lines) + "\n")

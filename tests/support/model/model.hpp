@@ -66,12 +66,23 @@ inline std::string messageOfMesh(const std::string& file, const std::string& opt
 
 /// Collective. From the options in force.
 inline elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
-  return elasticity::assemble(mesh, material::Settings::given(), elasticity::Settings::given());
+  return elasticity::assemble(mesh, material::Settings::given(),
+                              constraints::Settings::given().couplings,
+                              elasticity::Settings::given());
 }
 
 /// Collective. From the options in force.
 inline interfaces::Interfaces findTies(mesh::Mesh& mesh) {
   return ties::findTies(mesh, interfaces::Settings::given(), constraints::Settings::given());
+}
+
+/// Collective. With supports that suffice; from the options in force.
+inline contact::Assembled assembleContact(const mesh::Mesh& mesh, elasticity::Bodies bodies,
+                                          interfaces::Interfaces ties) {
+  auto assembled =
+      contact::assemble(mesh, std::move(bodies), std::move(ties), contact::Settings::given());
+  contact::requireSupports(mesh, assembled.bodies, assembled.contact);
+  return assembled;
 }
 
 /// The stages before the first solution. Contact borrows the mesh, which therefore keeps its
@@ -87,9 +98,9 @@ inline Model buildModel() {
   Model model;
   model.mesh = std::make_unique<mesh::Mesh>(readMesh());
   auto ties = findTies(*model.mesh);
-  model.bodies = assembleBodies(*model.mesh);
-  model.contact =
-      contact::build(*model.mesh, model.bodies, std::move(ties), contact::Settings::given());
+  auto assembled = assembleContact(*model.mesh, assembleBodies(*model.mesh), std::move(ties));
+  model.bodies = std::move(assembled.bodies);
+  model.contact = std::move(assembled.contact);
   return model;
 }
 

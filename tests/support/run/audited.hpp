@@ -12,7 +12,8 @@ namespace squeal::test {
 /// Collective. Audits the model of the options in force.
 inline audit::Audit auditInForce() {
   const Model model = buildModel();
-  return audit::auditOf({*model.mesh, model.bodies, model.contact, material::Settings::given()});
+  return audit::auditOf({*model.mesh, model.bodies, model.contact, material::Settings::given(),
+                         constraints::Settings::given().couplings});
 }
 
 /// Collective. Audits the model of only these options.

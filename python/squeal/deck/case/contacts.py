@@ -27,7 +27,7 @@ def add_contacts(model, case, journal, faces):
             if source is not None and key not in used:
                 journal.mark(source, UNUSED, "no contact pair has this interaction")
     bodies = Bodies(model, case)
-    moving = moving_bodies(model, bodies, case, journal)
+    moving = moving_bodies(model, bodies, case, journal, faces)
     taken, sides = {}, []
     for contact in model.contacts:
         try:

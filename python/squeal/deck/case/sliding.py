@@ -12,7 +12,8 @@ from squeal.deck.case.groups import CELLS, clean
 from squeal.deck.journal import TRANSLATED, Fault
 from squeal.deck.model import EMPTY, Motion
 
-PRECISION = 0.02  # of a turn that is taken as a rigid motion: finite turns are not linear
+PRECISION = 0.02  # of a small turn that is taken as a rigid motion: finite turns are not linear
+EXACT = 1e-4  # of a finite turn, whose displacements are written with few digits
 
 
 @dataclass
@@ -97,13 +98,14 @@ def rigid_nodes(rigid, model):
     return np.unique(np.concatenate([EMPTY, *parts]))
 
 
-def moving_bodies(model, bodies, case, journal):
+def moving_bodies(model, bodies, case, journal, faces):
     """Returns number of body -> Moving, and sets the options of the motions. Removes prescribed
-    displacements that stand for a motion from the supports of the model."""
+    displacements that stand for a motion from the supports of the model. `faces`: the object that
+    looks faces of elements up."""
     rubbing = _rubbing(model, bodies)
     moving = _given(model, bodies, journal) if model.motions else {}
     if not model.motions and model.squeal:
-        moving = _turned(model, bodies, rubbing, journal)
+        moving = _turned(model, bodies, rubbing, journal, faces)
     for at, one in moving.items():
         _set_motion(case, bodies.names[at], one, model, journal)
     return moving
@@ -181,8 +183,9 @@ def _add_given(motion, bodies, contact_nodes, moving, journal):
         moving[at] = Moving(motion, motion.known)
 
 
-def _turned(model, bodies, rubbing, journal):
-    """Fits the motion of a rigid body to prescribed displacements of each part that rubs."""
+def _turned(model, bodies, rubbing, journal, faces):
+    """Fits the motion of a rigid body to prescribed displacements of each part that rubs. A part
+    that they press onto its contacts does not move."""
     moving = {}
     joined = bodies.joined()
     for at in sorted(rubbing):
@@ -203,6 +206,8 @@ def _turned(model, bodies, rubbing, journal):
         except Fault as fault:
             journal.refuse_fault(source, fault)
             continue
+        if not _slides(motion, model, group, bodies, faces):
+            continue
         moved = [place for place, value in places if value.value]
         for place in moved:
             held = model.state.supports[place]
@@ -214,6 +219,25 @@ def _turned(model, bodies, rubbing, journal):
         )
         moving.update({one: Moving(motion, False) for one in group})
     return moving
+
+
+def _slides(motion, model, group, bodies, faces):
+    """Returns whether a motion is along the contact faces of a part rather than across them."""
+    along = across = 0.0
+    for contact in model.contacts:
+        for key in (contact.slave, contact.master):
+            surface = model.surfaces[key]
+            if surface.nodes is not None or not bodies.of_elements(surface.elements) & group:
+                continue
+            for _, table in faces.tables(np.column_stack([surface.elements, surface.faces])):
+                corners = [model.nodes.at(table[:, at]) for at in range(3)]
+                normals = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+                velocities = np.broadcast_to(motion.amount, normals.shape)
+                if motion.axis is not None:
+                    velocities = np.cross(motion.axis, sum(corners) / 3 - motion.origin)
+                across += np.abs(np.einsum("fi,fi->f", velocities, normals)).sum()
+                along += np.linalg.norm(np.cross(velocities, normals), axis=1).sum()
+    return along > across
 
 
 def _held(model, nodes, group, bodies):
@@ -233,7 +257,44 @@ def _held(model, nodes, group, bodies):
 
 def _fit(model, places, source):
     """Returns the rigid motion whose displacements at these places are closest to the prescribed
-    ones. Raises Fault if they are not those of a rigid motion."""
+    ones: a finite turn where they are known as whole vectors, otherwise a small one. Raises Fault
+    if they are not those of a rigid motion."""
+    finite = _finite_turn(model, places, source)
+    return finite or _small_motion(model, places, source)
+
+
+def _finite_turn(model, places, source):
+    """Returns the turn that takes each node to its prescribed place, to round-off, or None.
+
+    Source of the method: Kabsch, Acta Cryst. A32 (1976) 922."""
+    known = {}
+    for (number, component), value in places:
+        if component < 3 and number not in model.frames and model.nodes.has([number])[0]:
+            known.setdefault(number, {})[component] = value.value
+    whole = {number: parts for number, parts in known.items() if len(parts) == 3}
+    if len(whole) < 3 or sum(map(len, known.values())) < len(places):
+        return None
+    before = model.nodes.at(list(whole))
+    moves = np.array([[parts[at] for at in range(3)] for parts in whole.values()])
+    centre, shift = before.mean(axis=0), moves.mean(axis=0)
+    arms = before - centre
+    left, _, right = np.linalg.svd(arms.T @ (arms + moves - shift))
+    sense = np.sign(np.linalg.det(left) * np.linalg.det(right))
+    turn = right.T @ np.diag([1.0, 1.0, sense]) @ left.T
+    error = np.abs(arms @ turn.T - arms - moves + shift).max()
+    twice = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    if error > EXACT * np.abs(moves).max() or np.linalg.norm(twice) < 1e-9:
+        return None
+    axis = twice / np.linalg.norm(twice)
+    if abs(np.dot(shift, axis)) > PRECISION * np.abs(moves).max():
+        return None
+    # The axis goes through the points that stay: (turn - 1) (x - centre) = -shift.
+    origin = centre - np.linalg.lstsq(turn - np.eye(3), shift, rcond=1e-9)[0]
+    size = np.abs(before).max()
+    return Motion(EMPTY, 1.0, source, _rounded(axis, 1.0), _rounded(origin, size))
+
+
+def _small_motion(model, places, source):
     rotations = {one.rotation: one.reference for one in model.rigid if one.rotation is not None}
     rows, values = [], []
     for (number, component), value in places:
@@ -242,9 +303,8 @@ def _fit(model, places, source):
         frame = model.frames.get(number)
         axes = np.eye(3) if frame is None else frame.axes_at(point)
         direction = axes[component % 3]
-        rows.append(
-            [*np.zeros(3), *direction] if turns else [*direction, *np.cross(point, direction)]
-        )
+        arm = np.cross(point, direction)
+        rows.append([*np.zeros(3), *direction] if turns else [*direction, *arm])
         values.append(value.value)
     rows, values = np.array(rows), np.array(values)
     size = max(np.abs(rows[:, 3:]).max(), 1e-300)

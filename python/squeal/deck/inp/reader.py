@@ -13,7 +13,7 @@ from squeal.deck.inp.handlers import TABLE, settle
 from squeal.deck.inp.lines import read_lines
 from squeal.deck.inp.names import Names
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
-from squeal.deck.model import Instance, Model
+from squeal.deck.model import Instance, Model, Squeal
 from squeal.deck.numbers import integer, real
 
 REASONS = {
@@ -51,6 +51,7 @@ class Step:
     after_static: bool = False
     only_friction: bool = False
     perturbation: bool = False
+    request: Squeal = None
     renewed: set = field(default_factory=set)
     loaded: set = field(default_factory=set)
 
@@ -159,6 +160,7 @@ class Reader(Names):
                 self.journal.refuse(card.source, "supports that change after the static step")
             else:
                 self._apply(card)
+        squeal.add_request(self)
         self.step = Step()
 
     def _open_step(self, card, procedure):
@@ -238,7 +240,7 @@ class Reader(Names):
                 else f"{card.source}: frequencies without the effect of the static step"
             )
         if prestress and not abaqus:
-            squeal.add_request(card.source, self, False, count, None)
+            self.step.request = Squeal(card.source, {}, False, count)
         self.journal.mark(card.source, TRANSLATED)
 
     def _static(self, card):

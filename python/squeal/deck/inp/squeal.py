@@ -89,7 +89,7 @@ def request(card, reader):
     if len(rows) > 1:
         raise Fault("this card has one line of data", line=rows[1][0])
     count, top = _limits(rows, reader, card)
-    add_request(card.source, reader, damping == "YES", count, top)
+    reader.step.request = Squeal(card.source, {}, damping == "YES", count, top)
     reader.journal.mark(card.source, TRANSLATED)
 
 
@@ -110,9 +110,13 @@ def _limits(rows, reader, card):
     return count, top
 
 
-def add_request(source, reader, friction_damping, count, top):
-    """Adds a request for complex modes with the laws of friction that hold now."""
-    laws = {
-        key: one.frictions[-1] for key, one in reader.model.interactions.items() if one.frictions
-    }
-    reader.model.squeal.append(Squeal(source, laws, friction_damping, count, top))
+def add_request(reader):
+    """Adds the request for complex modes of a step that has been read, with the laws of friction
+    that hold at its end."""
+    request = reader.step.request
+    if request is None:
+        return
+    for key, one in reader.model.interactions.items():
+        if one.frictions:
+            request.friction[key] = one.frictions[-1]
+    reader.model.squeal.append(request)

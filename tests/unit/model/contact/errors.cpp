@@ -52,6 +52,15 @@ TEST(Loose, BodyIsNamed) {
   EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "can move rigidly"));
 }
 
+// A tie of the two surfaces leaves no node to their contact.
+TEST(Interfaces, AreNotBondedAsAWhole) {
+  test::setCase("two_layers", layers + " -tie_glue_slave pad_face -tie_glue_master disc_face");
+  const auto message = errorOf([] { test::buildModel(); });
+  for (const char* words : {"interface 'interface': all ", " nodes of 'pad_face' are bonded",
+                            "by tie 'glue'; remove one of the two"})
+    EXPECT_TRUE(contains(message, words)) << message;
+}
+
 // Meshes need not match, but one side must lie before the other.
 TEST(Interfaces, MustFaceEachOther) {
   test::setCase("two_layers", layers + " -contact_interface_pad pad_top");

@@ -53,8 +53,8 @@ int checkedModes(const std::string& set, const Supports& supports) {
   auto ties = test::findTies(mesh);
   auto bodies = test::assembleBodies(mesh);
   const int count = nullMotions(mesh, bodies, supports);
-  const auto message = test::errorOf(
-      [&] { contact::build(mesh, bodies, std::move(ties), contact::Settings::given()); });
+  const auto message =
+      test::errorOf([&] { test::assembleContact(mesh, std::move(bodies), std::move(ties)); });
   if (count == 0)
     EXPECT_EQ(message, "");
   else
@@ -120,13 +120,9 @@ TEST(Hourglass, OpenContactDoesNotHoldThem) {
     test::setOptions(row("nx=3,ny=1,nz=1", supports));
     const auto without = test::errorOf([] { test::buildModel(); });
     test::setOptions(row("nx=3,ny=1,nz=1", supports + plate));
-    auto mesh = test::readMesh();
-    auto ties = test::findTies(mesh);
-    auto bodies = test::assembleBodies(mesh);
-    const auto contact =
-        contact::build(mesh, bodies, std::move(ties), contact::Settings::given());  // closed: none
+    const auto [mesh, bodies, contact] = test::buildModel();  // closed: none
     const contact::Mask open(contact.interfaces.nodes.size(), 0);
-    const auto found = contact::hourglassModes(mesh, contact, bodies, {.closed = open});
+    const auto found = contact::hourglassModes(*mesh, contact, bodies, {.closed = open});
     EXPECT_EQ(countIn(found), countIn(without));
     freed += !found.empty();
     EXPECT_EQ(test::contains(found, "open and sliding nodes"), !found.empty());

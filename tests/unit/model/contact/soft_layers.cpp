@@ -123,5 +123,21 @@ TEST(SoftLayers, RejectContradictions) {
   EXPECT_TRUE(contains(message("-contact_other_stiffness 1"), "-contact_other_pad"));
 }
 
+// A held node cannot stick to the other side. Both remedies of the message work.
+TEST(SoftLayers, LetSupportsHoldNodesThatStick) {
+  const std::string held = "-contact_interface_role sticking -constraint_pad_face_clamped x ",
+                    found = message(held);
+  for (const char* words :
+       {"option -constraint_pad_face_clamped holds component x of a node of interface 'interface' "
+        "at (",
+        "), which sticks to the other side; let the other side bear the gaps by "
+        "-contact_interface_slave disc, or give a soft layer, -contact_interface_stiffness"})
+    EXPECT_TRUE(contains(found, words)) << found;
+  EXPECT_EQ(message(held + "-contact_interface_slave disc"), "");
+  EXPECT_EQ(message(held + "-contact_interface_stiffness 1 -contact_interface_stiffness_tangential "
+                           "1"),
+            "");
+}
+
 }  // namespace
 }  // namespace squeal

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "model/elasticity/attached_parts.hpp"
 #include "support/harness/messages.hpp"
 #include "support/model/model.hpp"
 
@@ -127,21 +128,24 @@ TEST(CarriedMasses, UnsteadyOnesAreNamed) {
             "option -mass_outer_total: the mass moves with body 'ring', and");
 }
 
-// A reference node that a second coupling connects with a body at rest.
+// A reference node that a second coupling connects with a body at rest. One warning, also if the
+// contributions of each mass are derived.
 TEST(CarriedMasses, MixedMotionsAreReported) {
   const std::string warning = test::warningsOf([] {
-    test::buildBodies(
+    const auto built = test::buildBodies(
         "-mesh_file meshes/steel_brake.geo " + test::material("disc", "1e11", "0.3", "7000") +
         test::material("upper", "1e9", "0.3", "2500") +
         test::material("lower", "1e9", "0.3", "2500") +
         "-motion_disc_speed 5 -reference_hub_position 0.1,0,0 -coupling_hub_reference hub "
         "-coupling_hub_nodes bore,upper_back -mass_hub_total 2 ");
+    EXPECT_EQ(elasticity::attachedParts(built.mesh, built.bodies).size(), 1u);
   });
   EXPECT_TRUE(test::contains(warning,
                              "option -mass_hub_total: the mass belongs to bodies that move "
                              "differently ('disc', 'upper'), so it has no centrifugal forces and "
                              "no gyroscopic terms"))
       << warning;
+  EXPECT_EQ(warning.find("-mass_hub_total"), warning.rfind("-mass_hub_total")) << warning;
 }
 
 }  // namespace

@@ -154,6 +154,33 @@ TEST(Rotation, AxisFarFromTheBody) {
             "");
 }
 
+// Ring and hat of the disc turn at 10 rpm about the z axis. Their moments of inertia about it are
+// the sum of ρ π h (R⁴ − r⁴) / 2 over three hollow cylinders; facets make them smaller by 1 %.
+TEST(Rotation, OfABodyThatACouplingHolds) {
+  const double pi = std::acos(-1.0), speed = 10 * 2 * pi / 60;
+  const auto cylinder = [&](double inner, double outer, double height) {
+    return 7200 * pi * height * (std::pow(outer, 4) - std::pow(inner, 4)) / 2;
+  };
+  const double axial =
+      cylinder(0.08, 0.144, 0.015) + cylinder(0.07, 0.08, 0.045) + cylinder(0.034, 0.07, 0.01);
+  const auto stiffness = [&](const std::string& options) {
+    test::setCase("disc_brake_rotating",
+                  "-mesh_set n_pad_theta=4,n_free_theta=8,n_pad_r=2,n_mount=1 "
+                  "-reference_hub_centre_of mounting -coupling_hub_reference hub "
+                  "-coupling_hub_nodes mounting -bushing_hub_from hub "
+                  "-bushing_hub_stiffness 1e8,1e8,1e8,1e5,1e5,1e5 " +
+                      options);
+    removeOption("constraint_mounting_clamped");
+    const std::string lines = test::linesOf(test::auditInForce()), words = "like a spring of ";
+    const auto at = lines.find(words);
+    return at == std::string::npos ? 0 : std::stod(lines.substr(at + words.size()));
+  };
+  const double expected = -speed * speed * axial / 2;
+  EXPECT_NEAR(stiffness(""), expected, 0.03 * std::abs(expected));
+  EXPECT_EQ(stiffness("-motion_convective off"), 0);
+  EXPECT_EQ(stiffness("-elasticity_prestress on -coupling_hub_kind distributed"), 0);
+}
+
 TEST(NearFaces, BodiesThatTouchWithoutAnInterface) {
   for (const int cells : {2, 3}) {  // node on node, or not
     const auto options = blocks("audit_touch.msh", 0, cells);

@@ -371,8 +371,8 @@ TEST(Uniqueness, DoesNotDependOnTheRanks) {
   const auto together = examined(test::buildModel(), {0.3, 1.2});
   mesh::Mesh mesh = test::readMesh(PETSC_COMM_SELF);
   auto ties = test::findTies(mesh);
-  auto bodies = test::assembleBodies(mesh);
-  const auto contact = contact::build(mesh, bodies, std::move(ties), contact::Settings::given());
+  const auto [bodies, contact] =
+      test::assembleContact(mesh, test::assembleBodies(mesh), std::move(ties));
   const auto single =
       uniqueness::examine(bodies, contact, 1, {0.3, 1.2}, uniqueness::Settings::given());
   EXPECT_NEAR(together.lostAt / single.lostAt, 1, 1e-9);
