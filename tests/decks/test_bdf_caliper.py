@@ -15,8 +15,8 @@ import numpy as np
 import pandas as pd
 import yaml
 from bdf_caliper import Caliper
+from caliper import Mesh, mesh_geometry
 from small_decks import read_mesh
-from tetrahedra import mesh_of
 
 from squeal.deck.importer import import_deck
 
@@ -35,7 +35,8 @@ class FloatingCaliper(unittest.TestCase):
         cls.folder = Path(temporary.name)
         geometry = repository / "meshes/floating_caliper.geo"
         cls.options = yaml.safe_load(OPTIONS.read_text())
-        cls.mesh = mesh_of(geometry, cls.folder / "mesh.msh", COARSE)
+        mesh_geometry(geometry, cls.folder / "mesh.msh", **COARSE)
+        cls.mesh = Mesh(cls.folder / "mesh.msh")
         (cls.folder / "brake.bdf").write_text(Caliper(cls.options, cls.mesh).deck(0.6))
         cls.journal = import_deck(cls.folder / "brake.bdf", cls.folder / "case", speed=5.0)
         cls.case = yaml.safe_load((cls.folder / "case/case.yaml").read_text())

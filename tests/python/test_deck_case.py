@@ -451,7 +451,7 @@ class Manual(unittest.TestCase):
         """docs/decks.md shows the case of its deck, and the error of one that is changed."""
         page = (repository / "docs/decks.md").read_text()
         blocks = re.findall(r"^```\w*\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
-        deck, case, choices, error = blocks
+        deck, case, choices, error = blocks[:4]
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "bracket.inp"
             path.write_text(deck)
@@ -465,6 +465,15 @@ class Manual(unittest.TestCase):
         # The page has the command's name and no path.
         shown = str(raised.exception).replace(f"{folder}/", "squeal-import: ", 1)
         self.assertEqual(shown + "\n", error)
+
+    def test_the_assembly_of_the_page(self):
+        page = (repository / "docs/decks.md").read_text()
+        blocks = re.findall(r"^```\w*\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "frame.inp"
+            path.write_text(blocks[4])
+            import_deck(path, Path(folder) / "frame")
+            self.assertIn(blocks[5], (Path(folder) / "frame/case.yaml").read_text())
 
 
 if __name__ == "__main__":

@@ -42,6 +42,22 @@ class Lines(unittest.TestCase):
         self.assertEqual(one.options["load"]["TOP"]["force"], "0.0,0.0,8.0")
         self.assertEqual(list(one.nodes), list(range(1, 9)))
 
+    def test_lines_of_data_in_another_file(self):
+        head, rows = cube(step=FORCE).split("*NODE, NSET=ALL\n")
+        nodes, rest = rows.split("*ELEMENT", 1)
+        one = Imported(
+            head + "*NODE, NSET=ALL, INPUT=nodes.inp\n*ELEMENT" + rest, {"nodes.inp": nodes}
+        )
+        self.assertEqual(list(one.nodes), list(range(1, 9)))
+        self.assertEqual(one.remarks("NODE")[0], "used")
+        rows = refused(head + "*Node, Input = none.inp\n*ELEMENT" + rest)
+        self.assertRegex(rows[0], r"^deck.inp:1: \*NODE: there is no file .*none.inp")
+
+    def test_faults_in_data_of_another_file_name_that_file(self):
+        text = cube().replace("5, 0., 0., 1.\n", "*INCLUDE, INPUT=part.inp\n")
+        (row, *_) = refused(text, {"part.inp": "** a comment\n5, 0., x, 1.\n"})
+        self.assertEqual(row, "part.inp:2: *NODE: 'x' is not a number")
+
     def test_included_files_that_are_missing_or_endless(self):
         (row,) = refused(cube() + "*INCLUDE, INPUT=sub/none.inp\n")
         self.assertRegex(row, r"^deck.inp:\d+: \*INCLUDE: there is no file .*sub/none.inp")
@@ -240,6 +256,12 @@ class Sets(unittest.TestCase):
         self.assertEqual(one.groups["CUBE_nodes"], [5, 6, 7, 8])
         self.assertEqual(one.options["load"]["CUBE_nodes"]["force"], "4.0,0.0,0.0")
         self.assertEqual(list(one.options["material"]), ["CUBE"])
+
+    def test_names_that_python_reads_as_numbers(self):
+        members, _ = self.members("*NSET, NSET=1_2\n7\n*NSET, NSET=S\n1_2, 5\n", "S")
+        self.assertEqual(members, [7, 5])
+        self.assertIn("'1_0' is not", refused(cube().replace("\n7, 1.", "\n1_0, 1."))[0])
+        self.assertIn("'0_5' is not", refused(cube().replace("\n7, 1.", "\n7, 0_5"))[0])
 
     def test_sets_that_are_wrong(self):
         for text, reason in (

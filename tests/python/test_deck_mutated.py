@@ -6,6 +6,7 @@ With SQUEAL_LONG in the environment, 20,000 decks in place of 600.
 """
 import os
 import random
+import re
 import sys
 import tempfile
 import time
@@ -15,6 +16,9 @@ from pathlib import Path
 repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
+import assembled
+import brake_of_cae
+import many_cards
 from small_decks import cube, read_mesh
 
 from squeal.deck.importer import import_deck
@@ -24,6 +28,7 @@ COUNT = 20000 if os.environ.get("SQUEAL_LONG") else 600
 WORDS = (
     *("", "0", "-1", "1e400", "nan", "99999999999999999999", "1.5", "*", "**", '"', "=", ",,"),
     *("GENERATE", "*NSET, NSET=A", "*STEP", "*END STEP", "NLGEOM", "\t", "\0", "é", "1,,", "-"),
+    *("I.1", "J.99", "*END PART", "*SYSTEM", "C3D20R", "SPRING1", "BEAM", "ENCASTRE", "1., 1., 1."),
     *("1-3", "S7", "P9", "GRAV", "TYPE=", "*INCLUDE, INPUT=x", "CUBE", "TOP", "*ELEMENT", "*NODE"),
 )
 JOINTS = """*NODE
@@ -58,8 +63,19 @@ FREQUENCY = "*STEP, PERTURBATION\n*FREQUENCY\n4\n*END STEP\n"
 SEED = cube(JOINTS, LOADS, FREQUENCY)
 
 
-def damaged(rng):
-    lines = SEED.split("\n")
+def one_file():
+    """Returns the deck of an assembly with its included files in place of their cards."""
+    text, files = assembled.assembly()
+    for name, content in files.items():
+        text = re.sub(rf"(?i)\*include, input={name}\n", lambda _: content, text)
+    return text
+
+
+SEEDS = (SEED, SEED, SEED, one_file(), brake_of_cae.TEXT)
+
+
+def damaged(rng, seeds):
+    lines = rng.choice(seeds).split("\n")
     for _ in range(rng.choice([1, 1, 2, 3, 6])):
         at = rng.randrange(len(lines))
         kind = rng.randrange(6)
@@ -95,6 +111,11 @@ def blocks(text):
     yield card, fields
 
 
+def name_of(card, parameter):
+    words = [word for word in card.replace('"', "").split(",") if word.startswith(parameter)]
+    return words[0][len(parameter) :] if words else ""
+
+
 class Damaged(unittest.TestCase):
     def test_no_deck_is_lost_without_a_word(self):
         rng = random.Random(20)
@@ -102,7 +123,7 @@ class Damaged(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             deck, case = Path(folder) / "deck.inp", Path(folder) / "case"
             for number in range(COUNT):
-                text = damaged(rng)
+                text = damaged(rng, SEEDS)
                 deck.write_text(text, encoding="utf-8")
                 started = time.monotonic()
                 with self.subTest(number=number, text=text):
@@ -117,13 +138,37 @@ class Damaged(unittest.TestCase):
         # Enough of them must get as far as the mesh for the test to mean something.
         self.assertGreater(translated, COUNT // 20)
 
+    def test_decks_with_many_cards(self):
+        """Each ends with a case or in words."""
+        rng = random.Random(21)
+        with tempfile.TemporaryDirectory() as folder:
+            deck, case = Path(folder) / "deck.inp", Path(folder) / "case"
+            deck.write_text(many_cards.TEXT)
+            import_deck(deck, case)
+            for number in range(COUNT // 4):
+                text = damaged(rng, [many_cards.TEXT])
+                deck.write_text(text, encoding="utf-8")
+                with self.subTest(number=number, text=text):
+                    try:
+                        import_deck(deck, case)
+                    except DeckError as error:
+                        self.assertGreater(len(str(error)), 20)
+
     def complete(self, text, journal, case):
         """Compares the mesh with a count of the fields of the deck."""
         cells = cards = 0
+        parts, part = {}, None
         for card, fields in blocks(text):
             cards += bool(card)
-            if card.startswith("*ELEMENT,") and "TYPE=C3D8" in card:
-                cells += len(fields) // 9
+            if card.startswith("*PART,"):
+                part = name_of(card, "NAME=")
+            elif card.startswith("*ENDPART"):
+                part = None
+            elif card.startswith("*ELEMENT,") and "TYPE=C3D8" in card:
+                parts[part] = parts.get(part, 0) + len(fields) // 9
+            elif card.startswith("*INSTANCE,"):
+                cells += parts.get(name_of(card, "PART="), 0)
+        cells += parts.get(None, 0)
         groups, nodes, _ = read_mesh(case / "mesh.msh")
         bodies = [
             rows for rows in groups.values() if isinstance(rows[0], tuple) and len(rows[0]) == 8

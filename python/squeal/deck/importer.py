@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Translates a deck, or matrices of other programs, into the folder of a case."""
 import argparse
+import os
+import time
 from pathlib import Path
 
 from squeal.deck.bdf import reader as bdf
@@ -27,14 +29,19 @@ def _read(deck, dialect, subcase, journal):
     return read_model(deck, DIALECTS.get(dialect), journal)
 
 
-def import_deck(deck, folder, dialect=None, ignored=(), speed=None, subcase=None):
+def import_deck(deck, folder, dialect=None, ignored=(), speed=None, **more):
     """Writes the case of a deck into a folder, and returns its journal. `dialect` None: the one
-    that is detected. `speed`: that of a motion of which the deck has only the direction. If the
-    deck is refused, writes only import.md and raises DeckError."""
+    that is detected. `speed`: that of a motion of which the deck has only the direction.
+    `more`: `progress` is called with a text before each stage; `subcase` is that of a deck of
+    Nastran. If the deck is refused, writes only import.md and raises DeckError."""
     folder = Path(folder)
     journal = Journal(ignored)
-    model = _read(deck, dialect, subcase, journal)
+    progress = more.get("progress", lambda text: None)
+    progress(f"{deck}: reading")
+    model = _read(deck, dialect, more.get("subcase"), journal)
     model.speed = speed
+    cells = sum(len(block.numbers) for block in model.blocks)
+    progress(f"{deck}: translating {len(model.nodes.numbers)} nodes and {cells} elements")
     case = translate(model, journal)
     prepare(folder)
     try:
@@ -43,12 +50,27 @@ def import_deck(deck, folder, dialect=None, ignored=(), speed=None, subcase=None
         journal.require_translatable(str(deck))
         for name in journal.unmet():
             raise DeckError(f"--ignore {name}: {deck} has nothing of this name that is refused")
+        progress(f"{folder}: writing")
         write_mesh(folder / PARTIAL, model, case, Faces(model))
         write_options(folder / "case.yaml", case, model, ignored)
         (folder / PARTIAL).rename(folder / "mesh.msh")
     except OSError as error:
         raise DeckError(f"{error.filename or folder}: {error.strerror}") from None
     return journal
+
+
+class Progress:
+    """Lines for a person who waits for a large deck, with the seconds since the start."""
+
+    SMALL = 10e6  # bytes of a deck that is read at once
+
+    def __init__(self, deck):
+        self.started = time.monotonic()
+        self.large = os.path.isfile(deck) and os.path.getsize(deck) > self.SMALL
+
+    def show(self, text):
+        if self.large:
+            print(f"{time.monotonic() - self.started:6.1f} s  {text}", flush=True)
 
 
 def main(words):
@@ -82,8 +104,8 @@ def main(words):
     if given.speed is not None and not 0 < given.speed < float("inf"):
         raise DeckError(f"--speed {given.speed:g}: the speed of a motion is positive")
     folder = Path(given.output or Path(given.deck).stem)
-    words = (given.dialect, given.ignore, given.speed, given.subcase)
-    journal = import_deck(given.deck, folder, *words)
+    more = {"progress": Progress(given.deck).show, "subcase": given.subcase}
+    journal = import_deck(given.deck, folder, given.dialect, given.ignore, given.speed, **more)
     print(f"{folder / 'case.yaml'}: the case; {folder / 'import.md'}: the account of the deck")
     print(f"  cards: {journal.counted()}")
     for choice in journal.choices:

@@ -25,6 +25,15 @@ class Fault(Exception):
         self.reason, self.name, self.line = reason, name, line
 
 
+class LineOfFile(int):
+    """The number of a line of data in another file than the keyword line of its card."""
+
+    def __new__(cls, number, file):
+        one = super().__new__(cls, number)
+        one.file = file
+        return one
+
+
 class Missing(Fault):
     """Something that the deck refers to and that was not translated."""
 
@@ -44,6 +53,11 @@ class Source:
     @property
     def word(self):
         return f"{self.star}{self.card}"
+
+
+def place_of(source, line):
+    """Returns file and number of a line of data of a card."""
+    return f"{getattr(line, 'file', source.file)}:{line}"
 
 
 @dataclass
@@ -66,7 +80,7 @@ class Refusal:
         subject = self.source.word
         if self.name != self.source.card:
             subject += f", {self.name}"
-        return f"{self.source.file}:{self.line}: {subject}: {self.reason}"
+        return f"{place_of(self.source, self.line)}: {subject}: {self.reason}"
 
 
 class Journal:

@@ -8,138 +8,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from squeal.deck.journal import Fault, Source
-
-EMPTY = np.zeros(0, dtype=np.int64)
-
-
-class Nodes:
-    """Numbers and coordinates; a number that is given again replaces the earlier coordinates."""
-
-    def __init__(self):
-        self._parts = []
-        self._sorted = None
-
-    def add(self, numbers, coordinates):
-        self._parts.append((np.asarray(numbers, np.int64), np.asarray(coordinates, float)))
-        self._sorted = None
-
-    def add_all(self, other, placed):
-        """Adds the nodes of another object, at the places that a function gives."""
-        for numbers, coordinates in other._parts:
-            self.add(numbers, placed(coordinates))
-
-    @property
-    def largest(self):
-        """The largest number, 0 without nodes."""
-        return max((int(numbers.max()) for numbers, _ in self._parts if len(numbers)), default=0)
-
-    def _table(self):
-        if self._sorted is None:
-            numbers = np.concatenate([EMPTY, *(part[0] for part in self._parts)])
-            places = np.concatenate([np.zeros((0, 3)), *(part[1] for part in self._parts)])
-            # The last one of equal numbers counts.
-            unique, first = np.unique(numbers[::-1], return_index=True)
-            self._sorted = unique, places[::-1][first], len(numbers) - len(unique)
-        return self._sorted
-
-    @property
-    def numbers(self):
-        return self._table()[0]
-
-    @property
-    def coordinates(self):
-        return self._table()[1]
-
-    @property
-    def repeated(self):
-        """The number of coordinates that were replaced."""
-        return self._table()[2]
-
-    def has(self, numbers):
-        """Returns for each number whether there is a node."""
-        known = self.numbers
-        if not len(known):
-            return np.zeros(np.shape(numbers), bool)
-        at = np.minimum(np.searchsorted(known, numbers), len(known) - 1)
-        return known[at] == numbers
-
-    def at(self, numbers):
-        """Returns the coordinates of nodes, one row each. Raises Fault for an unknown one."""
-        numbers = np.asarray(numbers, np.int64)
-        there = self.has(numbers)
-        if not np.all(there):
-            raise Fault(f"there is no node {np.atleast_1d(numbers)[~np.atleast_1d(there)][0]}")
-        return self.coordinates[np.searchsorted(self.numbers, numbers)]
-
-    def move(self, number, place):
-        self.coordinates[np.searchsorted(self.numbers, number)] = place
-
-
-@dataclass
-class Block:
-    """Elements of one kind: `kind` is the deck's word (C3D20R); `nodes` in Abaqus' order; `shape`
-    is that of solid cells, otherwise None."""
-
-    kind: str
-    shape: object
-    numbers: np.ndarray
-    nodes: np.ndarray
-    source: Source
-
-
-class Sets:
-    """Named sets of numbers, which may contain each other; `what` they are, for messages."""
-
-    def __init__(self, what):
-        self.what = what
-        self.spelled = {}
-        self.sources = {}
-        self._parts = {}
-        self._members = {}
-
-    def __contains__(self, key):
-        return key in self._parts
-
-    def __iter__(self):
-        return iter(self._parts)
-
-    def add(self, key, spelled, source, parts=()):
-        """Appends to a set numbers (arrays, or functions that return one) and names of sets
-        (strings), in their order."""
-        self.spelled.setdefault(key, spelled)
-        self.sources.setdefault(key, []).append(source)
-        self._parts.setdefault(key, []).extend(parts)
-        self._members.clear()
-
-    def members(self, key, above=()):
-        """Returns the numbers of a set in the order of the deck, each once. Raises Fault."""
-        if key not in self._parts:
-            raise Fault(f"there is no {self.what} set '{key}'")
-        if key in above:
-            raise Fault(f"the {self.what} set '{key}' contains itself")
-        if key not in self._members:
-            parts = [self._numbers(part, (*above, key)) for part in self._parts[key]]
-            numbers = np.concatenate([EMPTY, *parts])
-            _, first = np.unique(numbers, return_index=True)
-            self._members[key] = numbers[np.sort(first)]
-        return self._members[key]
-
-    def _numbers(self, part, above):
-        if isinstance(part, str):
-            return self.members(part, above)
-        return part() if callable(part) else part
-
-
-@dataclass
-class Surface:
-    """Faces (element number, number of the face from 0) or, without TYPE=ELEMENT, nodes."""
-
-    name: str
-    source: Source
-    nodes: np.ndarray = None
-    elements: np.ndarray = None
-    faces: np.ndarray = None
+from squeal.deck.axes import Frame
+from squeal.deck.journal import Source
+from squeal.deck.mesh import EMPTY, Block, Nodes, Sets
 
 
 @dataclass
@@ -159,45 +30,6 @@ class Material:
     damping_source: Source = None
     refusals: list = field(default_factory=list)
     loss: tuple = None  # loss factor of structural damping, and its frequency in Hz
-
-
-@dataclass
-class Frame:
-    """Axes: rectangular with directions a, b (axis 1 along a, b in the plane 1-2), or cylindrical
-    about the line from point a to point b."""
-
-    name: str
-    cylindrical: bool
-    a: np.ndarray
-    b: np.ndarray
-    source: Source
-
-    def axes_at(self, place):
-        """Returns the local axes at a point as rows. Raises Fault."""
-        if not self.cylindrical:
-            return orthonormal(self.a, self.b)
-        axis = self.b - self.a
-        length = np.linalg.norm(axis)
-        if length == 0:
-            raise Fault("the two points of the axis coincide")
-        axis = axis / length
-        radial = place - self.a
-        radial = radial - np.dot(radial, axis) * axis
-        distance = np.linalg.norm(radial)
-        if distance <= 1e-12 * max(length, np.linalg.norm(place - self.a)):
-            raise Fault("a node on the axis has no radial direction")
-        radial = radial / distance
-        return np.array([radial, np.cross(axis, radial), axis])
-
-
-def orthonormal(a, b):
-    lengths = np.linalg.norm(a), np.linalg.norm(b)
-    normal = np.cross(a, b)
-    if np.linalg.norm(normal) <= 1e-10 * lengths[0] * lengths[1]:
-        raise Fault("the two directions of the axes are zero or parallel")
-    x = a / lengths[0]
-    z = normal / np.linalg.norm(normal)
-    return np.array([x, np.cross(z, x), z])
 
 
 @dataclass
@@ -228,7 +60,8 @@ class Rigid:
     surface of this key, otherwise of the set `label`. `name`: of a coupling, None for a body.
     `distributed`: the reference node follows the mean motion of the nodes, with equal weights.
     `pinned`: rotations of reference nodes among them stay free; `mixed`: some of their components
-    do."""
+    do. `radius`: that of a sphere about the reference node outside of which nodes are not coupled.
+    """
 
     label: str
     nodes: np.ndarray
@@ -242,6 +75,7 @@ class Rigid:
     distributed: bool = False
     pinned: bool = False
     mixed: bool = False
+    radius: float = None
 
 
 @dataclass
@@ -399,17 +233,6 @@ class State:
     gravity: tuple = None
 
 
-@dataclass(frozen=True)
-class Instance:
-    """Numbers of a part are greater in the model, by the offsets of its instance; those of its
-    elements are up to `last_element`."""
-
-    name: str
-    node_offset: int
-    element_offset: int
-    last_element: int
-
-
 @dataclass
 class Model:
     """`program`: the one that the deck is written for."""
@@ -454,6 +277,32 @@ class Model:
     def word(self, card):
         """Returns the name of a card of Abaqus in the language of the deck."""
         return self.words.get(card, f"*{card}")
+
+    def node_label(self, number):
+        """Returns the number of a node in its part, and the name of the instance."""
+        return self._label(number, [one.node_offset for one in self.instances])
+
+    def node_name(self, number):
+        """Returns the number of a node in its part, behind the name of the instance, if any."""
+        return self._name(number, [one.node_offset for one in self.instances])
+
+    def element_name(self, number):
+        return self._name(number, [one.element_offset for one in self.instances])
+
+    def _name(self, number, offsets):
+        for one, offset in zip(reversed(self.instances), reversed(offsets)):
+            if number > offset:
+                return f"{one.name}.{number - offset}" if one.name else str(number - offset)
+        return str(number)
+
+    def element_label(self, number):
+        return self._label(number, [one.element_offset for one in self.instances])
+
+    def _label(self, number, offsets):
+        for one, offset in zip(reversed(self.instances), reversed(offsets)):
+            if number > offset:
+                return f"{number - offset} of {one.name or 'the assembly'}"
+        return str(number)
 
     def merge_blocks(self):
         """Joins the elements of each type; their source is that of the first. To be called once,

@@ -3,6 +3,8 @@
 import math
 import re
 
+import numpy as np
+
 from squeal.deck.journal import Fault
 
 REAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eEdD]([+-]?\d+)|([+-]\d+))?")
@@ -31,6 +33,15 @@ def integer(text, line=None):
     if abs(value) > LARGEST:
         raise Fault(f"'{text.strip()}' is too large", line=line)
     return value
+
+
+def table(words, kind):
+    """Returns an array of numbers, given as a list of words. Raises ValueError for words that
+    Python reads as numbers but decks do not, such as 1_2."""
+    joined = "".join(words)
+    if "_" in joined or not joined.isascii():
+        raise ValueError(joined)
+    return np.array(words, dtype=kind)
 
 
 def is_integer(text):

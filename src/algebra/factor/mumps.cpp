@@ -2,6 +2,7 @@
 #include "algebra/factor/mumps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
@@ -9,6 +10,7 @@
 #include "base/options/options.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/memory.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 
 namespace squeal::factor {
@@ -131,10 +133,8 @@ void MumpsFactor::setEntries(Mat matrix) {
 
 void MumpsFactor::analyse(Mat matrix, const MumpsFactor* like) {
   setEntries(matrix);
-  int rank = 0;
-  check(MPI_Comm_rank(comm_, &rank));
   if (like) {
-    if (rank == 0) order_.assign(like->id_.sym_perm, like->id_.sym_perm + id_.n);
+    if (mpi::rank(comm_) == 0) order_.assign(like->id_.sym_perm, like->id_.sym_perm + id_.n);
     id_.perm_in = order_.data();
     icntl(7) = 1;
     icntl(28) = 1;
@@ -151,15 +151,11 @@ void MumpsFactor::fitIntoMemory() {
   const double free = memoryFreeOnNode(comm_, inCore);
   memoryFreeOnNode(comm_, onDisk);
   const bool onDiskByOption = icntl(22) == 1;
-  struct {
-    double ratio;
-    int rank;
-  } worst{(onDiskByOption ? onDisk : inCore) / std::max(free, 1.0), 0};
-  check(MPI_Comm_rank(comm_, &worst.rank));
-  check(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_));
-  if (worst.ratio <= 1) return;
-  double sizes[] = {inCore, onDisk, free};
-  check(MPI_Bcast(sizes, 3, MPI_DOUBLE, worst.rank, comm_));
+  const auto worst =
+      mpi::maxLocated(comm_, (onDiskByOption ? onDisk : inCore) / std::max(free, 1.0));
+  if (worst.value <= 1) return;
+  std::array sizes{inCore, onDisk, free};
+  mpi::broadcast(comm_, sizes, worst.rank);
   const std::string text =
       formatted("the factorisation%s needs %.3g GB on a node where %.3g GB are free",
                 onDiskByOption ? ", with its factor on disk," : "",

@@ -9,6 +9,7 @@
 
 #include "base/petsc/object.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
 
@@ -60,9 +61,7 @@ void solveOrAbort(PC pc, const Solve& solve) {
   try {
     solve(*shellOf(pc)->factor);
   } catch (const Error& error) {
-    int rank = 0;
-    MPI_Comm_rank(commOf(pc), &rank);
-    if (rank == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
+    if (mpi::rank(commOf(pc)) == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
     abortRun();
   }
 }

@@ -7,6 +7,7 @@
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/log_events.hpp"
 #include "base/petsc/object.hpp"
+#include "base/system/mpi.hpp"
 
 namespace squeal::linalg {
 
@@ -14,10 +15,7 @@ DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView
   const LoggedWork work(Work::innerProduct);
   LoggedWork::addOperations(2.0 * x.rows() * x.columns() * y.columns());
   DenseMatrix result = transposedProduct(x, y);
-  const int count = result.size();
-  check(MPI_Allreduce(MPI_IN_PLACE, result.data(), count, MPI_DOUBLE, MPI_SUM, comm));
-  // Round-off of sums over the ranks may depend on the rank; later decisions must not.
-  check(MPI_Bcast(result.data(), count, MPI_DOUBLE, 0, comm));
+  mpi::sumAlike(comm, result.entries());  // later decisions must not depend on the rank
   return result;
 }
 
@@ -58,9 +56,7 @@ Block unitColumns(MPI_Comm comm, const Block& columns) {
   std::vector<double> squares;
   for (PetscInt j = 0; j < columns.columns(); ++j)
     squares.push_back(squaredLength(columns.column(j)));
-  const int count = squares.size();
-  check(MPI_Allreduce(MPI_IN_PLACE, squares.data(), count, MPI_DOUBLE, MPI_SUM, comm));
-  check(MPI_Bcast(squares.data(), count, MPI_DOUBLE, 0, comm));
+  mpi::sumAlike(comm, squares);
   Block units(columns.rows());
   for (PetscInt j = 0; j < columns.columns(); ++j) {
     if (!(squares[j] > 0)) continue;

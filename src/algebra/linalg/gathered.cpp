@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "algebra/linalg/gathered.hpp"
 #include "base/petsc/object.hpp"
+#include "base/system/mpi.hpp"
 
 namespace squeal::linalg {
 
 OwnedMat onRankZero(Mat matrix) {
   PetscInt rows = 0, columns = 0;
-  int rank = 0;
   OwnedIS rowSet, columnSet;
   Mat* parts = nullptr;
   check(MatGetSize(matrix, &rows, &columns));
-  check(MPI_Comm_rank(commOf(matrix), &rank));
+  const int rank = mpi::rank(commOf(matrix));
   check(ISCreateStride(PETSC_COMM_SELF, rank == 0 ? rows : 0, 0, 1, rowSet.out()));
   check(ISCreateStride(PETSC_COMM_SELF, rank == 0 ? columns : 0, 0, 1, columnSet.out()));
   const IS rowsWanted = rowSet, columnsWanted = columnSet;

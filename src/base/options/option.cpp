@@ -47,15 +47,15 @@ std::size_t stageRank(const std::string& stage) {
   return std::find(stages().begin(), stages().end(), stage) - stages().begin();
 }
 
-Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_,
-               std::string meaning_, std::string rule_, bool required_)
+Option::Option(std::string stage_, std::string name_, std::optional<std::string> byDefault,
+               std::string unit_, std::string meaning_, std::string rule_)
     : stage(std::move(stage_)),
       name(std::move(name_)),
-      defaultText(std::move(default_)),
+      defaultText(byDefault.value_or("")),
       unit(std::move(unit_)),
       meaning(std::move(meaning_)),
       rule(std::move(rule_)),
-      required(required_) {
+      required(!byDefault) {
   registry().push_back(this);
 }
 

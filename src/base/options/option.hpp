@@ -8,6 +8,7 @@
 /// so every Error thrown here is thrown on all ranks.
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,9 @@ class Option {
   static std::vector<const Option*> all();
 
  protected:
-  Option(std::string stage, std::string name, std::string defaultText, std::string unit,
-         std::string meaning, std::string rule, bool required = false);
+  /// Declares an option. Without `byDefault` it is required wherever it is read.
+  Option(std::string stage, std::string name, std::optional<std::string> byDefault,
+         std::string unit, std::string meaning, std::string rule);
   ~Option() = default;
   Option(const Option&) = delete;
   /// Returns the given text without surrounding blanks, or the default. Throws Error if an option

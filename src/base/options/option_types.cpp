@@ -43,8 +43,9 @@ std::string Range::text() const { return "a number" + bounds(); }
 
 RealOption::RealOption(std::string stage, std::string name, std::optional<double> byDefault,
                        std::string unit, Range range, std::string meaning)
-    : Option(std::move(stage), std::move(name), byDefault ? shortest(*byDefault) : "",
-             std::move(unit), std::move(meaning), range.text(), !byDefault),
+    : Option(std::move(stage), std::move(name),
+             byDefault ? std::optional(shortest(*byDefault)) : std::nullopt, std::move(unit),
+             std::move(meaning), range.text()),
       range_(range) {}
 
 double RealOption::parsed(const std::string& subject, const std::string& value) const {
@@ -80,13 +81,12 @@ int IntegerOption::parsed(const std::string& subject, const std::string& value) 
 }
 
 RealListOption::RealListOption(std::string stage, std::string name, std::string byDefault,
-                               std::string unit, Range range, std::string meaning, bool ranges)
+                               std::string unit, ListRule entries, std::string meaning)
     : Option(std::move(stage), std::move(name), std::move(byDefault), std::move(unit),
              std::move(meaning),
-             std::string(ranges ? "first:last:step or " : "") +
-                 "a comma-separated list of numbers" + range.bounds()),
-      range_(range),
-      ranges_(ranges) {}
+             std::string(entries.sequences ? "first:last:step or " : "") +
+                 "a comma-separated list of numbers" + entries.range.bounds()),
+      entries_(entries) {}
 
 void RealListOption::requireLength(const std::string& subject, const std::string& value,
                                    double length) const {
@@ -99,7 +99,7 @@ std::vector<double> RealListOption::parsed(const std::string& subject,
                                            const std::string& value) const {
   std::vector<double> list;
   const auto parts = split(value, ':');
-  if (ranges_ && parts.size() > 1) {
+  if (entries_.sequences && parts.size() > 1) {
     if (parts.size() != 3) reject(subject, value);
     const double first = number(subject, parts[0]), last = number(subject, parts[1]),
                  step = number(subject, parts[2]);
@@ -116,7 +116,7 @@ std::vector<double> RealListOption::parsed(const std::string& subject,
     for (const auto& item : items) list.push_back(number(subject, item));
   }
   for (double x : list)
-    if (!range_.contains(x)) reject(subject, value);
+    if (!entries_.range.contains(x)) reject(subject, value);
   return list;
 }
 
@@ -155,8 +155,8 @@ std::string ChoiceOption::parsed(const std::string& subject, const std::string& 
 
 TextOption::TextOption(std::string stage, std::string name, std::optional<std::string> byDefault,
                        std::string meaning)
-    : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning),
-             "text", !byDefault) {}
+    : Option(std::move(stage), std::move(name), std::move(byDefault), "", std::move(meaning),
+             "text") {}
 
 std::string TextOption::parsed(const std::string& subject, const std::string& value) const {
   if (value.empty() && given(subject)) reject(subject, "without a value");
@@ -173,7 +173,7 @@ std::vector<std::string> TextOption::list(const std::string& subject) const {
 }
 
 FileOption::FileOption(std::string stage, std::string name, std::string meaning)
-    : Option(std::move(stage), std::move(name), "", "", std::move(meaning), "a file", true) {}
+    : Option(std::move(stage), std::move(name), std::nullopt, "", std::move(meaning), "a file") {}
 
 void FileOption::validate(const std::string& subject) const {
   const std::string path = value(subject);
@@ -206,7 +206,7 @@ nlohmann::json IntegerOption::valueSchema() const {
 }
 
 nlohmann::json RealListOption::valueSchema() const {
-  const nlohmann::json one = schemaOf(range_);
+  const nlohmann::json one = schemaOf(entries_.range);
   return {{"anyOf",
            {one,
             {{"type", "string"}},

@@ -89,12 +89,25 @@ class VectorValue {
   std::string text_;  // option and meaning, for the message
 };
 
-/// Reals separated by commas, with optional blanks around them. With `ranges`, `first:last:step` is
-/// the arithmetic sequence up to `last`, which is included if it is a whole number of steps away.
+/// The entries of a list. With `sequences`, the list may be `first:last:step`, the arithmetic
+/// sequence up to `last`, which is included if it is a whole number of steps away.
+struct ListRule {
+  ListRule(Range all) : range(all) {}  // NOLINT: a range is a rule
+  Range range;
+  bool sequences = false;
+};
+/// Returns the rule for lists and sequences of numbers in this range.
+inline ListRule sequencesOf(Range range) {
+  ListRule rule(range);
+  rule.sequences = true;
+  return rule;
+}
+
+/// Reals separated by commas, with optional blanks around them.
 class RealListOption : public Option {
  public:
   RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit,
-                 Range range, std::string meaning, bool ranges = false);
+                 ListRule entries, std::string meaning);
   std::vector<double> get(const std::string& subject = {}) const {
     return parsed(subject, text(subject));
   }
@@ -107,8 +120,7 @@ class RealListOption : public Option {
   /// Returns the value of this text. Throws Error if it violates the rule.
   std::vector<double> parsed(const std::string& subject, const std::string& text) const;
   void requireLength(const std::string& subject, const std::string& value, double length) const;
-  Range range_;
-  bool ranges_;
+  ListRule entries_;
 };
 
 class FlagOption : public Option {

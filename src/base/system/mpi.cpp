@@ -8,6 +8,8 @@ namespace {
 
 double reductions = 0;
 
+/// The calls have their names in parentheses: a macro of PETSc, which a precompiled header may
+/// define, would count them as well.
 void countReduction(MPI_Comm comm) {
   if (size(comm) > 1) ++reductions;
 }
@@ -43,7 +45,7 @@ void reduceValues(MPI_Comm comm, void* values, std::size_t count, MPI_Datatype t
   do {
     const std::size_t part = std::min(count, largest);
     countReduction(comm);
-    MPI_Allreduce(MPI_IN_PLACE, at, int(part), type, operation, comm);
+    (MPI_Allreduce)(MPI_IN_PLACE, at, int(part), type, operation, comm);
     at += part * bytes;
     count -= part;
   } while (count > 0);
@@ -68,7 +70,7 @@ void broadcastBytes(MPI_Comm comm, void* bytes, std::size_t count, int root) {
   do {
     const std::size_t part = std::min(count, largest);
     countReduction(comm);
-    MPI_Bcast(at, int(part), MPI_BYTE, root, comm);
+    (MPI_Bcast)(at, int(part), MPI_BYTE, root, comm);
     at += part;
     count -= part;
   } while (count > 0);

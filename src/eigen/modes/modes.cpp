@@ -13,6 +13,7 @@
 #include "base/petsc/arrays.hpp"
 #include "base/petsc/object.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "eigen/modes/blocklanczos.hpp"
 
@@ -203,9 +204,8 @@ void solveDense(const factor::AssociatedSystem& system, int count, Modes& modes)
           for (PetscInt i = 0; i < n; ++i) vectors(i, j) = all(i, last) / std::sqrt(inverse[last]);
         }
       });
-  modes.lambda.resize(count);
-  check(MPI_Bcast(modes.lambda.data(), count, MPI_DOUBLE, 0, comm));
-  check(MPI_Bcast(vectors.data(), vectors.size(), MPI_DOUBLE, 0, comm));
+  mpi::broadcast(comm, modes.lambda);
+  mpi::broadcastEntries(comm, vectors.entries());
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(system.k0(), &first, &end));
   modes.vectors = linalg::copiedColumns(system.k0(), linalg::rowRange(vectors, first, end));
@@ -239,7 +239,7 @@ void measureResiduals(const factor::AssociatedSystem& system, Modes& modes) {
         sums(2, begin + j) += rest * rest;
       }
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, system.comm()));
+  mpi::reduce(system.comm(), sums.entries(), MPI_SUM);
   for (PetscInt i = 0; i < count; ++i) {
     const double lambda = modes.lambda[i];
     modes.rounding =

@@ -12,6 +12,7 @@
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/log_events.hpp"
 #include "base/petsc/object.hpp"
+#include "base/system/mpi.hpp"
 
 namespace squeal::modes {
 
@@ -28,9 +29,7 @@ RationalLanczos::RationalLanczos(Mat m, BV basis, PetscInt blockSize)
   a_ = b_ = DenseMatrix(limit_, limit_);
   check(BVGetArray(basis_, &columns_));
   // Each rank draws its own part. The seed is fixed, so a run is reproducible.
-  int rank = 0;
-  check(MPI_Comm_rank(comm_, &rank));
-  random_.seed(rank + 1);
+  random_.seed(mpi::rank(comm_) + 1);
 }
 
 DenseView RationalLanczos::columnRange(PetscInt first, PetscInt last) const {
@@ -103,7 +102,7 @@ RitzPairs RationalLanczos::ritz() const {
   pairs.vectors.append(qr.q().columnRange(known, k));
   // The ranks must agree on convergence.
   for (auto entries : {std::span(pairs.value), pairs.coupling.entries(), pairs.vectors.entries()})
-    check(MPI_Bcast(entries.data(), entries.size(), MPI_DOUBLE, 0, comm_));
+    mpi::broadcastEntries(comm_, entries);
   for (PetscInt j = 0; j < known; ++j)
     pairs.residual.push_back(std::sqrt(linalg::squaredLength(pairs.coupling.column(j))));
   return pairs;

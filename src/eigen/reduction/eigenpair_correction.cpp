@@ -8,6 +8,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/petsc/log_events.hpp"
+#include "base/system/concatenation.hpp"
 #include "base/system/mpi.hpp"
 #include "eigen/reduction/companion.hpp"
 
@@ -54,24 +55,13 @@ void share(MPI_Comm comm, const std::vector<CorrectionTask>& tasks,
     action(std::span(pair.q));
     action(std::span(pair.left));
   };
-  std::vector<int> counts(ranks), begins(ranks + 1);
-  for (int owner = 0; owner < ranks; ++owner) {
-    std::size_t entries = 0;
-    membersOf(owner, [&](DensePair& pair) {
-      forAll(pair, [&](std::span<Complex> part) { entries += part.size(); });
-    });
-    if (begins[owner] + entries > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-      throw Error("the eigenvectors of a batch exceed the size of one message: solve fewer points");
-    counts[owner] = entries;
-    begins[owner + 1] = begins[owner] + counts[owner];
-  }
-  std::vector<Complex> all(begins[ranks]);
-  auto next = all.begin() + begins[rank];
+  std::vector<Complex> own;
   membersOf(rank, [&](DensePair& pair) {
-    forAll(pair, [&](std::span<Complex> part) { next = std::ranges::copy(part, next).out; });
+    forAll(pair, [&](std::span<Complex> part) { own.insert(own.end(), part.begin(), part.end()); });
   });
-  check(MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, all.data(), counts.data(), begins.data(),
-                       MPI_C_DOUBLE_COMPLEX, comm));
+  if (mpi::sum(comm, own.size()) > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw Error("the eigenvectors of a batch exceed the size of one message: solve fewer points");
+  const auto all = concatenated(comm, own);
   auto from = all.cbegin();
   for (int owner = 0; owner < ranks; ++owner)
     membersOf(owner, [&](DensePair& pair) {

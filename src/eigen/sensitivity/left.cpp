@@ -9,6 +9,7 @@
 #include "algebra/linalg/columns.hpp"
 #include "algebra/linalg/lu.hpp"
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "eigen/sweep/parameters.hpp"
 
 namespace squeal::sensitivity {
@@ -219,14 +220,12 @@ class LeftIteration {
   /// Returns the left null vectors in coordinates of the basis, [value]. The work is distributed
   /// over the ranks, and all ranks get the same results, so round-off cannot make them disagree.
   std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values) const {
-    int rank = 0, ranks = 1;
-    check(MPI_Comm_rank(pencil_.comm(), &rank));
-    check(MPI_Comm_size(pencil_.comm(), &ranks));
+    const int rank = mpi::rank(pencil_.comm()), ranks = mpi::size(pencil_.comm());
     std::vector<std::vector<Complex>> vectors(values.size(), std::vector<Complex>(size_));
     for (std::size_t i = rank; i < values.size(); i += ranks)
       vectors[i] = nullVector(projected_, values[i]);
     for (std::size_t i = 0; i < values.size(); ++i)
-      check(MPI_Bcast(vectors[i].data(), size_, MPI_C_DOUBLE_COMPLEX, i % ranks, pencil_.comm()));
+      mpi::broadcastEntries<Complex>(pencil_.comm(), vectors[i], i % ranks);
     return vectors;
   }
 

@@ -2,6 +2,7 @@
 #include "eigen/subspace/basis.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "algebra/linalg/block.hpp"
@@ -10,6 +11,7 @@
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 
 namespace squeal::subspace {
 namespace {
@@ -248,13 +250,12 @@ double Basis::solutionError(const linalg::Block& z, const linalg::Block& residua
   linalg::Block force(z.rows());
   const linalg::Block wanted = linalg::product(residuals, signs);
   linalg::appendProduct(stiffness(), linalg::product(z, signs), force);
-  double squares[2] = {0, 0};
+  std::array squares{0.0, 0.0};
   for (PetscInt i = 0; i < z.rows(); ++i) {
     squares[0] += inverseDiagonal_[i] * std::pow(force(i, 0) - wanted(i, 0), 2);
     squares[1] += inverseDiagonal_[i] * std::pow(wanted(i, 0), 2);
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, squares, 2, MPI_DOUBLE, MPI_SUM, comm_));
-  check(MPI_Bcast(squares, 2, MPI_DOUBLE, 0, comm_));
+  mpi::sumAlike(comm_, squares);
   return std::sqrt(squares[0] / squares[1]);
 }
 

@@ -8,6 +8,7 @@
 
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/log_events.hpp"
+#include "base/system/mpi.hpp"
 
 namespace squeal::subspace {
 
@@ -33,9 +34,7 @@ Sketch::Sketch(MPI_Comm comm, const std::vector<double>& diagonal,
                const std::vector<PetscInt>& leftOut)
     : comm_(comm), signs_(diagonal.size(), 2 * size) {
   static_assert(size == 64, "one random word a row");
-  PetscInt first = 0;
-  const PetscInt rows = signs_.rows();
-  check(MPI_Exscan(&rows, &first, 1, MPIU_INT, MPI_SUM, comm_));
+  const PetscInt rows = signs_.rows(), first = mpi::sumBefore(comm_, rows);
   const double unit = 1 / std::sqrt(size);
   for (PetscInt i = 0; i < rows; ++i) {
     std::uint64_t word = bits(first + i);

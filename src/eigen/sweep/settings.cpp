@@ -9,22 +9,20 @@
 namespace squeal::sweep {
 namespace {
 
-const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative,
-                                    "friction coefficients of the sweep", true);
+const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "",
+                                    sequencesOf(nonNegative), "friction coefficients of the sweep");
 const RealListOption speedOption(
-    "flutter", "flutter_speed", "1", "", positive,
-    "swept factors on the velocities of all -motion_* options and of obstacles", true);
+    "flutter", "flutter_speed", "1", "", sequencesOf(positive),
+    "swept factors on the velocities of all -motion_* options and of obstacles");
 const RealListOption pressureOption(
-    "flutter", "flutter_pressure", "1", "", positive,
+    "flutter", "flutter_pressure", "1", "", sequencesOf(positive),
     "swept factors on surface pressures, forces and moments, except those with "
     "-load_<group>_hydraulic off, and on the prescribed displacements of supports and obstacles, "
-    "but not on gravity and centrifugal forces",
-    true);
+    "but not on gravity and centrifugal forces");
 const RealListOption dampingOption(
-    "flutter", "flutter_damping", "1", "", nonNegative,
+    "flutter", "flutter_damping", "1", "", sequencesOf(nonNegative),
     "swept factors on the damping of materials, of dashpots to the ground and of free modes, but "
-    "not on friction damping",
-    true);
+    "not on friction damping");
 
 std::vector<double> ascending(const RealListOption& option) {
   auto list = option.get();

@@ -34,11 +34,9 @@ Transformation transformationOf(const mesh::Mesh& mesh, const interfaces::Interf
 
   Transformation result;
   result.ownedColumns = std::count(unknown.begin(), unknown.end(), 1);
-  PetscInt end = 0;
-  check(MPI_Scan(&result.ownedColumns, &end, 1, MPIU_INT, MPI_SUM, mesh.comm));
   result.columns = mpi::sum(mesh.comm, result.ownedColumns);
   std::vector<PetscInt> column(unknown.size(), -1);
-  PetscInt next = end - result.ownedColumns;
+  PetscInt next = mpi::sumBefore(mesh.comm, result.ownedColumns);
   for (std::size_t i = 0; i < unknown.size(); ++i)
     if (unknown[i]) {
       column[i] = next++;

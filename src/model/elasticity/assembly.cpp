@@ -5,6 +5,7 @@
 
 #include "base/petsc/arrays.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/concatenation.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 
@@ -180,12 +181,9 @@ CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
   result.count = cells.size();
   result.count = mpi::sum(mesh.comm, result.count);
   if (result.count == 0) return result;
-  int ranks = 1;
-  check(MPI_Comm_size(mesh.comm, &ranks));
   std::sort(cells.begin(), cells.end());
-  cells.resize(most, CellName{PETSC_MAX_INT, 0, 0});
-  std::vector<CellName> all(most * ranks);
-  check(MPI_Allgather(cells.data(), 3 * most, MPIU_INT, all.data(), 3 * most, MPIU_INT, mesh.comm));
+  if (std::ssize(cells) > most) cells.erase(cells.begin() + most, cells.end());
+  auto all = concatenated(mesh.comm, cells);
   std::sort(all.begin(), all.end());
   std::vector<std::string> words;
   for (PetscInt i = 0; i < std::min(most, result.count); ++i) {

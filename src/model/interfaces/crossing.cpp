@@ -89,27 +89,22 @@ struct Crossing {
 Crossing crossingOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                     const NodalIntegrals& around) {
   std::array<double, 3> sums{};
-  struct {
-    double value = 0;
-    int rank = 0;
-  } worst;
+  double worst = 0;
   PetscInt node = -1;
   for (PetscInt i = 0; i < mesh.ownedNodes; ++i) {
     if (exchange.primary(i) != mesh.globalNode[i]) continue;
     const double flux = std::abs(around.flux[i]);
     sums[0] += flux, sums[1] += around.magnitude[i], sums[2] += around.speed[i];
-    if (flux > worst.value) worst.value = flux, node = i;
+    if (flux > worst) worst = flux, node = i;
   }
   mpi::reduce<double>(mesh.comm, sums, MPI_SUM);
   if (!(sums[0] > facets * sums[1] && sums[0] > negligible * sums[2])) return {};
-  check(MPI_Comm_rank(mesh.comm, &worst.rank));
-  const int rank = worst.rank;
-  check(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, mesh.comm));
+  const int rank = mpi::maxLocated(mesh.comm, worst).rank;
   Crossing crossing;
-  if (rank == worst.rank)
-    crossing = {sums[0] / sums[2], mesh.coordinates[node], worst.value / around.speed[node],
+  if (mpi::rank(mesh.comm) == rank)
+    crossing = {sums[0] / sums[2], mesh.coordinates[node], worst / around.speed[node],
                 int(std::lround(around.body[node])) - 1};
-  check(MPI_Bcast(&crossing, sizeof crossing, MPI_BYTE, worst.rank, mesh.comm));
+  mpi::broadcast(mesh.comm, crossing, rank);
   return crossing;
 }
 

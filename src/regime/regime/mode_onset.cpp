@@ -53,19 +53,15 @@ std::vector<NodeMotion> motionAt(const contact::Contact& contact, const std::vec
 
 /// Collective. Replaces an onset by the first one of all ranks.
 void takeFirst(MPI_Comm comm, ModeOnset& mode) {
-  struct {
-    double factor;
-    int rank;
-  } own{mode.onset.factor, mpi::rank(comm)}, first{};
-  check(MPI_Allreduce(&own, &first, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm));
+  const double own = mode.onset.factor;
+  const auto first = mpi::minLocated(comm, own);
   // `turning` is computed at the factor of this rank's event.
-  const double turning =
-      mpi::max(comm, std::isfinite(own.factor) ? mode.onset.turning / own.factor : 0.0);
+  const double turning = mpi::max(comm, std::isfinite(own) ? mode.onset.turning / own : 0.0);
   mpi::broadcast(comm, mode.onset, first.rank);
   mpi::broadcast(comm, mode.position, first.rank);
   mpi::broadcast(comm, mode.interface, first.rank);
   mode.onset.node = 0;
-  mode.onset.turning = std::isfinite(first.factor) ? turning * first.factor : 0;
+  mode.onset.turning = std::isfinite(first.value) ? turning * first.value : 0;
 }
 
 }  // namespace

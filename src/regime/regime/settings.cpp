@@ -9,10 +9,9 @@ namespace squeal::regime {
 namespace {
 
 const RealListOption frictionOption(
-    "regime", "regime_friction", "", "", nonNegative,
+    "regime", "regime_friction", "", "", sequencesOf(nonNegative),
     "frictions at which the motion after flutter is followed with stick, slip and separation; "
-    "they are added to those of -flutter_friction",
-    true);
+    "they are added to those of -flutter_friction");
 
 const RealOption timeOption("regime", "regime_time", 0, "s", nonNegative,
                             "maximum simulated time, at least 32 cycles of the mode; 0 = automatic "

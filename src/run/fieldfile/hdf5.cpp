@@ -10,6 +10,8 @@
 #include "base/petsc/arrays.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/hdf5.hpp"
+#include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
 #include "model/element/shape.hpp"
@@ -87,14 +89,8 @@ void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, co
   const std::size_t most = std::max<std::size_t>(1, (1 << 20) / columns) *
                            columns;  // entries of a piece: some megabytes
   constexpr int tag = 0;
-  int rank = 0, size = 1;
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Comm_size(comm, &size));
-  const unsigned long long count = mine.size();
-  std::vector<unsigned long long> counts(size);
-  check(MPI_Gather(&count, 1, MPI_UNSIGNED_LONG_LONG, counts.data(), 1, MPI_UNSIGNED_LONG_LONG, 0,
-                   comm));
-  if (rank != 0) {
+  const auto counts = concatenated(comm, std::vector{mine.size()});
+  if (mpi::rank(comm) != 0) {
     while (!mine.empty()) {
       const auto piece = mine.first(std::min(most, mine.size()));
       check(MPI_Send(piece.data(), piece.size_bytes(), MPI_BYTE, 0, tag, comm));
@@ -104,7 +100,7 @@ void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, co
   }
   take(mine.data(), mine.size());
   std::vector<Number> piece(most);
-  for (int other = 1; other < size; ++other)
+  for (int other = 1; other < std::ssize(counts); ++other)
     for (std::size_t left = counts[other]; left > 0; left -= std::min(most, left)) {
       const std::size_t entries = std::min(most, left);
       check(MPI_Recv(piece.data(), entries * sizeof(Number), MPI_BYTE, other, tag, comm,
@@ -120,7 +116,7 @@ std::vector<int> elementTypes(const mesh::Mesh& mesh) {
   std::vector<int> present(most, 0);
   for (const auto& block : mesh.cells)
     if (!block.body.empty()) present.at(block.type) = 1;
-  check(MPI_Allreduce(MPI_IN_PLACE, present.data(), most, MPI_INT, MPI_MAX, mesh.comm));
+  mpi::reduce<int>(mesh.comm, present, MPI_MAX);
   std::vector<int> types;
   for (int type = 0; type < most; ++type)
     if (present[type]) types.push_back(type);
@@ -209,8 +205,7 @@ void Hdf5File::writeTable(const std::string& group, const std::string& name,
                           const std::vector<std::vector<double>>& rows) {
   std::string message;
   std::vector<double> values;
-  int rank = 0;
-  check(MPI_Comm_rank(comm_, &rank));
+  const int rank = mpi::rank(comm_);
   for (const auto& row : rows) {
     if (row.size() != columns.size())
       message = formatted("table %s: a row of %zu values for %zu columns", name.c_str(), row.size(),
@@ -253,8 +248,7 @@ void Hdf5File::writeAttribute(const std::string& object, const std::string& name
 template <class Number>
 void Hdf5File::writeRows(const std::string& group, const std::string& name, int columns,
                          std::span<const Number> values) {
-  unsigned long long total = values.size();
-  check(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, comm_));
+  const hsize_t total = mpi::sum(comm_, values.size());
   const hsize_t width = columns;
   const hdf5::Silence silence;
   std::optional<Rows> rows;

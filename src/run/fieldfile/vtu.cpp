@@ -22,6 +22,8 @@
 
 #include "base/output/file.hpp"
 #include "base/petsc/check.hpp"
+#include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/regular_file.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
@@ -121,42 +123,19 @@ Piece ownPiece(const mesh::Mesh& mesh, const std::vector<Field>& fields,
   return piece;
 }
 
-/// Collective. Concatenates the lists of all ranks on rank 0, in the order of the ranks, and
-/// empties the other lists.
-template <class Entry>
-void gatherOnFirst(MPI_Comm comm, std::vector<Entry>& list) {
-  static_assert(std::is_trivially_copyable_v<Entry>);
-  int rank = 0, ranks = 1;
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Comm_size(comm, &ranks));
-  const int own = list.size();
-  std::vector<int> counts(ranks), places(ranks);
-  check(MPI_Gather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm));
-  std::exclusive_scan(counts.begin(), counts.end(), places.begin(), 0);
-  std::vector<Entry> all(rank == 0 ? places.back() + counts.back() : 0);
-  MPI_Datatype entry = MPI_DATATYPE_NULL;
-  check(MPI_Type_contiguous(sizeof(Entry), MPI_BYTE, &entry));
-  check(MPI_Type_commit(&entry));
-  check(MPI_Gatherv(list.data(), own, entry, all.data(), counts.data(), places.data(), entry, 0,
-                    comm));
-  check(MPI_Type_free(&entry));
-  list = std::move(all);
-}
-
 /// Collective. Merges the pieces of all ranks on rank 0.
 void gatherOnFirst(MPI_Comm comm, Piece& piece) {
-  const PetscInt own = piece.nodeTag.size();
-  PetscInt before = 0;
-  check(MPI_Exscan(&own, &before, 1, MPIU_INT, MPI_SUM, comm));
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  for (auto& node : piece.nodes) node += rank > 0 ? before : 0;
-  gatherOnFirst(comm, piece.coordinates);
-  for (auto* list : {&piece.nodeTag, &piece.nodes}) gatherOnFirst(comm, *list);
+  const PetscInt before = mpi::sumBefore<PetscInt>(comm, piece.nodeTag.size());
+  for (auto& node : piece.nodes) node += before;
+  const auto gather = [&]<class Entry>(std::vector<Entry>& list) {
+    list = concatenatedOnFirst<Entry>(comm, list);
+  };
+  gather(piece.coordinates);
+  for (auto* list : {&piece.nodeTag, &piece.nodes}) gather(*list);
   for (auto* list : {&piece.nodePart, &piece.type, &piece.body, &piece.rank, &piece.material})
-    gatherOnFirst(comm, *list);
+    gather(*list);
   for (auto* fields : {&piece.fields, &piece.cellFields})
-    for (auto& field : *fields) gatherOnFirst(comm, field);
+    for (auto& field : *fields) gather(field);
 }
 
 template <class Array, class Value>
@@ -309,9 +288,7 @@ std::string summaryText(const std::vector<Field>& fields, const std::string& cel
 void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Field>& pointFields,
               const std::string& option, int mostPieces, const std::vector<Field>& cellFields) {
   const std::string head = "option " + option + ": ";
-  int rank = 0, size = 1;
-  check(MPI_Comm_rank(mesh.comm, &rank));
-  check(MPI_Comm_size(mesh.comm, &size));
+  const int rank = mpi::rank(mesh.comm), size = mpi::size(mesh.comm);
   requireWritable(mesh, pointFields, cellFields);
 
   const auto path = [&stem](int index) {
@@ -324,8 +301,7 @@ void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Fi
   MPI_Comm sharing = MPI_COMM_NULL;
   check(MPI_Comm_split(mesh.comm, index, rank, &sharing));
   gatherOnFirst(sharing, piece);
-  int place = 0;
-  check(MPI_Comm_rank(sharing, &place));
+  const int place = mpi::rank(sharing);
   check(MPI_Comm_free(&sharing));
 
   // not replace_extension(): the dot of a stem such as steady_0.4 does not start an extension

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/sweep/parameters.hpp"
@@ -23,7 +24,7 @@ std::vector<double> byInterface(const analysis::Analysis& analysis,
   std::vector<double> sums(analysis.model.contact.interfaces.names.size(), 0.0);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     sums[analysis.model.contact.interfaces.nodes[k].interface] += nodes[k];
-  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, analysis.comm));
+  mpi::reduce<double>(analysis.comm, sums, MPI_SUM);
   return sums;
 }
 

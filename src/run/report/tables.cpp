@@ -8,6 +8,7 @@
 #include "base/options/options.hpp"
 #include "base/options/settings.hpp"
 #include "base/session/session.hpp"
+#include "base/system/concatenation.hpp"
 #include "base/system/text.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/pencil/complex_modes.hpp"
@@ -87,16 +88,8 @@ std::string nodeState(const contact::Contact& contact, const steady::Solution& s
 }
 
 std::string gathered(MPI_Comm comm, const std::string& text) {
-  int rank = 0, size = 1, length = text.size();
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Comm_size(comm, &size));
-  std::vector<int> lengths(size), offsets(lengths.size(), 0);
-  check(MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, comm));
-  for (std::size_t r = 1; r < lengths.size(); ++r) offsets[r] = offsets[r - 1] + lengths[r - 1];
-  std::string all(rank == 0 ? offsets.back() + lengths.back() : 0, ' ');
-  check(MPI_Gatherv(text.data(), length, MPI_CHAR, all.data(), lengths.data(), offsets.data(),
-                    MPI_CHAR, 0, comm));
-  return all;
+  const auto all = concatenatedOnFirst<char>(comm, text);
+  return {all.begin(), all.end()};
 }
 
 /// Returns the rows of this rank, which rank 0 gathers.

@@ -100,7 +100,7 @@ class PathTracer {
  public:
   PathTracer(CondensedProblem& problem, const Solution& from, const sweep::Parameters& to)
       : problem_(problem), from_(from.at), to_(to), closed_(from.closed), sticking_(from.sticking) {
-    check(MPI_Comm_rank(comm(), &rank_));
+    rank_ = mpi::rank(comm());
     for (const auto& state : from.contact) forceUnit_ = std::max(forceUnit_, state.normalForce);
     forceUnit_ = mpi::max(comm(), forceUnit_);
     if (forceUnit_ == 0) forceUnit_ = 1;  // no contact forces
@@ -171,19 +171,14 @@ class PathTracer {
     for (std::size_t i = 0; i < values.size(); ++i)
       if (values[i] < worst.margin && !(but && but->rank == rank_ && but->node == i))
         worst.margin = values[i], worst.node = i;
-    struct {
-      double value;
-      int rank;
-    } least{worst.margin, rank_};
-    check(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm()));
-    unsigned long node = worst.node;
-    check(MPI_Bcast(&node, 1, MPI_UNSIGNED_LONG, least.rank, comm()));
-    return {least.value, least.rank, node};
+    const auto least = mpi::minLocated(comm(), worst.margin);
+    mpi::broadcast(comm(), worst.node, least.rank);
+    return {least.value, least.rank, worst.node};
   }
   double marginOf(const Place& place, double s) {
     const auto& values = margins(s);
     double value = rank_ == place.rank ? values[place.node] : 0;
-    check(MPI_Bcast(&value, 1, MPI_DOUBLE, place.rank, comm()));
+    mpi::broadcast(comm(), value, place.rank);
     return value;
   }
   /// Collective. Returns the message that a solution cannot be continued where this node changes.
@@ -193,7 +188,7 @@ class PathTracer {
       const auto& node = problem_.contact().interfaces.nodes[place.node];
       name = {node.position, node.interface, closed_[place.node] != 0};
     }
-    check(MPI_Bcast(&name, sizeof name, MPI_BYTE, place.rank, comm()));
+    mpi::broadcast(comm(), name, place.rank);
     return formatted(
         "the contact node at %s of interface '%s' %s there, and no active set is consistent after "
         "it",

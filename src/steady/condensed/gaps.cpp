@@ -31,19 +31,15 @@ struct GapProblem {
 /// Collective. Names the nodes whose state alternates in the last two Newton steps; empty if there
 /// are none.
 std::string alternating(const GapProblem& problem, const contact::Contact& contact) {
-  const int rank = mpi::rank(problem.comm);
   int count = 0;
   std::size_t one = 0;
   for (std::size_t i = 0; i < problem.nodes && !problem.before.empty(); ++i)
     if (problem.before[i] != problem.contactCase.conditions.free[i] && count++ == 0) one = i;
-  struct {
-    int count, rank;
-  } most{count, rank};
-  check(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_2INT, MPI_MAXLOC, problem.comm));
+  const auto most = mpi::maxLocated(problem.comm, count);
   count = mpi::sum(problem.comm, count);
   if (count == 0) return "";
   mesh::Point position{};
-  if (rank == most.rank) position = contact.interfaces.nodes[one].position;
+  if (mpi::rank(problem.comm) == most.rank) position = contact.interfaces.nodes[one].position;
   mpi::broadcast(problem.comm, position, most.rank);
   return formatted("%d %s in turn, such as that at %s", count,
                    count == 1 ? "contact node opens and closes" : "contact nodes open and close",
@@ -152,14 +148,12 @@ void setPartSolver(SNES snes, GapProblem& problem) {
 bool solveGaps(const GapTask& task, std::vector<double>& gaps, steady::Solution& solution) {
   const MPI_Comm comm = task.contact.mesh->comm;
   const PetscInt n = gaps.size();
-  PetscInt end = 0;
-  check(MPI_Scan(&n, &end, 1, MPIU_INT, MPI_SUM, comm));
   GapProblem problem{.solver = task.solver,
                      .contactCase = task.contactCase,
                      .gapUnit = task.gapUnit,
                      .forceUnit = task.forceUnit,
                      .comm = comm,
-                     .first = end - n,
+                     .first = mpi::sumBefore(comm, n),
                      .nodes = gaps.size()};
   std::fill_n(problem.contactCase.conditions.free.begin(), n,
               1);  // while SNES uses the whole Jacobian

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/petsc/check.hpp"
+#include "base/system/mpi.hpp"
 
 namespace squeal::condensed {
 namespace {
@@ -44,16 +45,15 @@ class Lemke {
         nodes_(contact.interfaces.nodes),
         comm_(contact.mesh->comm),
         asked_(contactCase),
+        rank_(mpi::rank(comm_)),
+        total_(mpi::sum<PetscInt>(comm_, n)),
         open_(n, 0),
         cover_(n) {
-    check(MPI_Comm_rank(comm_, &rank_));
-    PetscInt own = n, end = 0;
-    check(MPI_Scan(&own, &end, 1, MPIU_INT, MPI_SUM, comm_));
-    check(MPI_Allreduce(&own, &total_, 1, MPIU_INT, MPI_SUM, comm_));
+    const PetscInt first = mpi::sumBefore<PetscInt>(comm_, n);
     // No two nodes should reach zero together, as they would in a symmetric brake under equal
     // forces. The fractional parts of the multiples of the golden ratio all differ.
     for (std::size_t i = 0; i < n; ++i) {
-      const double multiple = 0.6180339887498949 * (end - own + i);
+      const double multiple = 0.6180339887498949 * (first + i);
       cover_[i] = 1 + multiple - std::floor(multiple);
     }
   }
@@ -75,8 +75,8 @@ class Lemke {
       if (!(nu < INFINITY)) return false;
       // The pivot node has left zero permanently, and the next one has reached it.
       if (rank_ == pivot_.rank && opens_) open_[pivot_.node] = 1;
-      int wasOpen = rank_ == place.rank && open_[place.node];
-      check(MPI_Bcast(&wasOpen, 1, MPI_INT, place.rank, comm_));
+      bool wasOpen = rank_ == place.rank && open_[place.node];
+      mpi::broadcast(comm_, wasOpen, place.rank);
       if (rank_ == place.rank) open_[place.node] = 0;
       pivot_ = place;
       opens_ = !wasOpen;
@@ -145,7 +145,7 @@ class Lemke {
       for (std::size_t k = 0; k < 3; ++k) atPivot[k] = margin(k, pivot_.node);
       atPivot[3] = opens_ ? unit[n + pivot_.node] : 1;
     }
-    check(MPI_Bcast(atPivot.data(), 4, MPI_DOUBLE, pivot_.rank, comm_));
+    mpi::broadcast(comm_, atPivot, pivot_.rank);
     const auto [a, b, c, alone] = atPivot;
     if (!(b != 0)) return false;
     lambda_ = {-a / b, (opens_ ? -c : 1) / b};
@@ -173,12 +173,8 @@ class Lemke {
   }
   /// Collective. Returns the least value of all ranks and its place.
   std::pair<double, Place> leastOf(double value, Place place) const {
-    struct {
-      double value;
-      int rank;
-    } least{value, rank_};
-    check(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm_));
-    check(MPI_Bcast(&place.node, 1, MPIU_INT, least.rank, comm_));
+    const auto least = mpi::minLocated(comm_, value);
+    mpi::broadcast(comm_, place.node, least.rank);
     place.rank = least.rank;
     return {least.value, place};
   }
@@ -187,8 +183,8 @@ class Lemke {
   const std::vector<contact::ContactNode>& nodes_;
   MPI_Comm comm_;
   const ContactCase& asked_;
-  int rank_ = 0;
-  PetscInt total_ = 0;         // contact nodes of all ranks
+  int rank_;
+  PetscInt total_;             // contact nodes of all ranks
   contact::Mask open_;         // [contact node]
   std::vector<double> cover_;  // [contact node] d, N
   Place pivot_;                // the node with zero gap and force, one of which grows

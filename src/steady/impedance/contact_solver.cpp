@@ -124,9 +124,7 @@ ContactSolver::ContactSolver(const Impedance& impedance)
       columns_(impedance.length()),
       magnitudes_(impedance.nodes()),
       responses_(impedance.length()) {
-  const PetscInt own = impedance.nodeOf().size();
-  check(MPI_Scan(&own, &first_, 1, MPIU_INT, MPI_SUM, impedance.comm()));
-  first_ -= own;
+  first_ = mpi::sumBefore<PetscInt>(impedance.comm(), impedance.nodeOf().size());
 }
 
 ContactSolver::~ContactSolver() = default;

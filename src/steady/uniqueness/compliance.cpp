@@ -10,6 +10,7 @@
 #include "algebra/linalg/block.hpp"
 #include "base/options/options.hpp"
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "model/interfaces/algebra.hpp"
 
 namespace squeal::uniqueness {
@@ -37,8 +38,7 @@ OpenContact::OpenContact(const contact::Contact& contact, Mat stiffness,
       ownedSize_(contact.interfaces.nodes.size()) {
   const contact::Mask all(contact.interfaces.nodes.size(), 1);
   transformation_ = contact.transformation(contact::ActiveSet::open(all.size()));
-  check(MPI_Scan(&ownedSize_, &first_, 1, MPIU_INT, MPI_SUM, contact.mesh->comm));
-  first_ -= ownedSize_;
+  first_ = mpi::sumBefore(contact.mesh->comm, ownedSize_);
 
   check(MatPtAP(stiffness, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                 stiffness_.out()));
@@ -112,11 +112,8 @@ Compliance OpenContact::dense() const {
       }
     }
   }
-  // Every entry has one or two nonzero parts, so the sums are equal on all ranks. The reduction
-  // runs column by column, since n² may exceed an int.
-  for (auto* a : {&compliance.a0, &compliance.a1})
-    for (PetscInt j = 0; j < size_; ++j)
-      check(MPI_Allreduce(MPI_IN_PLACE, a->column(j).data(), size_, MPI_DOUBLE, MPI_SUM, comm()));
+  // Every entry has one or two nonzero parts, so the sums are equal on all ranks.
+  for (auto* a : {&compliance.a0, &compliance.a1}) mpi::reduce(comm(), a->entries(), MPI_SUM);
   return compliance;
 }
 

@@ -5,7 +5,8 @@ import numpy as np
 from squeal.deck.bdf.cards import Card
 from squeal.deck.bdf.columns import integers, reals, table_of
 from squeal.deck.journal import USED, Fault
-from squeal.deck.model import EMPTY, Value
+from squeal.deck.mesh import EMPTY
+from squeal.deck.model import Value
 
 SUPPORTS = {"", "0"}
 IDENTITY, PLACE, SYSTEM, TURN, HELD, SUPER = 0, 1, slice(2, 5), 5, 6, 7  # fields of GRID

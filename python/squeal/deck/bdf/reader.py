@@ -14,7 +14,8 @@ from squeal.deck.bdf.lines import read_sections
 from squeal.deck.bdf.solids import KINDS, Solids
 from squeal.deck.bdf.systems import Systems
 from squeal.deck.journal import UNUSED, USED, Fault
-from squeal.deck.model import EMPTY, Model
+from squeal.deck.mesh import EMPTY
+from squeal.deck.model import Model
 
 WORDS = {
     **{"SOLID SECTION": "PSOLID", "ELASTIC": "MAT1 or MAT9", "DENSITY": "RHO"},

@@ -5,7 +5,7 @@ import numpy as np
 
 from squeal.deck.bdf.handlers import handles
 from squeal.deck.journal import TRANSLATED, USED, Fault
-from squeal.deck.model import EMPTY, Surface
+from squeal.deck.mesh import EMPTY, Surface
 
 FACING = -0.7  # cosine between the normals of two faces that face each other, at most
 NEIGHBOURS = 12  # faces of the other body that are looked at

@@ -12,7 +12,8 @@ from squeal.deck.bdf.cards import Card
 from squeal.deck.bdf.columns import integers, table_of
 from squeal.deck.cells import HEX8, HEX20, PYRAMID5, PYRAMID13, TET4, TET10, WEDGE6, WEDGE15
 from squeal.deck.journal import USED, Fault
-from squeal.deck.model import Block, Equation
+from squeal.deck.mesh import Block
+from squeal.deck.model import Equation
 
 # Shapes without and with nodes on edges, and the place in Nastran's order of each of our nodes.
 KINDS = {

@@ -4,9 +4,10 @@ PELAS, PDAMP and PBUSH."""
 import numpy as np
 
 from squeal.deck.attachments import Bushing, PointInertia
+from squeal.deck.axes import Frame
 from squeal.deck.bdf.handlers import handles
 from squeal.deck.journal import UNUSED, USED, Fault
-from squeal.deck.model import Equation, Frame
+from squeal.deck.model import Equation
 
 COINCIDENT = 1e-4  # distance below which the ends of CBUSH coincide for Nastran
 

@@ -12,7 +12,8 @@ from squeal.deck.bdf.contacts import parameters_of
 from squeal.deck.bdf.handlers import handles
 from squeal.deck.bdf.regions import region_of
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault, Source
-from squeal.deck.model import EMPTY, Motion, Squeal, Surface
+from squeal.deck.mesh import EMPTY, Surface
+from squeal.deck.model import Motion, Squeal
 
 ROUND = 60.0  # largest gap between the nodes of a disc around its axis, in degrees
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from squeal.deck.axes import Frame
 from squeal.deck.journal import USED, Fault, Source
-from squeal.deck.model import Frame
 
 KINDS = {"R": "rectangular", "C": "cylindrical", "S": "spherical"}
 # Distance from the axis over that from the origin: points without a radial direction, and those

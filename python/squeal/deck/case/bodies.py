@@ -3,8 +3,9 @@
 import numpy as np
 
 from squeal.deck.case.groups import CELLS
-from squeal.deck.journal import TRANSLATED, UNUSED
-from squeal.deck.model import EMPTY
+from squeal.deck.case.pieces import Piece, bodies_of, instances_of
+from squeal.deck.journal import TRANSLATED, UNUSED, Fault
+from squeal.deck.mesh import EMPTY
 
 REDUCED = {"C3D20R", "CHEXA20_TWO"}
 # Hexahedra without and with incompatible modes.
@@ -17,6 +18,7 @@ COARSER = {
     "C3D10": "its frequencies differ by up to 0.06 %",
     "C3D15": "its displacements differ by 0.01 % and its frequencies by 0.07 %",
 }
+BY_VOLUME = ("FORCE", "CENT")  # loads whose acceleration depends on the density
 OPTION = {
     **{"engineering": "engineering_constants", "orthotropic": "orthotropic"},
     "anisotropic": "anisotropic",
@@ -31,28 +33,77 @@ def add_bodies(model, case, journal):
         if not journal.incomplete:
             journal.refuse_model("the deck has no solid elements")
         return
+    pieces = _pieces(model, solids, numbers, journal)
+    instances = [piece.instance for piece in pieces]
+    for body in bodies_of(pieces, model):
+        instance = body[0].instance
+        whole = instance >= 0 and instances.count(instance) == len(body)
+        wanted = model.instances[instance].name if whole else ""
+        name = _body(body, wanted, model, case, journal)
+        case.bodies[name] = np.concatenate([piece.cells for piece in body])
+        chosen = [model.state.body_loads[number] for number in body[0].loads]
+        _body_loads(case, journal, name, chosen, body[0].density)
+    _element_options(model, case, journal, solids)
+
+
+def _pieces(model, solids, numbers, journal):
+    """Divides the cells by section, quadrature, instance and loads."""
     reduced = np.concatenate(
         [np.full(len(block.numbers), block.kind in REDUCED) for block in solids]
     )
     sections = _sections(model, numbers, journal)
     loads = model.state.body_loads
     acting = [np.isin(numbers, load.elements) for load in loads]
-    features = np.column_stack([sections, reduced, *acting]).astype(np.int64)
-    kinds, inverse = np.unique(features, axis=0, return_inverse=True)
-    for number, (section, fully, *acts) in enumerate(kinds):
+    columns = [sections, reduced, instances_of(model, numbers), *acting]
+    kinds, inverse = np.unique(np.column_stack(columns), axis=0, return_inverse=True)
+    pieces = []
+    for number, (section, fully, instance, *acts) in enumerate(kinds.tolist()):
         if section < 0:
             continue
-        cells = numbers[inverse == number]
-        chosen = [load for load, on in zip(loads, acts) if on]
-        one = model.sections[section]
-        name = case.group(CELLS, cells, model.element_sets.spelled[one.label])
-        _material(model, case, journal, name, one, chosen)
-        if fully:
-            case.set(("material", name, "integration"), "reduced", one.source)
-        material = model.materials.get(one.material)
-        density = material.density if material and material.density else 1.0
-        _body_loads(case, journal, name, chosen, density)
-    _element_options(model, case, journal, solids)
+        chosen = tuple(np.flatnonzero(acts).tolist())
+        piece = Piece(section, bool(fully), instance, chosen, numbers[inverse == number])
+        material = model.materials.get(model.sections[section].material)
+        if any(loads[one].kind in BY_VOLUME for one in chosen):
+            # A material without density is refused.
+            piece.density = material.density if material and material.density else 1.0
+        pieces.append(piece)
+    return pieces
+
+
+def _body(pieces, wanted, model, case, journal):
+    """Sets the materials of the pieces of a body, and returns its name."""
+    if len(pieces) == 1:
+        return _section(pieces[0], wanted, model, case, journal)
+    names = [_section(piece, "", model, case, journal) for piece in pieces]
+    cells = np.sort(np.concatenate([piece.cells for piece in pieces]))
+    name = wanted or _set_of(cells, model) or f"{names[0]}_and_more"
+    name = case.reserve(name, CELLS)
+    source = model.sections[pieces[0].section].source
+    case.set(("material", name, "sections"), ",".join(names), source)
+    return name
+
+
+def _set_of(cells, model):
+    """Returns the name of an element set with exactly these cells, or an empty text."""
+    sets = model.element_sets
+    for key in sets:
+        try:
+            if np.array_equal(np.sort(sets.members(key)), cells):
+                return sets.spelled[key]
+        except Fault:
+            continue  # refused where it is used
+    return ""
+
+
+def _section(piece, wanted, model, case, journal):
+    """Sets the material of a piece, and returns the name of its group."""
+    one = model.sections[piece.section]
+    name = case.group(CELLS, piece.cells, wanted or model.element_sets.spelled[one.label])
+    loads = [model.state.body_loads[number] for number in piece.loads]
+    _material(model, case, journal, name, one, loads)
+    if piece.reduced:
+        case.set(("material", name, "integration"), "reduced", one.source)
+    return name
 
 
 def _sections(model, numbers, journal):
@@ -64,7 +115,7 @@ def _sections(model, numbers, journal):
             journal.mark(section.source, UNUSED, "its set has no solid elements")
         elif np.any(sections[on] >= 0):
             twice = numbers[on & (sections >= 0)][0]
-            journal.refuse(section.source, f"element {twice} has two sections")
+            journal.refuse(section.source, f"element {model.element_label(twice)} has two sections")
         sections[on] = number
     if np.any(sections < 0):
         missing, card = numbers[sections < 0], model.word("SOLID SECTION")
@@ -107,6 +158,9 @@ def _orientation(model, case, journal, path, section, material):
         journal.refuse(section.source, f"there is no orientation '{section.orientation}'")
     elif material.law == "isotropic":
         journal.mark(frame.source, UNUSED, "without effect on an isotropic material")
+    elif frame.turn:
+        journal.mark(frame.source, TRANSLATED)
+        case.set((*path, "frame"), case.frame(frame), frame.source)
     elif frame.cylindrical:
         journal.mark(frame.source, TRANSLATED)
         case.set((*path, "cylindrical"), [*frame.a, *(frame.b - frame.a)], frame.source)

@@ -17,7 +17,9 @@ def add_bolts(model, case, journal, faces):
 
 def _bolt(bolt, model, case, journal, faces):
     if bolt.force is None:
-        raise Fault(f"no *CLOAD gives the tension at component 1 of node {bolt.node}")
+        raise Fault(
+            f"no *CLOAD gives the tension at component 1 of node {model.node_label(bolt.node)}"
+        )
     surface = model.surfaces[bolt.surface]
     rows = np.column_stack([surface.elements, surface.faces])
     nodes = faces.nodes(rows)
@@ -46,4 +48,7 @@ def _normal(points):
     """Returns the outward normal of a face at its first corner."""
     corners = 3 if len(points) in (3, 6) else 4
     normal = np.cross(points[1] - points[0], points[corners - 1] - points[0])
-    return normal / np.linalg.norm(normal)
+    length = np.linalg.norm(normal)
+    if length == 0:
+        raise Fault("a face of the section of a bolt has no area")
+    return normal / length

@@ -2,7 +2,7 @@
 """Checks of a model before it is translated."""
 import numpy as np
 
-from squeal.deck.model import EMPTY
+from squeal.deck.mesh import EMPTY
 
 
 def check_mesh(model, journal):
@@ -15,7 +15,9 @@ def check_mesh(model, journal):
             row = np.flatnonzero(~np.all(there, axis=1))[0]
             missing = block.nodes[row][~there[row]][0]
             journal.refuse(
-                block.source, f"element {block.numbers[row]}: there is no node {missing}"
+                block.source,
+                f"element {model.element_label(block.numbers[row])}: there is no node"
+                f" {model.node_label(missing)}",
             )
             complete = False
     numbers = np.concatenate([EMPTY, *(block.numbers for block in model.blocks)])
@@ -25,7 +27,9 @@ def check_mesh(model, journal):
             complete = False
     values, counts = np.unique(numbers, return_counts=True)
     if np.any(counts > 1):
-        journal.refuse_model(f"element {values[counts > 1][0]} is defined twice")
+        journal.refuse_model(
+            f"element {model.element_label(values[counts > 1][0])} is defined twice"
+        )
         complete = False
     repeated = model.nodes.repeated
     if repeated:
@@ -43,7 +47,8 @@ def check_elements(model, journal):
         if block.shape is None and block.kind != "DCOUP3D":
             lacking = np.setdiff1d(block.numbers, np.concatenate([EMPTY, *described]))
             if len(lacking):
-                reason = f"element {lacking[0]} of type {block.kind} has no stiffness or mass"
+                number = model.element_label(lacking[0])
+                reason = f"element {number} of type {block.kind} has no stiffness or mass"
                 journal.refuse(block.source, reason, block.kind)
         elif block.shape is None and not np.all(np.isin(block.nodes, references)):
             journal.refuse(block.source, "no *DISTRIBUTING COUPLING has this element", block.kind)
@@ -54,7 +59,9 @@ def check_elements(model, journal):
 def _check_load(model, journal, load):
     blocks, _ = model.find_elements(load.elements)
     if len(blocks) and np.all(blocks < 0) and not journal.incomplete:
-        journal.refuse(load.source, f"there is no element {load.elements[0]}", load.kind)
+        journal.refuse(
+            load.source, f"there is no element {model.element_label(load.elements[0])}", load.kind
+        )
     elif np.any(blocks < 0):
         missing = load.elements[blocks < 0]
         journal.remark(load.source, f"{len(missing)} of its elements are not there")

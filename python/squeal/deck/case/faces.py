@@ -23,10 +23,12 @@ class Faces:
             on = np.flatnonzero(blocks == number)
             block = self.model.blocks[number] if number >= 0 else None
             if block is None or block.shape is None:
-                raise Missing(f"element {rows[on[0], 0]} is not a solid element")
+                raise Missing(f"element {self._element(rows[on[0]])} is not a solid element")
             wrong = on[(rows[on, 1] < 0) | (rows[on, 1] >= len(block.shape.faces))]
             if len(wrong):
-                raise Fault(f"element {rows[wrong[0], 0]} has {len(block.shape.faces)} faces")
+                raise Fault(
+                    f"element {self._element(rows[wrong[0]])} has {len(block.shape.faces)} faces"
+                )
             for face, nodes in enumerate(block.shape.faces):
                 chosen = on[rows[on, 1] == face]
                 if len(chosen):
@@ -60,4 +62,7 @@ class Faces:
                         raise Fault(self._inside(rows[wanted[key]]))
 
     def _inside(self, row):
-        return f"face {row[1] + 1} of element {row[0]} lies between two elements"
+        return f"face {row[1] + 1} of element {self._element(row)} lies between two elements"
+
+    def _element(self, row):
+        return self.model.element_label(int(row[0]))

@@ -16,7 +16,9 @@ class Case:
     def __init__(self):
         self.options = {}
         self.groups = {NODES: {}, FACES: {}, CELLS: {}}
+        self.bodies = {}  # name -> numbers of their cells
         self._names = {}
+        self._reserved = set()
 
     def set(self, path, value, source=None):
         """Sets an option: `path` is a prefix, a name and a key, or a prefix and a key. Raises Fault
@@ -49,11 +51,20 @@ class Case:
         else:
             self.set((*path, "x"), frame.a, frame.source)
             self.set((*path, "xy"), frame.b, frame.source)
+        if frame.turn:
+            self.set((*path, "turn"), frame.turn[1], frame.source)
+            self.set((*path, "turn_about"), "xyz"[frame.turn[0]], frame.source)
         return path[1]
+
+    def reserve(self, wanted, dimension):
+        """Returns a name that no group has or will get."""
+        name = self.free_name(wanted, dimension)
+        self._reserved.add(name)
+        return name
 
     def free_name(self, wanted, dimension):
         """Returns a name that no group has; of a blank it makes an underscore."""
-        taken = set().union(*self.groups.values())
+        taken = self._reserved.union(*self.groups.values())
         name = clean(wanted)
         if name.startswith("reference_"):  # names of reference nodes
             name = f"set_{name}"

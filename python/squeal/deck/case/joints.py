@@ -84,7 +84,7 @@ def _mean(mean, model, roles, case, places):
 
 
 def _rigid(rigid, model, roles, case, places):
-    if not rigid.components:
+    if not rigid.components or rigid.reference not in roles.references:
         return  # refused with its role
     numbers, wanted = _coupled_nodes(rigid, model, places.faces)
     if roles.in_cells(rigid.reference) and not _follows_itself(rigid.reference, model):
@@ -130,15 +130,23 @@ def _coupled_nodes(rigid, model, faces):
     """Returns the nodes of a rigid body or of a coupling, and a name for their group."""
     if rigid.surface is None:
         sets = model.node_sets if rigid.label in model.node_sets else model.element_sets
-        return rigid.nodes.tolist(), sets.spelled[rigid.label]
+        return rigid.nodes.tolist(), sets.spelled.get(rigid.label, rigid.label)
     surface = model.surfaces[rigid.surface]
     if surface.nodes is not None:
-        return surface.nodes.tolist(), surface.name
+        return _within(surface.nodes, rigid, model), surface.name
     rows = np.column_stack([surface.elements, surface.faces])
     tables = [table.ravel() for _, table in faces.tables(rows)]
     if not tables:
         raise Fault(f"the surface '{surface.name}' has no faces")
-    return np.unique(np.concatenate(tables)).tolist(), surface.name
+    return _within(np.unique(np.concatenate(tables)), rigid, model), surface.name
+
+
+def _within(nodes, rigid, model):
+    """Returns the nodes in the radius of influence of a coupling."""
+    if rigid.radius is not None:
+        away = model.nodes.at(nodes) - model.nodes.at([rigid.reference])
+        nodes = nodes[np.linalg.norm(away, axis=1) <= rigid.radius]
+    return nodes.tolist()
 
 
 def _joint(joint, model, roles, case, places):
@@ -148,7 +156,7 @@ def _joint(joint, model, roles, case, places):
             continue
         for node in nodes:
             roles.place(node, 0)
-        path = ("spring", f"element_{number}")
+        path = ("spring", _element(number, model))
         case.set((*path, "from"), roles.name(nodes[0]), joint.source)
         case.set((*path, "to"), roles.name(nodes[1]), joint.source)
         for key, value in (("stiffness", joint.stiffness), ("damping", joint.damping)):
@@ -156,22 +164,27 @@ def _joint(joint, model, roles, case, places):
                 case.set((*path, key), value, joint.source)
 
 
+def _element(number, model):
+    return f"element_{clean(model.element_name(number))}"
+
+
 def _of_components(joint, number, nodes, roles, case):
     """A spring of one component, or between two: as a bushing to the ground if that component is
     global, otherwise by a reference node whose displacement x is the elongation."""
     terms = [(node, at, sign) for node, at, sign in zip(nodes, joint.components, (1.0, -1.0))]
     found = roles.global_terms(terms)
+    element = _element(number, roles.model)
     if len(found) == 1:
         ((name, component, _),) = found
     else:
-        name, component = f"reference_element_{number}", 0
+        name, component = f"reference_{element}", 0
         equation = [(name, 0, 1.0), *((place, at, -value) for place, at, value in found)]
-        set_equation(case, f"element_{number}", equation, joint.source)
+        set_equation(case, element, equation, joint.source)
         position = roles.model.nodes.at([nodes[0]])[0]
         case.set(("reference", name, "position"), position, joint.source)
         case.set(("constraint", name, "clamped"), "yz", joint.source)
         case.set(("constraint", name, "clamped_rotation"), "xyz", joint.source)
-    path = ("bushing", f"element_{number}")
+    path = ("bushing", element)
     case.set((*path, "from"), name, joint.source)
     for key, value in (("stiffness", joint.stiffness), ("damping", joint.damping)):
         if value:
@@ -203,4 +216,4 @@ def _require_masses(model, places, journal):
             continue
         for _, nodes in elements_in(model, mass.label):
             if places.masses.get(nodes[0], (1.0, None))[0] == 0:
-                journal.refuse(mass.source, f"node {nodes[0]} has no *MASS")
+                journal.refuse(mass.source, f"node {model.node_label(nodes[0])} has no *MASS")

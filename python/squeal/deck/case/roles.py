@@ -6,9 +6,9 @@ nothing uses have no stiffness, and the case holds them.
 """
 import numpy as np
 
-from squeal.deck.case.groups import NODES
+from squeal.deck.case.groups import NODES, clean
 from squeal.deck.journal import TRANSLATED, Fault, Missing
-from squeal.deck.model import EMPTY
+from squeal.deck.mesh import EMPTY
 
 
 class Roles:
@@ -33,9 +33,9 @@ class Roles:
             if self.is_used(number) and number not in self.used or not model.nodes.has(number):
                 continue
             self.used.setdefault(number, set()).update(self._span(number, component))
-            self.references[number] = f"reference_{number}"
+            self.references[number] = self._reference(number)
         for rigid in model.rigid:
-            self._follow(rigid)
+            self._join_loose(rigid)
 
     def _span(self, number, component):
         """Returns the global components that a component in the axes of a node may have a part
@@ -44,29 +44,44 @@ class Roles:
             return {component}
         return set(range(3) if component < 3 else range(3, 6))
 
-    def _follow(self, rigid):
-        """A reference node that follows another one has its components."""
-        turning = () if rigid.pinned else (3, 4, 5)
-        joined = range(3) if rigid.frame is not None else rigid.components
-        for number in rigid.nodes.tolist() if rigid.nodes is not None else ():
-            if number != rigid.reference and number in self.references:
-                table = self.used if number in self.used else self.joined
-                table.setdefault(number, set()).update((*joined, *turning))
+    def _reference(self, number):
+        return f"reference_{clean(self.model.node_name(number))}"
+
+    def _join_loose(self, rigid):
+        """Loose nodes that a coupling moves: those that something else refers to become reference
+        nodes, which need no support."""
+        nodes = rigid.nodes if rigid.surface is None else self.model.surfaces[rigid.surface].nodes
+        if nodes is None or not rigid.components or rigid.distributed:
+            return
+        state = self.model.state
+        referred = {number for table in (state.forces, state.supports) for number, _ in table}
+        referred -= {*self.references, *self.rotations}
+        loose = np.setdiff1d(nodes, self.cell_nodes)
+        for number in loose[self.model.nodes.has(loose)].tolist():
+            if number in referred:
+                self.references[number] = self._reference(number)
+                self.used[number] = set()
+            table = self.used if number in self.used else self.joined
+            if number in table and number != rigid.reference:
+                turned = rigid.frame is not None
+                table[number].update(range(3) if turned else rigid.components)
+                table[number].update(() if rigid.pinned else (3, 4, 5))
 
     def _rigid(self, rigid):
+        label = self.model.node_label
         others = [one for one in self.model.rigid if one.reference == rigid.reference]
         if rigid.name is None and others[0] is not rigid:
-            raise Fault(f"node {rigid.reference} is the REF NODE of two rigid bodies")
+            raise Fault(f"node {label(rigid.reference)} is the REF NODE of two rigid bodies")
         if not rigid.components:
             raise Fault("no *KINEMATIC or *DISTRIBUTING follows this card")
         if rigid.distributed and self.in_cells(rigid.reference):
-            raise Fault(f"the reference node {rigid.reference} belongs to solid cells")
-        name = self.references[rigid.reference] = f"reference_{rigid.reference}"
+            raise Fault(f"the reference node {label(rigid.reference)} belongs to solid cells")
+        name = self.references[rigid.reference] = self._reference(rigid.reference)
         joined = range(3) if rigid.frame is not None else rigid.components
         self.joined.setdefault(rigid.reference, {3, 4, 5}).update(joined)
         if rigid.rotation is not None:
             if rigid.rotation in self.rotations or rigid.rotation in self.references:
-                raise Fault(f"node {rigid.rotation} has two roles in rigid bodies")
+                raise Fault(f"node {label(rigid.rotation)} has two roles in rigid bodies")
             self.rotations[rigid.rotation] = name
 
     def _uses(self):
@@ -90,8 +105,7 @@ class Roles:
         yield from self._attached()
 
     def _attached(self):
-        """Uses of bushings, masses with inertia and distributed couplings, and of the loads and
-        supports of nodes that follow others."""
+        """Uses of bushings, masses with inertia and distributed couplings."""
         model = self.model
         for one in model.bushings:
             ends = [one.first] if one.second is None else [one.first, one.second]
@@ -101,12 +115,6 @@ class Roles:
         for one in model.distributed:
             yield from ((one.reference, at) for at in range(6))
             yield from ((node, at) for node in one.nodes.tolist() for at in range(3))
-        states = set(model.state.forces) | set(model.state.supports)
-        touched = {number for number, _ in states}
-        for rigid in model.rigid:
-            for number in rigid.nodes.tolist() if rigid.nodes is not None else ():
-                if number in touched and not self.in_cells(number):
-                    yield from ((number, at) for at in rigid.components)
 
     def in_cells(self, number):
         at = np.searchsorted(self.cell_nodes, number)
@@ -118,26 +126,29 @@ class Roles:
     def place(self, number, component):
         """Returns the name of a reference node, or None for a node of cells, and the component
         there. Raises Fault for a component without a meaning."""
+        label = self.model.node_label
         if number in self.rotations:
             if component > 2:
-                raise Fault(f"node {number} has the components 1 to 3, which are rotations")
+                raise Fault(f"node {label(number)} has the components 1 to 3, which are rotations")
             if number in self.model.frames:
-                raise Fault(f"node {number}, whose components are rotations, has a *TRANSFORM")
+                raise Fault(
+                    f"node {label(number)}, whose components are rotations, has a *TRANSFORM"
+                )
             return self.rotations[number], component + 3
         if number in self.references:
             return self.references[number], component
         if not self.in_cells(number):
             self.model.nodes.at([number])
-            raise Missing(f"node {number} belongs to no element that is translated")
+            raise Missing(f"node {label(number)} belongs to no element that is translated")
         if component > 2:
-            raise Fault(f"node {number} of solid cells has no rotations")
+            raise Fault(f"node {label(number)} of solid cells has no rotations")
         return None, component
 
     def name(self, number):
         """Returns the name by which an option refers to one node."""
         if number in self.references:
             return self.references[number]
-        return self.case.group(NODES, [number], f"node_{number}")
+        return self.case.group(NODES, [number], f"node_{self.model.node_name(number)}")
 
     def global_terms(self, terms, own_axes=True):
         """Returns terms (name, component, coefficient) in global axes of terms of nodes in their

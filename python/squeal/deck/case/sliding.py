@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from squeal.deck.case.groups import CELLS, clean
+from squeal.deck.case.groups import clean
 from squeal.deck.journal import TRANSLATED, Fault
-from squeal.deck.model import EMPTY, Motion
+from squeal.deck.mesh import EMPTY
+from squeal.deck.model import Motion
 
 PRECISION = 0.02  # of a small turn that is taken as a rigid motion: finite turns are not linear
 EXACT = 1e-4  # of a finite turn, whose displacements are written with few digits
@@ -29,8 +30,8 @@ class Bodies:
 
     def __init__(self, model, case):
         self.model = model
-        self.names = list(case.groups[CELLS])
-        self.cells = [case.groups[CELLS][name] for name in self.names]
+        self.names = list(case.bodies)
+        self.cells = list(case.bodies.values())
         self.nodes = [self._nodes_of(cells) for cells in self.cells]
 
     def _nodes_of(self, cells):
@@ -90,12 +91,7 @@ def rigid_nodes(rigid, model):
     surface = model.surfaces[rigid.surface]
     if surface.nodes is not None:
         return surface.nodes
-    blocks, rows = model.find_elements(surface.elements)
-    parts = [
-        model.blocks[block].nodes[row, list(model.blocks[block].shape.faces[face])]
-        for block, row, face in zip(blocks, rows, surface.faces)
-    ]
-    return np.unique(np.concatenate([EMPTY, *parts]))
+    return _surface_nodes(model, rigid.surface)
 
 
 def moving_bodies(model, bodies, case, journal, faces):

@@ -60,7 +60,7 @@ class Places:
             if len(labels) == 1 and None not in labels:
                 wanted = self.roles.model.node_sets.spelled.get(next(iter(labels)), wanted)
             elif len(numbers) == 1:
-                wanted = f"node_{numbers[0]}"
+                wanted = f"node_{self.roles.model.node_name(numbers[0])}"
             yield self.case.group(NODES, numbers, wanted), len(numbers), frame, values
 
 

@@ -47,9 +47,12 @@ def _tie_of_faces(tie, slave, master, model, case, journal, faces):
         case.set((*path, "tolerance"), tie.tolerance, tie.source)
     if not tie.adjust:
         case.set((*path, "adjust"), False, tie.source)
-    if model.program != "Abaqus":
+    other = "" if model.program == "Abaqus" else ", not node by node as in CalculiX"
+    journal.choose(f"{tie.source}: the faces are tied by a mortar method{other}")
+    if tie.tolerance is None:
         journal.choose(
-            f"{tie.source}: the faces are tied by a mortar method, not node by node as in CalculiX"
+            f"{tie.source}: without POSITION TOLERANCE, faces are tied up to a distance of half"
+            " their size"
         )
 
 

@@ -9,10 +9,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from squeal.deck.axes import rotation_about
 from squeal.deck.inp.cards import key_of
 from squeal.deck.inp.handlers import Handler, settle
 from squeal.deck.journal import UNUSED, USED, Fault
-from squeal.deck.model import Nodes
+from squeal.deck.mesh import Nodes
 from squeal.deck.numbers import real
 
 ENDS = {"END PART": "PART", "END INSTANCE": "INSTANCE", "END ASSEMBLY": "ASSEMBLY"}
@@ -30,6 +31,46 @@ OF_MODEL = {
 
 
 @dataclass(eq=False)
+class Numbers:
+    """Numbers of nodes or elements (`what`) of a scope. The model has them plus `offset`, so that
+    those of scopes do not meet: `top` is the largest one that the scope has named, and when it is
+    `closed`, larger ones do not exist."""
+
+    what: str
+    owner: str = ""
+    offset: int = 0
+    top: int = 0
+    closed: bool = False
+
+    def shifted(self, numbers, line=None):
+        """Returns the numbers of the model of an array. Raises Fault for those outside."""
+        if not len(numbers):
+            return numbers
+        low, high = int(np.min(numbers)), int(np.max(numbers))
+        if self.offset and low < 1 or self.owner and low < 1:
+            raise Fault(f"{self.what} {low}: numbers are 1 or more", line=line)
+        if self.closed and high > self.top:
+            raise Fault(f"there is no {self.what} {high} of {self.owner}", line=line)
+        self.top = max(self.top, high)
+        return numbers + self.offset
+
+    def one(self, number, line=None):
+        return int(self.shifted(np.array([number], np.int64), line)[0])
+
+    def close(self, largest):
+        """`largest`: the largest number of the model that the scope has made."""
+        self.top = max(self.top, largest - self.offset)
+        self.closed = bool(self.owner)
+
+    def made(self, numbers, line=None):
+        """Returns numbers of the model that the scope makes. Raises Fault for those below it."""
+        if len(numbers) and int(np.min(numbers)) <= self.offset:
+            low = int(np.min(numbers)) - self.offset
+            raise Fault(f"{self.what} {low}: numbers are 1 or more", line=line)
+        return numbers
+
+
+@dataclass(eq=False)
 class Scope:
     """An instance, or the model with its assembly (without a name). `nodes` have their final
     numbers, and coordinates in the axes of the part."""
@@ -38,11 +79,20 @@ class Scope:
     prefix: str = ""
     cards: list = field(default_factory=list)
     nodes: Nodes = field(default_factory=Nodes)
-    node_offset: int = 0
-    element_offset: int = 0
+    node_numbers: Numbers = field(default_factory=lambda: Numbers("node"))
+    element_numbers: Numbers = field(default_factory=lambda: Numbers("element"))
     translation: np.ndarray = field(default_factory=lambda: np.zeros(3))
     rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
     system: object = None  # origin and axes of *SYSTEM
+
+    def open(self, before):
+        """Numbers begin above those of the scopes before."""
+        for own, others in (
+            (self.node_numbers, [one.node_numbers for one in before]),
+            (self.element_numbers, [one.element_numbers for one in before]),
+        ):
+            own.owner = self.name
+            own.offset = _above(max((one.offset + one.top for one in others), default=0))
 
     @property
     def turned(self):
@@ -150,6 +200,13 @@ class Structure:
         raise Fault(f"there is no instance '{name}'")
 
 
+def _above(number):
+    """Returns an offset that is not less than a number and has few digits that are not zero, so
+    that one can read the number in the part from the shifted one."""
+    unit = 10 ** max(len(str(number)) - 1, 0)
+    return -(-number // unit) * unit
+
+
 def position_of(card):
     """Returns vector and matrix of x ↦ R x + t of a card with a translation, and then a rotation
     about the line from a to b by an angle in degrees."""
@@ -173,16 +230,3 @@ def position_of(card):
         raise Fault("the two points of the axis coincide", line=line)
     matrix = rotation_about(b - a, numbers[6])
     return matrix @ (shift - a) + a, matrix
-
-
-def rotation_about(axis, degrees):
-    """Returns the matrix of a right-handed rotation; multiples of 90° about axes are exact."""
-    x, y, z = axis / np.linalg.norm(axis)
-    quarter, rest = divmod(degrees, 90.0)
-    angle = np.radians(rest)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    for _ in range(int(quarter) % 4):
-        cosine, sine = -sine, cosine
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    line = np.outer([x, y, z], [x, y, z])
-    return cosine * np.eye(3) + sine * cross + (1 - cosine) * line

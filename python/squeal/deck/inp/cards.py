@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass, field
 
 from squeal.deck.inp.dialect import NAMES
-from squeal.deck.journal import Fault, Source
+from squeal.deck.journal import Fault, LineOfFile, Source
 
 FLAGS = {"GENERATE", "NLGEOM", "PERTURBATION", "FIXED", "SUBMODEL", "DIRECT", "INTERNAL"}
 
@@ -89,7 +89,10 @@ def read_cards(lines, dialect, journal):
             cards.append(_card(line, text, dialect, journal))
             journal.open(cards[-1].source)
         elif cards:
-            cards[-1].data.append((line.number, line.text))
+            number = line.number
+            if line.file != cards[-1].source.file:
+                number = LineOfFile(number, line.file)
+            cards[-1].data.append((number, line.text))
         else:
             source = Source(line.file, line.number, "(no card)")
             journal.refuse(source, "a line of data before the first card")

@@ -14,6 +14,7 @@ FREE = "rotations that some nodes share with a reference node, and others do not
 @handles(
     "RIGID BODY",
     used=("NSET", "ELSET", "PIN NSET", "TIE NSET", "REF NODE", "ROT NODE", "POSITION"),
+    idle=("ISOTHERMAL",),
     lines=0,
 )
 def rigid_body(card, reader):
@@ -52,7 +53,11 @@ def _require_no_rotations(nodes, reader):
         raise Fault(FREE)
 
 
-@handles("COUPLING", used=("REF NODE", "SURFACE", "CONSTRAINT NAME", "ORIENTATION"), lines=0)
+@handles(
+    "COUPLING",
+    used=("REF NODE", "SURFACE", "CONSTRAINT NAME", "ORIENTATION", "INFLUENCE RADIUS"),
+    lines=0,
+)
 def coupling(card, reader):
     """Completed by *KINEMATIC or *DISTRIBUTING."""
     _, name = reader.defined(card, "CONSTRAINT NAME")
@@ -66,9 +71,10 @@ def coupling(card, reader):
         if frame is None:
             raise Fault(f"there is no orientation '{key}' before this card")
     reference = reader.node_of(card, "REF NODE")
-    reader.model.rigid.append(
-        Rigid(surface, None, reference, card.source, None, name, surface, (), frame)
-    )
+    one = Rigid(surface, None, reference, card.source, None, name, surface, (), frame)
+    if card.key("INFLUENCE RADIUS", "WORLD") != "WORLD":
+        one.radius = real(card.require("INFLUENCE RADIUS"))
+    reader.model.rigid.append(one)
 
 
 def _open_coupling(reader):

@@ -41,6 +41,8 @@ def _marks_of_card(text):
         found.append((ABAQUS, f"*{keyword}"))
     if keyword in ONLY_CALCULIX:
         found.append((CALCULIX, f"*{keyword}"))
+    if keyword == "CONTACT PAIR" and not any(key_of(word).startswith("TYPE=") for word in words):
+        found.append((ABAQUS, "*CONTACT PAIR without TYPE="))
     for word in words:
         name, _, value = word.partition("=")
         name, value = key_of(name), key_of(value)
@@ -59,7 +61,8 @@ def _decide(marks):
     for dialect, found in marks.items():
         first = {}
         for mark, place in found:
-            first.setdefault(place, mark)
+            if mark not in first.values():
+                first.setdefault(place, mark)
         shown = [f"{mark} ({place})" for place, mark in list(first.items())[:SHOWN]]
         if shown:
             reasons[dialect] = ", ".join(shown)

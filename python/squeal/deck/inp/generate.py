@@ -6,7 +6,7 @@ from squeal.deck.inp.assembly import position_of
 from squeal.deck.inp.handlers import handles
 from squeal.deck.inp.mesh import define
 from squeal.deck.journal import Fault
-from squeal.deck.model import EMPTY, Block
+from squeal.deck.mesh import EMPTY, Block
 from squeal.deck.numbers import LONGEST, integer
 
 
@@ -58,7 +58,7 @@ def filled_nodes(card, reader):
         _require_short(count * len(first), line)
         for start, end in zip(first.tolist(), last.tolist()):
             numbers = start + step * np.arange(count + 1)
-            row = np.append(numbers[:-1], end)
+            row = reader.scope.node_numbers.made(np.append(numbers[:-1], end), line)
             _fill(reader, row)
             found.append(row)
     if found:
@@ -88,7 +88,7 @@ def copied_nodes(card, reader):
     places, copies = reader.scope.nodes.at(members), []
     for number in range(1, count + 1):
         places = places @ matrix.T + vector
-        copies.append(members + number * change)
+        copies.append(reader.scope.node_numbers.made(members + number * change))
         reader.scope.nodes.add(copies[-1], places)
     define(card, reader, "NEW SET", sets, np.concatenate(copies))
 
@@ -100,7 +100,7 @@ def generated_elements(card, reader):
     for line, fields in card.rows():
         if len(fields) > 10 or len(fields) < 2:
             raise Fault("a line has an element, and up to three times three numbers", line=line)
-        master = integer(fields[0], line) + reader.scope.element_offset
+        master = reader.scope.element_numbers.one(integer(fields[0], line), line)
         element_steps, node_steps = np.zeros(1, np.int64), np.zeros(1, np.int64)
         for at in range(1, len(fields), 3):
             count = _optional(fields, at, line)
@@ -112,7 +112,7 @@ def generated_elements(card, reader):
             element_steps = (element_steps + element * row).ravel()
             node_steps = (node_steps + node * row).ravel()
         block, row = _find(reader, master, line)
-        new = element_steps[1:] + master
+        new = reader.scope.element_numbers.made(element_steps[1:] + master, line)
         if len(new):
             nodes = block.nodes[row] + node_steps[1:, None]
             reader.model.blocks.append(Block(block.kind, block.shape, new, nodes, card.source))
@@ -143,5 +143,6 @@ def copied_elements(card, reader):
             copies.append(Block(block.kind, block.shape, found[-1] + shift, table, card.source))
     if shift == 0 or len(np.concatenate(found)) < len(members):
         raise Fault("ELEMENT SHIFT is zero, or elements of the set are not defined before")
+    new = reader.scope.element_numbers.made(members + shift)
     reader.model.blocks += copies
-    define(card, reader, "NEW SET", sets, members + shift)
+    define(card, reader, "NEW SET", sets, new)

@@ -12,6 +12,7 @@ PARAMETERS = {
     "FIXED": "values that earlier steps have reached are not supported",
     "COMPOSITE": "layered sections are not supported",
     "NONLINEAR": "nonlinear springs are not supported",
+    "INPUT": "lines of other files are not supported; use *INCLUDE below the card",
 }
 
 

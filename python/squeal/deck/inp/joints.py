@@ -3,7 +3,7 @@
 import numpy as np
 
 from squeal.deck.inp.handlers import handles
-from squeal.deck.journal import Fault
+from squeal.deck.journal import Fault, place_of
 from squeal.deck.model import Bolt, Equation, Joint, PointMass, Tie
 from squeal.deck.numbers import integer, real
 
@@ -47,11 +47,17 @@ def _add_equation(card, reader, fields, line):
         )
 
 
-@handles("TIE", used=("NAME", "POSITION TOLERANCE", "ADJUST"))
+@handles(
+    "TIE",
+    used=("NAME", "POSITION TOLERANCE", "ADJUST", "TYPE"),
+    idle=("NO ROTATION", "NO THICKNESS"),
+)
 def tie(card, reader):
     stem = reader.defined(card, "NAME")[1] if "NAME" in card.parameters else "tie"
     tolerance = card.value("POSITION TOLERANCE")
     adjust = card.key("ADJUST", "YES")
+    if card.key("TYPE", "NODETOSURFACE") not in ("NODETOSURFACE", "SURFACETOSURFACE"):
+        raise Fault(f"TYPE={card.value('TYPE')} is not supported", "TYPE")
     if adjust not in ("YES", "NO"):
         raise Fault(f"ADJUST={adjust} is not supported", "ADJUST")
     for line, fields in card.rows():
@@ -95,11 +101,11 @@ def _joint(card, reader, what):
     value = real(fields[0], line)
     if "." not in fields[0] and what == "stiffness" and not card.dialect.short_words:
         reader.journal.choose(
-            f"{card.source.file}:{line}: {fields[0]} is read as a stiffness;"
+            f"{place_of(card.source, line)}: {fields[0]} is read as a stiffness;"
             " CalculiX reads a number without a point as a component"
         )
     if len(fields) > 1:
-        reader.journal.choose(f"{card.source.file}:{line}: only the first number is used")
+        reader.journal.choose(f"{place_of(card.source, line)}: only the first number is used")
     values = {"stiffness": 0.0, "damping": 0.0, what: value}
     reader.model.joints.append(Joint(kind, label, components, source=card.source, **values))
 

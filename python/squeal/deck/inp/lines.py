@@ -15,6 +15,10 @@ class Line:
     text: str
 
 
+# Cards whose lines of data may be in another file.
+WITH_INPUT = re.compile(r"\*\s*(NODE|ELEMENT|NSET|ELSET)\s*,(.*,)?\s*INPUT\s*=", re.IGNORECASE)
+
+
 class Lines:
     """The lines of a deck. Comments (two stars after blanks) and blank lines are omitted; the texts
     have no blanks at their ends."""
@@ -37,9 +41,12 @@ class Lines:
                 yield from self._included(Line(name, number, text), path, (*above, path))
             else:
                 yield Line(name, number, text)
+                if text.startswith("*") and WITH_INPUT.match(text):
+                    yield from self._included(Line(name, number, text), path, (*above, path))
 
     def _included(self, line, path, above):
-        source = Source(line.file, line.number, "INCLUDE")
+        keyword = re.match(r"\*\s*(\w+)", line.text)[1].upper()
+        source = Source(line.file, line.number, keyword)
         self.journal.open(source)
         match = re.search(r"INPUT\s*=\s*(\"([^\"]*)\"|[^,]*)", line.text, re.IGNORECASE)
         name = (match[2] if match[2] is not None else match[1]).strip() if match else ""

@@ -2,11 +2,12 @@
 """Cards of materials, sections and axes."""
 import numpy as np
 
+from squeal.deck.axes import Frame
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import UNUSED, Fault
-from squeal.deck.model import Frame, Material, Section
-from squeal.deck.numbers import real
+from squeal.deck.model import Material, Section
+from squeal.deck.numbers import integer, real
 
 # Law, number of constants and lines of one temperature.
 LAWS = {
@@ -152,10 +153,22 @@ def orientation(card, reader):
     if card.key("DEFINITION", "COORDINATES") != "COORDINATES":
         raise Fault("only DEFINITION=COORDINATES is supported", "DEFINITION")
     key, name = reader.defined(card, "NAME")
+    if key in reader.model.orientations:
+        raise Fault(f"the orientation '{name}' is defined twice")
     frame, more = _frame(card, name, system == "CYLINDRICAL", reader.scope)
-    if any(len(fields) > 1 and real(fields[1], line) != 0 for line, fields in more):
-        raise Fault("an additional rotation is not supported", line=more[0][0])
+    for line, fields in more:
+        _turn(frame, fields, line)
     reader.model.orientations[key] = frame
+
+
+def _turn(frame, fields, line):
+    """Reads the axis about which the others are turned, and the angle in degrees."""
+    axis = integer(fields[0], line) - 1 if fields[0] else 0
+    angle = real(fields[1], line) if len(fields) > 1 and fields[1] else 0.0
+    if axis not in range(3) or len(fields) > 2:
+        raise Fault("the second line has an axis, 1 to 3, and an angle", line=line)
+    if angle:
+        frame.turn = axis, angle
 
 
 @handles("TRANSFORM", used=("NSET", "TYPE"), lines=1)

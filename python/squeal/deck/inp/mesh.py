@@ -2,22 +2,23 @@
 """Cards of the mesh: nodes, elements, sets and surfaces."""
 import numpy as np
 
+from squeal.deck.axes import orthonormal
 from squeal.deck.inp.cards import fields_of, key_of
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.inp.types import ADVICE, BECOMES, DISCRETE, SOLIDS
-from squeal.deck.journal import UNUSED, Fault
-from squeal.deck.model import EMPTY, Block, orthonormal
-from squeal.deck.numbers import LONGEST, integer, is_integer, real
+from squeal.deck.journal import UNUSED, Fault, place_of
+from squeal.deck.mesh import EMPTY, Block
+from squeal.deck.numbers import LONGEST, integer, is_integer, real, table
 
 
-@handles("NODE", used=("NSET", "SYSTEM"), phase=0)
+@handles("NODE", used=("NSET", "SYSTEM", "INPUT"), phase=0)
 def node(card, reader):
     numbers, places = _fast_nodes(card) or _slow_nodes(card, reader)
     kind = card.key("SYSTEM", "R")
     if kind not in ("R", "C", "S"):
         raise Fault(f"SYSTEM={kind} is not supported", "SYSTEM")
-    numbers = numbers + reader.scope.node_offset
+    numbers = reader.scope.node_numbers.shifted(numbers)
     reader.scope.nodes.add(numbers, in_axes(_cartesian(places, kind), reader.scope.system))
     define(card, reader, "NSET", reader.model.node_sets, numbers)
 
@@ -61,9 +62,9 @@ def system(card, reader):
         plane = np.cross([0, 0, 1.0], x)
     if len(rows) == 2:
         line, fields = rows[1]
-        plane = np.array([real(field, line) for field in fields]) - origin
-        if len(plane) != 3:
+        if len(fields) != 3:
             raise Fault("the second line has a point in the plane of x and y", line=line)
+        plane = np.array([real(field, line) for field in fields]) - origin
     reader.scope.system = origin, orthonormal(x, plane)
 
 
@@ -73,13 +74,13 @@ def _fast_nodes(card):
     if not texts or any(text.count(",") != 3 for text in texts):
         return None
     try:
-        table = np.array(",".join(texts).split(","), dtype=float).reshape(-1, 4)
+        values = table(",".join(texts).split(","), float).reshape(-1, 4)
     except ValueError:
         return None
     with np.errstate(invalid="ignore"):
-        numbers = table[:, 0].astype(np.int64)
-    plain = np.all(np.isfinite(table)) and np.all(numbers == table[:, 0])
-    return (numbers, table[:, 1:]) if plain else None
+        numbers = values[:, 0].astype(np.int64)
+    plain = np.all(np.isfinite(values)) and np.all(numbers == values[:, 0])
+    return (numbers, values[:, 1:]) if plain else None
 
 
 def _slow_nodes(card, reader):
@@ -90,12 +91,12 @@ def _slow_nodes(card, reader):
         places.append(coordinates + [0.0] * (3 - len(coordinates)))
         if len(fields) > 4:
             reader.journal.choose(
-                f"{card.source.file}:{line}: the fields after the third coordinate are not used"
+                f"{place_of(card.source, line)}: the fields after the third coordinate are not used"
             )
     return np.array(numbers, np.int64), np.array(places, float).reshape(-1, 3)
 
 
-@handles("ELEMENT", used=("TYPE", "ELSET"), phase=0)
+@handles("ELEMENT", used=("TYPE", "ELSET", "INPUT"), phase=0)
 def element(card, reader):
     kind = card.key("TYPE")
     if kind in BECOMES and (kind != "C3D8R" or reader.dialect is ABAQUS):
@@ -110,12 +111,12 @@ def element(card, reader):
         return
     shape = SOLIDS.get(kind)
     size = shape.size if shape else DISCRETE[kind]
-    table = _records(card, size, reader)
-    if len(table):
-        reader.model.blocks.append(Block(kind, shape, table[:, 0], table[:, 1:], card.source))
+    rows = _records(card, size, reader)
+    if len(rows):
+        reader.model.blocks.append(Block(kind, shape, rows[:, 0], rows[:, 1:], card.source))
     else:
         reader.journal.mark(card.source, UNUSED, "there are no lines of data")
-    define(card, reader, "ELSET", reader.model.element_sets, table[:, 0])
+    define(card, reader, "ELSET", reader.model.element_sets, rows[:, 0])
 
 
 def _records(card, size, reader):
@@ -127,15 +128,16 @@ def _records(card, size, reader):
         counts.append(len(fields))
         words.extend(fields)
     try:
-        flat = np.array(words, dtype=np.int64) if words else np.zeros(0, np.int64)
-        flat[np.arange(len(flat)) % (size + 1) != 0] += reader.scope.node_offset
+        flat = table(words, np.int64) if words else np.zeros(0, np.int64)
+        of_nodes = np.arange(len(flat)) % (size + 1) != 0
+        flat[of_nodes] = reader.scope.node_numbers.shifted(flat[of_nodes])
     except (ValueError, OverflowError):
         flat = [
             reader.node_number(word) if at % (size + 1) else integer(word)
             for at, word in enumerate(words)
         ]
         flat = np.array(flat, np.int64)
-    flat[:: size + 1] += reader.scope.element_offset
+    flat[:: size + 1] = reader.scope.element_numbers.shifted(flat[:: size + 1])
     starts = np.concatenate([[0], np.cumsum(counts)]).astype(int)
     wanted = np.arange(0, len(flat), size + 1)
     lines = np.searchsorted(starts, wanted)
@@ -149,7 +151,7 @@ def _records(card, size, reader):
 
 @handles(
     "NSET",
-    used=("NSET", "GENERATE", "ELSET", "INSTANCE"),
+    used=("NSET", "GENERATE", "ELSET", "INSTANCE", "INPUT"),
     idle=("UNSORTED", "INTERNAL"),
     phase=0,
 )
@@ -162,22 +164,22 @@ def node_set(card, reader):
             raise Fault("a node set of an element set has no lines of data", line=card.data[0][0])
         define(card, reader, "NSET", sets, lambda: reader.nodes_of_element_set(key))
         return
-    _set(card, reader, "NSET", sets, scope, scope.node_offset)
+    _set(card, reader, "NSET", sets, scope, scope.node_numbers)
 
 
-@handles("ELSET", used=("ELSET", "GENERATE", "INSTANCE"), idle=("INTERNAL",), phase=0)
+@handles("ELSET", used=("ELSET", "GENERATE", "INSTANCE", "INPUT"), idle=("INTERNAL",), phase=0)
 def element_set(card, reader):
     scope = reader.scope_of(card)
-    _set(card, reader, "ELSET", reader.model.element_sets, scope, scope.element_offset)
+    _set(card, reader, "ELSET", reader.model.element_sets, scope, scope.element_numbers)
 
 
-def _set(card, reader, parameter, sets, scope, offset):
-    """`scope`: that of numbers and names in the lines, `offset`: that of its numbers."""
+def _set(card, reader, parameter, sets, scope, own):
+    """`scope`: that of the names in the lines, `own`: its numbers."""
     key, spelled = reader.defined(card, parameter)
     if "GENERATE" in card.parameters:
-        parts = [numbers + offset for numbers in _generated(card)]
+        parts = [own.shifted(numbers, line) for line, numbers in _generated(card)]
     else:
-        parts = _listed(card, reader, sets, scope, offset)
+        parts = _listed(card, reader, sets, scope, own)
     sets.add(key, spelled, card.source, parts)
 
 
@@ -192,25 +194,37 @@ def _generated(card):
             raise Fault(f"the range {first}, {last}, {step} is empty", line=line)
         if (last - first) // step > LONGEST:
             raise Fault(f"the range {first}, {last}, {step} is longer than {LONGEST}", line=line)
-        parts.append(np.arange(first, last + 1, step, dtype=np.int64))
+        parts.append((line, np.arange(first, last + 1, step, dtype=np.int64)))
     return parts
 
 
-def _listed(card, reader, sets, scope, offset):
+def _listed(card, reader, sets, scope, own):
+    plain = _plain_numbers(card)
+    if plain is not None and not any(is_integer(key[len(scope.prefix) :]) for key in sets):
+        return [own.shifted(plain)]
     parts, numbers = [], []
     for line, fields in card.rows():
         for word in fields:
             if is_integer(word):
-                numbers.append(integer(word, line) + offset)
+                numbers.append(own.one(integer(word, line), line))
                 if scope.prefix + word in sets:
                     reader.journal.choose(
-                        f"{card.source.file}:{line}: {word} is read as a number, not as a set"
+                        f"{place_of(card.source, line)}: {word} is read as a number, not as a set"
                     )
             elif word:
                 parts.append(np.array(numbers, np.int64))
                 numbers = []
                 parts.append(_part(word, line, card, reader, sets, scope))
     return [*parts, np.array(numbers, np.int64)]
+
+
+def _plain_numbers(card):
+    """Returns the numbers of lines that have nothing else, otherwise None."""
+    words = ",".join(text.rstrip(",") for _, text in card.data).split(",")
+    try:
+        return table(words, np.int64)
+    except (ValueError, OverflowError):
+        return None
 
 
 def _part(word, line, card, reader, sets, scope):
@@ -223,7 +237,7 @@ def _part(word, line, card, reader, sets, scope):
             return np.array([number], np.int64)
         if not card.dialect.short_words:
             reader.journal.choose(
-                f"{card.source.file}:{line}: set '{word}' is defined later; it is used as"
+                f"{place_of(card.source, line)}: set '{word}' is defined later; it is used as"
                 " defined there, CalculiX would take it as empty"
             )
     return key

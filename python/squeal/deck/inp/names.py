@@ -5,7 +5,7 @@ import numpy as np
 from squeal.deck.inp.assembly import Scope
 from squeal.deck.inp.cards import key_of
 from squeal.deck.journal import Fault
-from squeal.deck.model import EMPTY
+from squeal.deck.mesh import EMPTY
 from squeal.deck.numbers import integer, is_integer
 from squeal.deck.topology import free_faces
 
@@ -55,12 +55,14 @@ class Names:
         except Fault:
             return None
         nodes = sets is self.model.node_sets
-        return integer(number) + (scope.node_offset if nodes else scope.element_offset)
+        return (scope.node_numbers if nodes else scope.element_numbers).one(integer(number))
 
     def node_number(self, word, line=None):
         """Returns the number of a node, given as a number or as `instance.number`. Raises Fault."""
         number = self.number_of_instance(word, self.model.node_sets)
-        return integer(word, line) + self.scope.node_offset if number is None else number
+        if number is None:
+            return self.scope.node_numbers.one(integer(word, line), line)
+        return number
 
     def node_of(self, card, parameter):
         """Returns the node of a parameter: a number or a set of one node. Raises Fault."""
@@ -73,11 +75,11 @@ class Names:
 
     def nodes_of(self, word, line):
         """Returns the node, or the nodes of the set, that a field names. Raises Fault."""
-        return self._members(word, line, self.model.node_sets, self.scope.node_offset)
+        return self._members(word, line, self.model.node_sets, self.scope.node_numbers)
 
     def elements_of(self, word, line):
         """Returns the element, or the elements of the set, that a field names. Raises Fault."""
-        return self._members(word, line, self.model.element_sets, self.scope.element_offset)
+        return self._members(word, line, self.model.element_sets, self.scope.element_numbers)
 
     def label_of(self, word, sets):
         """Returns the key of the set that a field names, None for a number."""
@@ -90,11 +92,11 @@ class Names:
             raise Fault(f"there is no surface '{word}'", line=line)
         return key
 
-    def _members(self, word, line, sets, offset):
+    def _members(self, word, line, sets, own):
         if is_integer(word):
             if self.scope.prefix + word in sets:
                 self.journal.choose(f"line {line}: {word} is read as a number, not as a set")
-            return np.array([integer(word, line) + offset], np.int64)
+            return np.array([own.one(integer(word, line), line)], np.int64)
         key = self.set_key(word, sets)
         number = None if key in sets else self.number_of_instance(word, sets)
         if number is not None:

@@ -3,6 +3,8 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from squeal.deck.inp import contacts, couplings, generate, joints  # noqa: F401 (handlers)
 from squeal.deck.inp import materials, mesh, squeal, state, surfaces  # noqa: F401
 from squeal.deck.inp.assembly import Structure
@@ -13,7 +15,8 @@ from squeal.deck.inp.handlers import TABLE, settle
 from squeal.deck.inp.lines import read_lines
 from squeal.deck.inp.names import Names
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
-from squeal.deck.model import Instance, Model, Squeal
+from squeal.deck.mesh import Instance
+from squeal.deck.model import Model, Squeal
 from squeal.deck.numbers import integer, real
 
 REASONS = {
@@ -68,15 +71,14 @@ class Reader(Names):
     def read(self, cards):
         """Reads the nodes, elements and sets of all scopes, then their surfaces, then the rest."""
         self.structure = Structure(cards, self.journal)
+        self.model.nodes.label = self.model.node_label
         scopes = [*self.structure.instances, self.structure.model]
-        for scope in scopes:
-            self._number(scope)
+        for number, scope in enumerate(scopes):
+            self.scope = scope
+            scope.open(scopes[:number])
+            first = len(self.model.blocks)
             self._apply_all(self._phase(scope, 0))
-            self.model.nodes.add_all(scope.nodes, scope.placed)
-            if scope.name:
-                offsets = scope.node_offset, scope.element_offset
-                last = self._largest_element()
-                self.model.instances.append(Instance(scope.name, *offsets, last))
+            self._close(scope, self.model.blocks[first:])
         self.model.merge_blocks()
         for phase in (1, 2):
             for scope in scopes:
@@ -92,16 +94,30 @@ class Reader(Names):
             if (TABLE[card.keyword].phase if card.keyword in TABLE else 2) == phase
         ]
 
-    def _number(self, scope):
-        """Opens a scope: its numbers are shifted to follow those of the scopes before."""
-        self.scope = scope
-        scope.node_offset = _above(self.model.nodes.largest)
-        scope.element_offset = _above(self._largest_element())
-        if scope is self.structure.model and not self.structure.instances:
-            scope.node_offset = scope.element_offset = 0
+    def _close(self, scope, blocks):
+        """Adds the nodes of a scope to the model; `blocks`: its elements."""
+        made = max((int(block.numbers.max()) for block in blocks), default=0)
+        scope.node_numbers.close(scope.nodes.largest)
+        scope.element_numbers.close(made)
+        self.model.nodes.add_all(scope.nodes, scope.placed)
+        if not self.structure.instances:
+            return
+        offsets = scope.node_numbers.offset, scope.element_numbers.offset
+        self.model.instances.append(
+            Instance(scope.name, *offsets, offsets[1] + scope.element_numbers.top)
+        )
+        for block in blocks if scope.name else ():
+            self._require_own_nodes(block, scope)
 
-    def _largest_element(self):
-        return max((int(block.numbers.max()) for block in self.model.blocks), default=0)
+    def _require_own_nodes(self, block, scope):
+        """An element that is generated may have numbers of another instance."""
+        own = scope.nodes.has(block.nodes)
+        if not np.all(own):
+            row = np.flatnonzero(~np.all(own, axis=1))[0]
+            element = block.numbers[row] - scope.element_numbers.offset
+            node = block.nodes[row][~own[row]][0] - scope.node_numbers.offset
+            reason = f"element {element} of {scope.name}: there is no node {node} of {scope.name}"
+            self.journal.refuse(block.source, reason)
 
     def _apply_all(self, rest):
         at = 0
@@ -166,6 +182,8 @@ class Reader(Names):
     def _open_step(self, card, procedure):
         journal = self.journal
         journal.mark(card.source, USED)
+        if card.data:
+            journal.remark(card.source, "the title of the step is not used")
         for name, value in card.parameters.items():
             if name == "NLGEOM" and (value or "YES").upper() != "NO":
                 self._large_displacements(card.source)
@@ -191,7 +209,8 @@ class Reader(Names):
             except Fault as fault:
                 journal.refuse(card.source, fault.reason, fault.name, fault.line)
             return
-        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION", "STABILIZE"}
+        idle = {"SOLVER", "STORAGE", "DIRECT", "EIGENSOLVER", "NORMALIZATION", "STABILIZE", "SIM"}
+        idle.add("ACOUSTIC COUPLING")
         for name in card.parameters:
             if name in idle:
                 journal.remark(card.source, f"{name} is not used")
@@ -265,13 +284,6 @@ class Reader(Names):
             raise Fault(
                 "Abaqus and CalculiX read it differently; choose --dialect abaqus or calculix"
             )
-
-
-def _above(number):
-    """Returns an offset that is not less than a number and has few digits that are not zero, so
-    that one can read the number in the part from the shifted one."""
-    unit = 10 ** max(len(str(number)) - 1, 0)
-    return -(-number // unit) * unit
 
 
 def read_model(path, dialect, journal):

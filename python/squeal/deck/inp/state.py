@@ -6,7 +6,8 @@ from squeal.deck.inp.cards import key_of
 from squeal.deck.inp.handlers import PARAMETERS, handles
 from squeal.deck.inp.surfaces import face_number
 from squeal.deck.journal import TRANSLATED, UNUSED, Fault
-from squeal.deck.model import EMPTY, BodyLoad, Value
+from squeal.deck.mesh import EMPTY
+from squeal.deck.model import BodyLoad, Value
 from squeal.deck.numbers import integer, real
 
 SYMMETRIES = {

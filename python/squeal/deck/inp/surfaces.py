@@ -4,7 +4,7 @@ import numpy as np
 
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import Fault
-from squeal.deck.model import EMPTY, Surface
+from squeal.deck.mesh import EMPTY, Surface
 
 COMBINATIONS = ("UNION", "INTERSECTION", "DIFFERENCE")
 

@@ -62,7 +62,8 @@ def _instances(model):
         return []
     lines = ["## Instances", "", "| instance | node 1 of the part | element 1 |", "|---|---|---|"]
     for one in model.instances:
-        lines.append(f"| {_cell(one.name)} | {one.node_offset + 1} | {one.element_offset + 1} |")
+        name = _cell(one.name) or "the assembly"
+        lines.append(f"| {name} | {one.node_offset + 1} | {one.element_offset + 1} |")
     return [*lines, ""]
 
 

@@ -24,7 +24,8 @@ const RealOption length("general", "probe_<part>_length", std::nullopt, "m", pos
 const RealOption ratio("general", "probe_ratio", 0.25, "", {-1, 0.5, true, true}, "a ratio");
 const RealOption offset("general", "probe_<part>_offset", 0.0, "m", anyReal, "offset of a part");
 const IntegerOption count("general", "probe_count", 7, 2, 1'000'000, "a number of things");
-const RealListOption sweep("general", "probe_sweep", "0.4", "", nonNegative, "a sweep", true);
+const RealListOption sweep("general", "probe_sweep", "0.4", "", sequencesOf(nonNegative),
+                           "a sweep");
 const RealListOption vector("general", "probe_vector", "0,0,1", "m", anyReal, "a vector");
 const FlagOption flag("general", "probe_flag", false, "a flag");
 const ChoiceOption choice("general", "probe_choice", {"fast", "exact"}, "exact", "a choice");

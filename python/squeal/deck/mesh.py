@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""The mesh of a model: nodes, elements, sets and surfaces."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from squeal.deck.journal import Fault, Source
+
+EMPTY = np.zeros(0, dtype=np.int64)
+
+
+class Nodes:
+    """Numbers and coordinates; a number that is given again replaces the earlier coordinates.
+    `label`: returns how messages name a node."""
+
+    def __init__(self):
+        self.label = str
+        self._parts = []
+        self._sorted = None
+
+    def add(self, numbers, coordinates):
+        self._parts.append((np.asarray(numbers, np.int64), np.asarray(coordinates, float)))
+        self._sorted = None
+
+    def add_all(self, other, placed):
+        """Adds the nodes of another object, at the places that a function gives."""
+        for numbers, coordinates in other._parts:
+            self.add(numbers, placed(coordinates))
+
+    @property
+    def largest(self):
+        """The largest number, 0 without nodes."""
+        return max((int(numbers.max()) for numbers, _ in self._parts if len(numbers)), default=0)
+
+    def _table(self):
+        if self._sorted is None:
+            numbers = np.concatenate([EMPTY, *(part[0] for part in self._parts)])
+            places = np.concatenate([np.zeros((0, 3)), *(part[1] for part in self._parts)])
+            # The last one of equal numbers counts.
+            unique, first = np.unique(numbers[::-1], return_index=True)
+            self._sorted = unique, places[::-1][first], len(numbers) - len(unique)
+        return self._sorted
+
+    @property
+    def numbers(self):
+        return self._table()[0]
+
+    @property
+    def coordinates(self):
+        return self._table()[1]
+
+    @property
+    def repeated(self):
+        """The number of coordinates that were replaced."""
+        return self._table()[2]
+
+    def has(self, numbers):
+        """Returns for each number whether there is a node."""
+        known = self.numbers
+        if not len(known):
+            return np.zeros(np.shape(numbers), bool)
+        at = np.minimum(np.searchsorted(known, numbers), len(known) - 1)
+        return known[at] == numbers
+
+    def at(self, numbers):
+        """Returns the coordinates of nodes, one row each. Raises Fault for an unknown one."""
+        numbers = np.asarray(numbers, np.int64)
+        there = self.has(numbers)
+        if not np.all(there):
+            missing = np.atleast_1d(numbers)[~np.atleast_1d(there)][0]
+            raise Fault(f"there is no node {self.label(int(missing))}")
+        return self.coordinates[np.searchsorted(self.numbers, numbers)]
+
+    def move(self, number, place):
+        self.coordinates[np.searchsorted(self.numbers, number)] = place
+
+
+@dataclass
+class Block:
+    """Elements of one kind: `kind` is the deck's word (C3D20R); `nodes` in Abaqus' order; `shape`
+    is that of solid cells, otherwise None."""
+
+    kind: str
+    shape: object
+    numbers: np.ndarray
+    nodes: np.ndarray
+    source: Source
+
+
+class Sets:
+    """Named sets of numbers, which may contain each other; `what` they are, for messages."""
+
+    def __init__(self, what):
+        self.what = what
+        self.spelled = {}
+        self.sources = {}
+        self._parts = {}
+        self._members = {}
+
+    def __contains__(self, key):
+        return key in self._parts
+
+    def __iter__(self):
+        return iter(self._parts)
+
+    def add(self, key, spelled, source, parts=()):
+        """Appends to a set numbers (arrays, or functions that return one) and names of sets
+        (strings), in their order."""
+        self.spelled.setdefault(key, spelled)
+        self.sources.setdefault(key, []).append(source)
+        self._parts.setdefault(key, []).extend(parts)
+        self._members.clear()
+
+    def members(self, key, above=()):
+        """Returns the numbers of a set in the order of the deck, each once. Raises Fault."""
+        if key not in self._parts:
+            raise Fault(f"there is no {self.what} set '{key}'")
+        if key in above:
+            raise Fault(f"the {self.what} set '{key}' contains itself")
+        if key not in self._members:
+            parts = [self._numbers(part, (*above, key)) for part in self._parts[key]]
+            numbers = np.concatenate([EMPTY, *parts])
+            _, first = np.unique(numbers, return_index=True)
+            self._members[key] = numbers[np.sort(first)]
+        return self._members[key]
+
+    def _numbers(self, part, above):
+        if isinstance(part, str):
+            return self.members(part, above)
+        return part() if callable(part) else part
+
+
+@dataclass
+class Surface:
+    """Faces (element number, number of the face from 0) or, without TYPE=ELEMENT, nodes."""
+
+    name: str
+    source: Source
+    nodes: np.ndarray = None
+    elements: np.ndarray = None
+    faces: np.ndarray = None
+
+
+@dataclass(frozen=True)
+class Instance:
+    """Numbers of a part are greater in the model, by the offsets of its instance; those of its
+    elements are up to `last_element`. `name` is empty for the assembly."""
+
+    name: str
+    node_offset: int
+    element_offset: int
+    last_element: int
