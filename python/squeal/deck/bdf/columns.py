@@ -13,7 +13,7 @@ def table_of(rows, width):
     padded = [(fields + [""] * width)[:width] for fields, _, _ in rows]
     if max((len(text) for fields in padded for text in fields), default=0) > WIDEST:
         raise ValueError
-    return np.array(padded).reshape(-1, width)
+    return np.array(padded, str).reshape(-1, width)
 
 
 def _filled(texts, default):
