@@ -156,6 +156,10 @@ class Materials(unittest.TestCase):
         (row,) = refusals(cube(force()).replace("210000.,,", "210000.,99.,"))
         self.assertIn("MAT1, G: it differs from E / (2 + 2 NU) = 80769.2", row)
 
+    def test_fields_without_effect_are_named(self):
+        _, one = self.constants("MAT1,1,200.,,.25,3.\n,100.,100.,50.\n")
+        self.assertIn("not used: field 2 of line 2, 3 of line 2", one.remarks("MAT1")[1])
+
     def test_masses_have_the_factor_of_weights(self):
         found, one = self.constants(
             "MAT1,1,200.,,.25,3.\n", "PARAM,WTMASS,.5\nGRID,9,,0.,0.,4.\nCONM2,1,9,,4.\n"

@@ -155,6 +155,11 @@ class Contacts(unittest.TestCase):
         self.assertEqual((contact["role"], contact["friction"]), ("sticking", 0.25))
         self.assertEqual(len(one.options["tie"]), 1)
 
+    def test_interference_in_a_table_is_refused(self):
+        cards = HEXAGON.split("BCTABL1")[0] + "BCTABLE,5\n,SECNDRY,32,,,.25,.1\n,PRIMARY,31\n"
+        rows = refusals(MSC.replace("BSQUEAL = 7\n", "") + brake() + cards)
+        self.assertTrue(any("BCTABLE, CINTERF: an interference" in row for row in rows), rows)
+
     def test_what_is_refused(self):
         text = MSC + brake() + HEXAGON
         for cards, reason in (

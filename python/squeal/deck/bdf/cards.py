@@ -26,12 +26,18 @@ class Card:
     line: int
     fields: list
     read: set = field(default_factory=set)
+    passed: list = field(default_factory=list)  # places of fields that are not used
 
     def word(self, number, default=""):
         """Returns a field in capital letters, or the default if it is blank."""
         self.read.add(number)
         text = self.fields[number - 1] if number <= len(self.fields) else ""
         return text.upper() if text else default
+
+    def pass_over(self, number):
+        """Names a field as not used, if there is one."""
+        if self.word(number):
+            self.passed.append(self.place(number))
 
     def _value(self, number, default, convert):
         text = self.word(number)

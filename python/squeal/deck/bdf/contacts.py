@@ -65,7 +65,9 @@ def parameters_of_sets(card, reader):
 
 @handles("BCRPARA")
 def parameters_of_region(card, reader):
-    card.word(1), card.word(2), card.word(5)
+    card.pass_over(2)
+    card.pass_over(5)
+    card.word(1)
     if card.real(3, 0.0):
         reader.journal.refuse(card.source, "offsets of contact are not supported", "OFFSET")
     if card.word(4, "FLEX") != "FLEX":
@@ -144,7 +146,7 @@ def bgset(card, reader):
         if card.word(first):
             pair = card.identifier(first), card.identifier(first + 1)
             distance = card.real(first + 2, None)
-            card.word(first + 4)  # extension of the search beside the faces
+            card.pass_over(first + 4)  # extension of the search beside the faces
             _glue(card, reader, pair, distance)
 
 
@@ -254,7 +256,7 @@ def bctable(card, reader):
         return
     short = [card.integer(at, 0) for at in (2, 3)]
     for at in (4, 5, 6):
-        card.word(at)
+        card.pass_over(at)
     if any(short) and not all(short):
         raise Fault("IDSCND needs IDPRIM", line=card.line)
     groups = [(short[0], {}, [short[1]])] if all(short) else _groups(card, reader)
@@ -273,8 +275,10 @@ def _groups(card, reader):
         shift = line + (1 if card.word(line + 1) else 2)
         if word[:4] in ("SECN", "SLAV"):
             used = {"FRIC": card.real(shift + 4, 0.0), "IGLUE": card.integer(shift + 6, 0)}
-            for at in (shift + 2, shift + 3, shift + 5):
-                card.word(at)
+            if card.real(shift + 5, 0.0):
+                raise Fault("an interference (CINTERF) is not supported", "CINTERF", card.line)
+            for at in (shift + 2, shift + 3):
+                card.pass_over(at)
             groups.append((card.identifier(shift + 1), used, []))
             current = "secondary"
         elif word[:4] in ("PRIM", "MAST") and groups:

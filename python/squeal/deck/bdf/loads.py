@@ -163,7 +163,8 @@ def pressure(card, reader):
     if any(card.word(number) for number in (9, 10, 11, 12)):
         reason = "a load along a direction (N1, N2, N3) is not supported; use FORCE"
         raise Fault(reason, "N1", card.line)
-    card.word(13), card.word(14)  # line loads of shells
+    card.pass_over(13)  # line loads of shells
+    card.pass_over(14)
     element = card.identifier(2)
     if card.word(7) == "THRU":
         raise Fault("THRU is for shells; solid elements need their face", line=card.line)

@@ -25,7 +25,7 @@ def psolid(card, reader):
     if card.word(7, "SMECH") != "SMECH":
         reason = f"{card.word(7)}: elements of fluids are not supported"
         reader.journal.refuse(card.source, reason, "FCTN")
-    card.word(5)  # stress output
+    card.pass_over(5)  # stress output
     material, system = card.identifier(2), card.integer(3, 0)
     few = network in ("2", "TWO")
     reader.properties[number] = few, scheme in ("FULL", "1"), card.source
@@ -91,7 +91,7 @@ def mat1(card, reader):
     _thermal(card, (6, 7), reader)
     _damping(card, 8, one, reader)
     for number in (9, 10, 11, 12):
-        card.word(number)  # limits of stresses, and axes of output
+        card.pass_over(number)  # limits of stresses, and axes of output
 
 
 def _thermal(card, numbers, reader):

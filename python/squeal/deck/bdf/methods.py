@@ -23,7 +23,7 @@ TINY TSTATIC UNITSYS UNSYMF USETPRT USETSEL USETSTR1 VUGJUMP WRBEAMB XYUNIT
 def eigrl(card, reader):
     _modes(card, reader, low=2, high=3, count=4)
     for number in (5, 6, 7, 8):
-        card.word(number)
+        card.pass_over(number)
     if any(card.word(number) for number in range(9, len(card.fields) + 1)):
         reader.journal.remark(card.source, "options of the solver are not used")
 
@@ -32,7 +32,7 @@ def eigrl(card, reader):
 def eigr(card, reader):
     _modes(card, reader, low=3, high=4, count=6)
     for number in (2, 5, 9, 10, 11):
-        card.word(number)
+        card.pass_over(number)
 
 
 def _modes(card, reader, low, high, count):

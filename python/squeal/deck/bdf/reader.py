@@ -91,6 +91,9 @@ class Reader:
                 try:
                     handler.function(card, self)
                     card.unread()
+                    if card.passed:
+                        places = ", ".join(card.passed)
+                        self.journal.remark(card.source, f"not used: field {places}")
                     if not self.journal.entries[card.source].status:
                         self.journal.mark(card.source, USED)
                 except Fault as fault:

@@ -20,7 +20,7 @@ def bsurfs(card, reader):
 @handles("BCSURF")
 def bcsurf(card, reader):
     for at in (2, 6, 7, 8):
-        card.word(at)
+        card.pass_over(at)
     if card.word(3, "3D") != "3D" or card.word(4, "FACE") != "GRID":
         raise Fault("only the form GRID in three dimensions is supported", "FORM", card.line)
     _faces(card, reader, 9)
@@ -109,7 +109,7 @@ def bcbody1(card, reader):
     if card.word(3, "3D") != "3D" or card.word(4, "DEFORM") != "DEFORM":
         raise Fault("only bodies of solid elements are supported", "BEHAV", card.line)
     for at in (2, 7):
-        card.word(at)
+        card.pass_over(at)
     if number in reader.contact_bodies:
         raise Fault(f"contact body {number} is defined twice", line=card.line)
     if region not in reader.regions:

@@ -18,7 +18,7 @@ def pelas(card, reader):
         if first == 1 or card.word(first):
             values = card.real(first + 1), _loss(card, first + 2, reader)
             _property(card, reader, "PELAS", card.identifier(first), values)
-            card.word(first + 3)  # coefficient of stresses
+            card.pass_over(first + 3)  # coefficient of stresses
 
 
 @handles("PDAMP", phase=0)
@@ -45,7 +45,7 @@ def pbush(card, reader):
             values[word] = np.array([one or 0.0 for one in given])
         elif word in ("RCV", "T"):
             for one in range(at + 1, at + 5):
-                card.word(one)
+                card.pass_over(one)
             reader.journal.remark(card.source, f"{word} is not used")
         elif word == "M":
             if card.real(at + 1, 0.0):
@@ -102,7 +102,7 @@ def celas1(card, reader):
 @handles("CELAS2")
 def celas2(card, reader):
     stiffness, loss = card.real(2), card.real(7, 0.0)
-    card.word(8)  # coefficient of stresses
+    card.pass_over(8)  # coefficient of stresses
     damping = _viscous(card, loss, stiffness, reader) if loss else 0.0
     _scalar(card, reader, card.identifier(1), (stiffness, damping))
 
@@ -180,7 +180,7 @@ def cbush(card, reader):
     if card.integer(10, -1) != -1:
         raise Fault("an offset (OCID) is not supported", "OCID", card.line)
     for at in (11, 12, 13):
-        card.word(at)
+        card.pass_over(at)
     frame, along = _bushing_axes(card, reader, first, line if apart else None)
     transverse = np.any((stiffness + damping)[[1, 2, 4, 5]]) or not along and apart
     if along and frame is None and transverse:

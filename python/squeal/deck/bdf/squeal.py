@@ -93,7 +93,7 @@ def brksys(card, reader):
     _at_end(card, 2)
     if card.integer(3, 0) or card.integer(5, 0):
         raise Fault("IVEC and ISLIDEBS must be 0", "IVEC", card.line)
-    card.word(4)  # whether the solution goes on afterwards
+    card.pass_over(4)  # whether the solution goes on afterwards
     for line in range(8, len(card.fields), 8):
         if not any(card.word(at) for at in range(line + 1, line + 9)):
             continue
@@ -123,7 +123,7 @@ def bsqueal(card, reader):
         return
     _at_end(card, 2)
     stiffness = card.real(3)
-    card.word(6)
+    card.pass_over(6)
     axis, origin = np.array(card.reals(9, 3, 0.0)), np.array(card.reals(12, 3, 0.0))
     if not np.any(axis):
         raise Fault("the axis is zero", line=card.line)
