@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""A deck of a million nodes: nothing is lost, with at most 4 GB of memory. Prints the time."""
+"""Decks of a million nodes: nothing is lost, with at most 4 GB of memory. Prints the time."""
 import resource
 import struct
 import subprocess
@@ -36,18 +36,23 @@ TOP, P, 1.E6
 """
 
 
-def write_deck(path):
+def mesh_of_cube():
+    """Returns numbers and places of the nodes of a cube, and numbers and nodes of its cells."""
     counts = (SIDE + 1,) * 3
     number = np.arange(np.prod(counts)).reshape(counts) + 1
-    k, j, i = (axis.ravel() / SIDE for axis in np.indices(counts))
     low, high = slice(None, -1), slice(1, None)
     around = [(low, low), (low, high), (high, high), (high, low)]
     corners = [number[z, y, x] for z in (low, high) for y, x in around]
     cells = np.stack(corners, axis=-1).reshape(-1, 8)
-    labels = np.arange(len(cells)) + 1
+    k, j, i = (axis.ravel() / SIDE for axis in np.indices(counts))
+    return number, np.column_stack([i, j, k]), np.arange(len(cells)) + 1, cells
+
+
+def write_deck(path):
+    number, places, labels, cells = mesh_of_cube()
     with open(path, "w", encoding="ascii") as file:
         file.write(HEAD)
-        np.savetxt(file, np.column_stack([number.ravel(), i, j, k]), "%d, %.8e, %.8e, %.8e")
+        np.savetxt(file, np.column_stack([number.ravel(), places]), "%d, %.8e, %.8e, %.8e")
         file.write("*ELEMENT, TYPE=C3D8I, ELSET=BODY\n")
         np.savetxt(file, np.column_stack([labels, cells]), "%d", delimiter=", ")
         file.write("*NSET, NSET=BOTTOM\n")
@@ -57,11 +62,33 @@ def write_deck(path):
         file.write(TAIL)
 
 
+def write_bulk_data(path):
+    """The same cube as bulk data in small fields."""
+    number, places, labels, cells = mesh_of_cube()
+    with open(path, "w", encoding="ascii") as file:
+        file.write("SOL 103\nCEND\nSPC = 1\nSUBCASE 1\nLOAD = 2\nSUBCASE 2\nMETHOD = 3\n")
+        file.write("STATSUB = 1\nBEGIN BULK\nPSOLID,1,1\nMAT1,1,2.1+11,,.3,7800.\nEIGRL,3,,,10\n")
+        form = "GRID    %8d        %8.6f%8.6f%8.6f"
+        np.savetxt(file, np.column_stack([number.ravel(), places]), form)
+        form = "CHEXA   %8d       1" + "%8d" * 6 + "+\n+       %8d%8d"
+        np.savetxt(file, np.column_stack([labels, cells]), form)
+        file.write(f"SPC1,1,123456,1,THRU,{(SIDE + 1) ** 2}\n")
+        top = slice(-(SIDE**2), None)
+        ends = cells[top][:, [4, 6]]
+        np.savetxt(file, np.column_stack([labels[top], ends]), "PLOAD4,2,%d,1.+6,,,,%d,%d")
+
+
 class Large(unittest.TestCase):
     def test_a_million_nodes(self):
+        self.complete("large.inp", write_deck)
+
+    def test_a_million_grids(self):
+        self.complete("large.bdf", write_bulk_data)
+
+    def complete(self, name, write):
         with tempfile.TemporaryDirectory() as folder:
-            deck = Path(folder) / "large.inp"
-            write_deck(deck)
+            deck = Path(folder) / name
+            write(deck)
             limit = resource.RLIMIT_AS, (MOST_BYTES, MOST_BYTES)
             started = time.monotonic()
             run = subprocess.run(

@@ -14,6 +14,8 @@ HEXAHEDRON_EDGES = (
     *((0, 4), (1, 5), (2, 6), (3, 7)),
 )
 TETRAHEDRON_EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+PYRAMID = ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4))
+PYRAMID_EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4))
 WEDGE_EDGES = ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5))
 FACE_TYPES = {3: 2, 4: 3, 6: 9, 8: 16}  # gmsh's type of a face by its number of nodes
 POINT = 15
@@ -52,3 +54,6 @@ HEX20 = Shape("hex20", 17, 20, HEX20_ORDER, HEXAHEDRON, HEXAHEDRON_EDGES, 8)
 WEDGE6 = Shape("wedge6", 6, 6, tuple(range(6)), WEDGE)
 WEDGE15_ORDER = (0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10)
 WEDGE15 = Shape("wedge15", 18, 15, WEDGE15_ORDER, WEDGE, WEDGE_EDGES, 6)
+PYRAMID5 = Shape("pyramid5", 7, 5, tuple(range(5)), PYRAMID)
+PYRAMID13_ORDER = (0, 1, 2, 3, 4, 5, 8, 9, 6, 10, 7, 11, 12)
+PYRAMID13 = Shape("pyramid13", 19, 13, PYRAMID13_ORDER, PYRAMID, PYRAMID_EDGES, 5)

@@ -5,6 +5,7 @@ import os
 import time
 from pathlib import Path
 
+from squeal.deck.bdf import reader as bdf
 from squeal.deck.case.faces import Faces
 from squeal.deck.case.translate import translate
 from squeal.deck.inp.dialect import DIALECTS
@@ -16,16 +17,28 @@ from squeal.deck.output.msh import write_mesh
 from squeal.deck.output.options import write_options
 from squeal.matrices import importer as matrices
 
+NASTRAN = (".bdf", ".dat", ".nas")  # endings of decks of Nastran
 
-def import_deck(deck, folder, dialect=None, ignored=(), speed=None, progress=lambda text: None):
+
+def _read(deck, dialect, subcase, journal):
+    """Returns the model of a deck."""
+    if Path(deck).suffix.lower() in NASTRAN:
+        return bdf.read_model(deck, journal, subcase)
+    if subcase is not None:
+        raise DeckError("--subcase is for decks of Nastran")
+    return read_model(deck, DIALECTS.get(dialect), journal)
+
+
+def import_deck(deck, folder, dialect=None, ignored=(), speed=None, **more):
     """Writes the case of a deck into a folder, and returns its journal. `dialect` None: the one
     that is detected. `speed`: that of a motion of which the deck has only the direction.
-    `progress` is called with a text before each stage. If the deck is refused, writes only
-    import.md and raises DeckError."""
+    `more`: `progress` is called with a text before each stage; `subcase` is that of a deck of
+    Nastran. If the deck is refused, writes only import.md and raises DeckError."""
     folder = Path(folder)
     journal = Journal(ignored)
+    progress = more.get("progress", lambda text: None)
     progress(f"{deck}: reading")
-    model = read_model(deck, DIALECTS.get(dialect), journal)
+    model = _read(deck, dialect, more.get("subcase"), journal)
     model.speed = speed
     cells = sum(len(block.numbers) for block in model.blocks)
     progress(f"{deck}: translating {len(model.nodes.numbers)} nodes and {cells} elements")
@@ -65,8 +78,8 @@ def main(words):
     parser = argparse.ArgumentParser(prog="squeal-import", description=__doc__, epilog=pages)
     add = parser.add_argument
     deck = (
-        "deck of Abaqus or CalculiX (.inp), or the name of a job of CalculiX that stored matrices"
-        " (JOB.sti, JOB.mas, JOB.dof)"
+        "deck of Abaqus or CalculiX (.inp) or Nastran (.bdf, .dat, .nas), or the name of a job of"
+        " CalculiX that stored matrices (JOB.sti, JOB.mas, JOB.dof)"
     )
     add("deck", metavar="DECK", nargs="?", help=deck)
     folder = "folder of the case; default: the name of the deck, in the working folder"
@@ -80,6 +93,8 @@ def main(words):
     )
     add("--ignore", metavar="NAME", action="append", default=[], help=ignored)
     add("--speed", metavar="V", type=float, help=speed)
+    number = "subcase of a deck of Nastran; default: the first one that fits the solution"
+    add("--subcase", metavar="NUMBER", type=int, help=number)
     matrices.add_options(parser)
     given = parser.parse_args(words)
     if files := matrices.files_of(given):
@@ -89,8 +104,8 @@ def main(words):
     if given.speed is not None and not 0 < given.speed < float("inf"):
         raise DeckError(f"--speed {given.speed:g}: the speed of a motion is positive")
     folder = Path(given.output or Path(given.deck).stem)
-    progress = Progress(given.deck).show
-    journal = import_deck(given.deck, folder, given.dialect, given.ignore, given.speed, progress)
+    more = {"progress": Progress(given.deck).show, "subcase": given.subcase}
+    journal = import_deck(given.deck, folder, given.dialect, given.ignore, given.speed, **more)
     print(f"{folder / 'case.yaml'}: the case; {folder / 'import.md'}: the account of the deck")
     print(f"  cards: {journal.counted()}")
     for choice in journal.choices:

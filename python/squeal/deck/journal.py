@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from squeal.files import ResultsError
 
 USED, TRANSLATED, UNUSED, REFUSED = "used", "translated", "not used", "refused"
+SHOWN = 100  # refused lines of one card that a message lists
 ORDER = (USED, UNUSED, TRANSLATED, REFUSED)  # a later word replaces an earlier one
 
 
@@ -39,14 +40,19 @@ class Missing(Fault):
 
 @dataclass(frozen=True)
 class Source:
-    """A card's place: file as it is shown, line, and keyword without its star."""
+    """A card's place: file as it is shown, line, and keyword; `star` precedes keywords."""
 
     file: str
     line: int
     card: str
+    star: str = "*"
 
     def __str__(self):
         return f"{self.file}:{self.line}"
+
+    @property
+    def word(self):
+        return f"{self.star}{self.card}"
 
 
 def place_of(source, line):
@@ -71,7 +77,7 @@ class Refusal:
     def __str__(self):
         if not self.source.card:
             return f"{self.source.file}: {self.reason}"
-        subject = f"*{self.source.card}"
+        subject = self.source.word
         if self.name != self.source.card:
             subject += f", {self.name}"
         return f"{place_of(self.source, self.line)}: {subject}: {self.reason}"
@@ -88,6 +94,7 @@ class Journal:
         self.choices = []
         self.incomplete = False  # elements were refused, which are missing afterwards
         self.refusals = []
+        self._refused = set()
 
     def open(self, source):
         self.entries.setdefault(source, Entry(source))
@@ -119,7 +126,8 @@ class Journal:
             return False
         self.mark(source, REFUSED, reason)
         refusal = Refusal(source, line or source.line, name, reason)
-        if refusal not in self.refusals:
+        if refusal not in self._refused:
+            self._refused.add(refusal)
             self.refusals.append(refusal)
         return True
 
@@ -162,7 +170,12 @@ class Journal:
         ordered = sorted(self.refusals, key=lambda one: (place[one.source], one.line))
         count = len({one.source for one in ordered})
         cards = "1 card" if count == 1 else f"{count} cards"
-        raise DeckError(
-            f"{title} cannot be translated because of {cards}:\n"
-            + "\n".join(f"  {one}" for one in ordered)
-        )
+        rows, counts = [], {}
+        for one in ordered:
+            counts[one.source] = counts.get(one.source, 0) + 1
+            if counts[one.source] <= SHOWN:
+                rows.append(f"  {one}")
+        for source, number in counts.items():
+            if number > SHOWN:
+                rows.append(f"  {source}: {source.word}: {number - SHOWN} more lines")
+        raise DeckError("\n".join([f"{title} cannot be translated because of {cards}:", *rows]))

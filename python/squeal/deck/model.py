@@ -29,6 +29,7 @@ class Material:
     damping: tuple = ()  # Rayleigh's factors of mass and stiffness
     damping_source: Source = None
     refusals: list = field(default_factory=list)
+    loss: tuple = None  # loss factor of structural damping, and its frequency in Hz
 
 
 @dataclass
@@ -43,11 +44,12 @@ class Section:
 @dataclass
 class Equation:
     """Terms (node, component, coefficient) in the axes of each node, or in global axes; their sum
-    is zero."""
+    is zero. `name`: None for that of the line."""
 
     terms: list
     source: Source
     in_global_axes: bool = False
+    name: str = None
 
 
 @dataclass
@@ -132,6 +134,7 @@ class Motion:
     source: Source
     axis: np.ndarray = None
     origin: np.ndarray = None
+    known: bool = True  # otherwise only the direction is
 
 
 @dataclass
@@ -218,12 +221,16 @@ class BodyLoad:
 
 @dataclass
 class State:
-    """Supports and loads of the last static state: by node and component, by element and face."""
+    """Supports and loads of the last static state: by node and component, by element and face.
+    `global_forces`: forces are in global axes, not in those of their nodes. `gravity`: acceleration
+    of all bodies and masses, as (vector, source)."""
 
     supports: dict = field(default_factory=dict)
     forces: dict = field(default_factory=dict)
     pressures: dict = field(default_factory=dict)
     body_loads: list = field(default_factory=list)
+    global_forces: bool = False
+    gravity: tuple = None
 
 
 @dataclass
@@ -250,18 +257,26 @@ class Model:
     contacts: list = field(default_factory=list)
     joints: list = field(default_factory=list)
     masses: list = field(default_factory=list)
+    bushings: list = field(default_factory=list)
+    distributed: list = field(default_factory=list)
+    inertias: list = field(default_factory=list)
     bolts: list = field(default_factory=list)
     state: State = field(default_factory=State)
     static: Source = None  # the last static step
     frequencies: int = None  # number of free modes, None: none requested
     frequency: Source = None
     top: float = None  # upper limit of the free modes, Hz, None: none given
+    words: dict = field(default_factory=dict)  # names of cards in messages
     prestress: bool = False
     large_displacements: bool = False  # the static steps have them, and the user ignores that
     motions: list = field(default_factory=list)
     squeal: list = field(default_factory=list)  # requests for complex modes
     speed: float = None  # of a motion whose speed the deck does not have, given by the user
     _lookup: tuple = None
+
+    def word(self, card):
+        """Returns the name of a card of Abaqus in the language of the deck."""
+        return self.words.get(card, f"*{card}")
 
     def node_label(self, number):
         """Returns the number of a node in its part, and the name of the instance."""

@@ -136,7 +136,7 @@ def run(given, files, parser):
     """Imports the matrices of the command line, and prints the choices."""
     if given.deck and not sources.job_of(given.deck):
         parser.error("a deck and matrices at once")
-    for name in ("ignore", "dialect", "speed"):
+    for name in ("ignore", "dialect", "speed", "subcase"):
         if getattr(given, name):
             parser.error(f"--{name} is for decks")
     forms = {role: WHOLE for role in given.whole}

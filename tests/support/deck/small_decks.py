@@ -54,9 +54,9 @@ class Imported:
     """The case of a deck: `text` and `options` of case.yaml, `groups` by name (node numbers, or
     rows of nodes of faces and cells), `nodes` and `coordinates`, and the journal."""
 
-    def __init__(self, text, files=(), **words):
+    def __init__(self, text, files=(), deck="deck.inp", **words):
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "deck.inp"
+            path = Path(folder) / deck
             path.write_bytes(text if isinstance(text, bytes) else text.encode())
             for name, content in dict(files).items():
                 (Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)

@@ -7,7 +7,9 @@ from squeal.deck.case.pieces import Piece, bodies_of, instances_of
 from squeal.deck.journal import TRANSLATED, UNUSED, Fault
 from squeal.deck.mesh import EMPTY
 
-REDUCED = {"C3D20R"}
+REDUCED = {"C3D20R", "CHEXA20_TWO"}
+# Hexahedra without and with incompatible modes.
+PLAIN, INCOMPATIBLE = ("C3D8", "CHEXA8_FULL"), ("C3D8I", "CHEXA8")
 # Cells that CalculiX integrates with fewer points, and the largest differences of results, measured
 # with a bar of 2 x 2 x 6 cells.
 COARSER = {
@@ -116,10 +118,8 @@ def _sections(model, numbers, journal):
             journal.refuse(section.source, f"element {model.element_label(twice)} has two sections")
         sections[on] = number
     if np.any(sections < 0):
-        missing = numbers[sections < 0]
-        journal.refuse_model(
-            f"{len(missing)} solid elements have no *SOLID SECTION, such as {missing[0]}"
-        )
+        missing, card = numbers[sections < 0], model.word("SOLID SECTION")
+        journal.refuse_model(f"{len(missing)} solid elements have no {card}, such as {missing[0]}")
     return sections
 
 
@@ -128,11 +128,12 @@ def _material(model, case, journal, body, section, loads):
     if material is None:
         journal.refuse(section.source, f"there is no material '{section.material}'")
         return
-    for source, reason in material.refusals:
-        journal.refuse(source, reason)
+    for refusal in material.refusals:
+        journal.refuse(*refusal)
     if not material.law:
         if not material.refusals:
-            journal.refuse(material.source, f"material '{material.name}' has no *ELASTIC")
+            lacking = f"material '{material.name}' has no {model.word('ELASTIC')}"
+            journal.refuse(material.source, lacking)
         return
     path = ("material", body)
     if material.law == "isotropic":
@@ -140,6 +141,9 @@ def _material(model, case, journal, body, section, loads):
         case.set((*path, "poisson"), material.constants[1], material.elastic)
     else:
         case.set((*path, OPTION[material.law]), material.constants, material.elastic)
+    if material.loss is not None:
+        case.set((*path, "loss_factor"), material.loss[0], material.source)
+        case.set((*path, "loss_frequency"), material.loss[1], material.source)
     _orientation(model, case, journal, path, section, material)
     _density(model, case, journal, path, material, loads)
     for source in (material.source, material.elastic, section.source):
@@ -178,11 +182,11 @@ def _density(model, case, journal, path, material, loads):
     needs = [load.source for load in loads]
     if model.frequency:
         needs.append(model.frequency)
+    lacking = f"material '{material.name}' has no {model.word('DENSITY')}"
     for source in needs:
-        journal.refuse(source, f"material '{material.name}' has no *DENSITY")
+        journal.refuse(source, lacking)
     journal.choose(
-        f"material '{material.name}' has no *DENSITY: the density 1 is used, so the frequencies of"
-        " the case have no meaning"
+        f"{lacking}: the density 1 is used, so the frequencies of the case have no meaning"
     )
     case.set((*path, "density"), 1.0)
 
@@ -213,16 +217,16 @@ def _element_options(model, case, journal, solids):
             "C3D8: full integration; Abaqus integrates the change of volume with one point, which"
             " matters near Poisson's ratio 0.5"
         )
-    if "C3D8" in kinds and "C3D8I" in kinds and model.program == "Abaqus":
-        journal.choose("C3D8, C3D8I and C3D8R in one deck: all have incompatible modes")
-    elif "C3D8" in kinds and "C3D8I" in kinds:
-        journal.refuse(
-            kinds["C3D8I"], "C3D8 and C3D8I in one deck: incompatible modes are for all or none"
-        )
-    elif "C3D8" in kinds:
-        case.set(("elasticity", "incompatible_modes"), "none", kinds["C3D8"])
-    elif "C3D8I" in kinds:
-        journal.choose("C3D8I: the incompatible modes are those of this program")
+    for plain, bent in zip(PLAIN, INCOMPATIBLE):
+        if plain in kinds and bent in kinds and model.program == "Abaqus":
+            journal.choose("C3D8, C3D8I and C3D8R in one deck: all have incompatible modes")
+        elif plain in kinds and bent in kinds:
+            reason = f"{plain} and {bent} in one deck: incompatible modes are for all or none"
+            journal.refuse(kinds[bent], reason)
+        elif plain in kinds:
+            case.set(("elasticity", "incompatible_modes"), "none", kinds[plain])
+        elif bent in kinds:
+            journal.choose(f"{bent}: the incompatible modes are those of this program")
     if model.program == "Abaqus":
         return
     for kind, difference in COARSER.items():

@@ -161,7 +161,9 @@ def _set_stiffness(interaction, model, case, journal, path, rows, faces):
     """A penalty k is a soft layer if k h / E is below HARD; h: edge of the faces, E: largest
     modulus."""
     if interaction.stiffness is None:
-        calculix = "" if model.program == "Abaqus" else "; in CalculiX it is a stiff penalty"
+        calculix = (
+            "" if model.program in ("Abaqus", "Nastran") else "; in CalculiX it is a stiff penalty"
+        )
         journal.choose(f"{interaction.source}: contact is hard{calculix}")
         return
     corners = [model.nodes.at(nodes) for nodes in faces.nodes(rows)]

@@ -2,6 +2,7 @@
 """Equations, rigid bodies, couplings, springs, dashpots and masses of a case."""
 import numpy as np
 
+from squeal.deck.case.attachments import add_attachments
 from squeal.deck.case.groups import NODES, clean, text_of
 from squeal.deck.case.roles import elements_in
 from squeal.deck.journal import TRANSLATED, Fault, Missing
@@ -33,6 +34,7 @@ def add_joints(model, roles, case, journal, faces):
             "SPRINGA keeps its direction; CalculiX turns it with the displacements of the static"
             " step before it computes frequencies"
         )
+    add_attachments(model, roles, case, journal)
     for number in roles.used:
         position = model.nodes.at([number])[0]
         case.set(("reference", roles.references[number], "position"), position)
@@ -66,7 +68,8 @@ def set_equation(case, name, terms, source):
 
 def _equation(equation, model, roles, case, places):
     terms = roles.global_terms(equation.terms, not equation.in_global_axes)
-    set_equation(case, places.name("line", equation.source), terms, equation.source)
+    name = equation.name or places.name("line", equation.source)
+    set_equation(case, name, terms, equation.source)
 
 
 def _mean(mean, model, roles, case, places):
@@ -84,7 +87,7 @@ def _rigid(rigid, model, roles, case, places):
     if not rigid.components or rigid.reference not in roles.references:
         return  # refused with its role
     numbers, wanted = _coupled_nodes(rigid, model, places.faces)
-    if roles.in_cells(rigid.reference) and rigid.reference not in numbers:
+    if roles.in_cells(rigid.reference) and not _follows_itself(rigid.reference, model):
         numbers = [*numbers, rigid.reference]  # the node of the cells is the reference node
     name = roles.references[rigid.reference]
     inside = [number for number in numbers if roles.in_cells(number)]
@@ -109,8 +112,18 @@ def _rigid(rigid, model, roles, case, places):
     if len(rigid.components) < 3:
         letters = "".join("xyz"[component] for component in rigid.components)
         case.set((*path, "components"), letters, rigid.source)
+    if rigid.pinned and others:
+        case.set((*path, "pinned"), True, rigid.source)
     if rigid.frame is not None and len(rigid.components) < 3:
         case.set((*path, "frame"), case.frame(rigid.frame), rigid.source)
+
+
+def _follows_itself(number, model):
+    """Returns whether the node of the cells is in a rigid body with itself as reference node."""
+    return any(
+        one.reference == number and one.nodes is not None and number in one.nodes
+        for one in model.rigid
+    )
 
 
 def _coupled_nodes(rigid, model, faces):

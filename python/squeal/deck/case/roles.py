@@ -29,15 +29,20 @@ class Roles:
                 journal.refuse_fault(rigid.source, fault)
         for number, component in self._uses():
             if number in self.joined:
-                self.joined[number].update(range(3) if number in model.frames else {component})
+                self.joined[number].update(self._span(number, component))
             if self.is_used(number) and number not in self.used or not model.nodes.has(number):
                 continue
-            self.used.setdefault(number, set()).update(
-                range(3) if number in model.frames else {component}
-            )
+            self.used.setdefault(number, set()).update(self._span(number, component))
             self.references[number] = self._reference(number)
         for rigid in model.rigid:
             self._join_loose(rigid)
+
+    def _span(self, number, component):
+        """Returns the global components that a component in the axes of a node may have a part
+        of."""
+        if number not in self.model.frames:
+            return {component}
+        return set(range(3) if component < 3 else range(3, 6))
 
     def _reference(self, number):
         return f"reference_{clean(self.model.node_name(number))}"
@@ -56,10 +61,11 @@ class Roles:
             if number in referred:
                 self.references[number] = self._reference(number)
                 self.used[number] = set()
-            if number in self.used:
+            table = self.used if number in self.used else self.joined
+            if number in table and number != rigid.reference:
                 turned = rigid.frame is not None
-                self.used[number].update(range(3) if turned else rigid.components)
-                self.used[number].update(() if rigid.pinned else (3, 4, 5))
+                table[number].update(range(3) if turned else rigid.components)
+                table[number].update(() if rigid.pinned else (3, 4, 5))
 
     def _rigid(self, rigid):
         label = self.model.node_label
@@ -96,6 +102,19 @@ class Roles:
             for _, nodes in elements_in(model, mass.label):
                 components = range(3) if mass.inertia is None else range(6)
                 yield from ((node, component) for node in nodes for component in components)
+        yield from self._attached()
+
+    def _attached(self):
+        """Uses of bushings, masses with inertia and distributed couplings."""
+        model = self.model
+        for one in model.bushings:
+            ends = [one.first] if one.second is None else [one.first, one.second]
+            yield from ((node, at) for node in ends for at in one.components())
+        for one in model.inertias:
+            yield from ((one.node, at) for at in range(6 if one.turns else 3))
+        for one in model.distributed:
+            yield from ((one.reference, at) for at in range(6))
+            yield from ((node, at) for node in one.nodes.tolist() for at in range(3))
 
     def in_cells(self, number):
         at = np.searchsorted(self.cell_nodes, number)
@@ -133,7 +152,7 @@ class Roles:
 
     def global_terms(self, terms, own_axes=True):
         """Returns terms (name, component, coefficient) in global axes of terms of nodes in their
-        own axes, with equal places added up. Raises Fault."""
+        own axes, or in global ones, with equal places added up. Raises Fault."""
         found = {}
         for number, component, coefficient in terms:
             reference, at = self.place(number, component)

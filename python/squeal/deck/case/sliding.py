@@ -176,7 +176,7 @@ def _add_given(motion, bodies, contact_nodes, moving, journal):
     for at in chosen:
         if at in moving:
             raise Fault(f"body '{bodies.names[at]}' has two motions")
-        moving[at] = Moving(motion, True)
+        moving[at] = Moving(motion, motion.known)
 
 
 def _turned(model, bodies, rubbing, journal, faces):

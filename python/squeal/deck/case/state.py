@@ -13,8 +13,9 @@ AXES = "xyz"
 class Places:
     """Values by node and component, sorted into groups of nodes and reference nodes."""
 
-    def __init__(self, roles, case, journal):
-        self.roles, self.case, self.journal = roles, case, journal
+    def __init__(self, roles, case, journal, frames):
+        """`frames`: axes of nodes in which the values are given."""
+        self.roles, self.case, self.journal, self.frames = roles, case, journal, frames
         self.nodes = {}  # node of cells -> {component: Value}
         self.references = {}  # name -> ({component: Value}, frame)
 
@@ -39,7 +40,7 @@ class Places:
 
     def frame(self, number):
         """Returns the name of the axes of a node, which become a frame of the case, or None."""
-        frame = self.roles.model.frames.get(number)
+        frame = self.frames.get(number)
         if frame is None:
             return None
         self.journal.mark(frame.source, "translated")
@@ -64,7 +65,7 @@ class Places:
 
 
 def add_supports(model, roles, case, journal):
-    places = Places(roles, case, journal)
+    places = Places(roles, case, journal, model.frames)
 
     def unused(fault, value):
         if value.value == 0:
@@ -106,7 +107,7 @@ def _hold(case, name, frame, values, keys, components):
 
 
 def add_forces(model, roles, case, journal):
-    places = Places(roles, case, journal)
+    places = Places(roles, case, journal, {} if model.state.global_forces else model.frames)
 
     def unused(fault, value):
         if value.value != 0:
@@ -142,7 +143,7 @@ def add_pressures(model, case, journal, faces):
         except Fault as fault:
             journal.refuse_fault(source, fault)
             continue
-        name = model.element_sets.spelled.get(label, "pressed")
+        name = model.element_sets.spelled.get(label, (label or "pressed").lower())
         if label in model.surfaces:
             name = model.surfaces[label].name
         group = case.group(FACES, rows, name)

@@ -38,12 +38,16 @@ def translate(model, journal):
     _name_idle_nodes(model, roles, journal)
     _name_idle_cards(model, journal)
     if model.prestress:
+        more = "" if model.program != "CalculiX" else "; CalculiX also includes its change of shape"
         journal.choose(
-            f"{model.frequency}: the stress of the static step changes the stiffness; CalculiX also"
-            " includes its change of shape"
+            f"{model.frequency}: the stress of the static step changes the stiffness{more}"
         )
         case.set(("elasticity", "prestress"), True, model.frequency)
+    if model.state.gravity is not None:
+        case.set(("load", "gravity"), *model.state.gravity)
     set_friction(model, case, journal, frictions, undetermined)
+    if frictions is None and model.top:
+        case.set(("flutter", "band"), model.top, model.frequency)
     return case
 
 

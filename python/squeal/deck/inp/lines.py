@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Lines of a deck, with those of included files in their place."""
-import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from squeal.deck.journal import DeckError, Source
-from squeal.files import open_regular
-
-DEPTH = 20  # of files that include each other
+from squeal.deck.texts import find_included, read_texts
 
 
 @dataclass(frozen=True)
@@ -36,7 +33,7 @@ class Lines:
 
     def _file(self, path, name, above):
         self.files += 1
-        for number, text in enumerate(self._texts(path, name), 1):
+        for number, text in enumerate(read_texts(path, name, self.journal), 1):
             text = text.strip()
             if not text or text.startswith("**"):
                 continue
@@ -47,19 +44,6 @@ class Lines:
                 if text.startswith("*") and WITH_INPUT.match(text):
                     yield from self._included(Line(name, number, text), path, (*above, path))
 
-    def _texts(self, path, name):
-        with os.fdopen(open_regular(path), "rb") as file:
-            data = file.read()
-        if data.startswith(b"\xef\xbb\xbf"):
-            data = data[3:]
-            self.journal.choose(f"{name}: a byte order mark at the start is skipped")
-        try:
-            text = data.decode("utf-8")
-        except UnicodeDecodeError:
-            text = data.decode("latin-1")
-            self.journal.choose(f"{name}: read as ISO 8859-1, since it is not UTF-8")
-        return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-
     def _included(self, line, path, above):
         keyword = re.match(r"\*\s*(\w+)", line.text)[1].upper()
         source = Source(line.file, line.number, keyword)
@@ -69,15 +53,8 @@ class Lines:
         if not name:
             self.journal.refuse(source, "INPUT= names no file")
             return
-        places = list(dict.fromkeys([path.parent / name, self.root.parent / name]))
-        found = next((place for place in places if place.is_file()), None)
-        if found is None:
-            where = " and ".join(map(str, places))
-            self.journal.refuse(source, f"there is no file {where}")
-        elif len(above) >= DEPTH or any(os.path.samefile(found, one) for one in above):
-            self.journal.refuse(source, f"{name} includes itself, or files are nested too deeply")
-        else:
-            self.journal.mark(source, "used", str(found))
+        found = find_included(name, path, self.root, above, self.journal, source)
+        if found is not None:
             yield from self._file(found, name, above)
 
 

@@ -41,7 +41,7 @@ def _cards(journal):
     for source, entry in journal.entries.items():
         if source.card:
             remarks = _cell("; ".join(entry.remarks))
-            lines.append(f"| {_cell(str(source))} | *{source.card} | {entry.status} | {remarks} |")
+            lines.append(f"| {_cell(str(source))} | {source.word} | {entry.status} | {remarks} |")
     return [*lines, ""]
 
 

@@ -28,7 +28,7 @@ def _lines(options, depth):
             continue
         text, source = value
         line = f"{start} {_quoted(text)}"
-        lines.append(f"{line}  # {source} *{source.card}" if source else line)
+        lines.append(f"{line}  # {source} {source.word}" if source else line)
     return lines
 
 
