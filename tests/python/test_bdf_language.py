@@ -189,6 +189,8 @@ class Order(unittest.TestCase):
         for row, name in zip(rows, names):
             self.assertTrue(lines[int(row.split(":")[1]) - 1].startswith(name + ","))
         one = imported(text, ignored=names)
+        note = one.options.pop("report")["note"]
+        self.assertEqual(note, f"left out of deck.bdf by --ignore: {', '.join(names)}")
         self.assertEqual(one.options, WANTED)
         self.assertEqual(one.account.count("ignored by --ignore"), len(names))
 
