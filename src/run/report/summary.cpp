@@ -59,6 +59,7 @@ Json steadyEntry(const steady::Solution& solution) {
     if (!resultant.stickingLimit) continue;
     found["friction"] = *resultant.stickingLimit;
     found["nodes_beyond_friction"] = resultant.overLimit;
+    if (resultant.pulled > 0) found["nodes_stuck_under_tension"] = resultant.pulled;
     found["nodes_released"] = resultant.released;
   }
   if (solution.revisions > 0) entry["revisions_of_sticking"] = solution.revisions;
