@@ -337,6 +337,10 @@ TEST(Bolts, FaultsAreNamed) {
       {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section bolt",
        "group 'bolt' has dimension 3; a boundary of dimension 2 is wanted"},
       {"-bolt_b_force 1 -bolt_b_axis 0,0,0", "option -bolt_b_axis: must not be zero"},
+      {"-bolt_b_force 1 -bolt_b_axis 1,0,0.05",
+       "option -bolt_b_axis: the axis lies across the normal of the section, (0, 0, 1)"},
+      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section section",
+       "option -bolt_c_section section: the bolt 'b' has this section already"},
   };
   for (const auto& [options, message] : faults) {
     const std::string found = test::errorOf([&, &text = options] {
@@ -345,6 +349,41 @@ TEST(Bolts, FaultsAreNamed) {
     });
     EXPECT_NE(found.find(message), std::string::npos) << options << "\n  " << found;
   }
+}
+
+// The nodes of a section are doubled: for other options its group would mean its lower side.
+TEST(Bolts, OnlyTheBoltUsesItsSection) {
+  const std::string rule = "(-bolt_b_section section), whose nodes are doubled";
+  for (const std::string option :
+       {"-constraint_section_clamped z", "-load_section_pressure 1", "-load_section_force 0,0,1",
+        "-ground_section_stiffness 0,0,1", "-mass_section_total 1",
+        "-contact_c_pad section -contact_c_disc sleeve_low",
+        "-tie_t_slave sleeve_high -tie_t_master section"}) {
+    const std::string found = test::errorOf([&] {
+      test::setOptions(assembly() + "-bolt_b_force 1 " + option);
+      tightenedModel();
+    });
+    EXPECT_TRUE(test::contains(found, "group 'section' is the section of the bolt 'b' " + rule))
+        << option << ": " << found;
+    EXPECT_TRUE(test::contains(found, "option " + option.substr(0, option.find('_')))) << found;
+  }
+  // The same faces under another name.
+  std::string again = geometry;
+  again.insert(again.find("Physical Volume"), "Physical Surface(\"copy\") = {middle};\n");
+  const auto message = [&](const std::string& options) {
+    return test::errorOf([&] {
+      test::setOptions("-mesh_file " + test::writeFile("copy.geo", again) + optionsOf("") +
+                       "-bolt_b_force 1 " + options);
+      tightenedModel();
+    });
+  };
+  EXPECT_TRUE(test::contains(message("-constraint_copy_clamped z"),
+                             "option -constraint_copy_clamped: group 'copy' has a face of the "
+                             "section of the bolt 'b' " +
+                                 rule));
+  // A position means both sides.
+  EXPECT_EQ(message("-reference_r_centre_of copy -coupling_c_reference high -coupling_c_nodes r"),
+            "");
 }
 
 }  // namespace
