@@ -336,6 +336,12 @@ std::set<std::string> groupsGiven(const std::map<std::string, std::vector<std::s
   return groups;
 }
 
+/// Reads the assumption of plane problems.
+void readPlane(Settings& settings) {
+  settings.planeStress = planeOption.get() == "stress";
+  if (planeOption.given()) settings.planeOption = planeOption.dashed();
+}
+
 /// Throws Error for an option of a body that all of its sections replace.
 void rejectIdle(const Settings& settings, const std::set<std::string>& used) {
   for (const auto& [body, sections] : settings.sections) {
@@ -363,7 +369,7 @@ Settings Settings::given() {
   }
   rejectIdle(settings, used);
   settings.frames = frame::framesGiven();
-  settings.planeStress = planeOption.get() == "stress";
+  readPlane(settings);
   return settings;
 }
 

@@ -276,6 +276,16 @@ TEST(Attachments, FaultsAreNamed) {
       {"-load_tip_acceleration 1,0,0", "option -load_tip_acceleration: 'tip' is not a body"},
       {"-load_tip_hydraulic off", "option -load_tip_hydraulic needs -load_tip_pressure"},
       {"-load_beam_spin_axis 1,0,0", "option -load_beam_spin_axis needs -load_beam_spin"},
+      {"-load_beam_spin 1 -load_beam_spin_axis 0,0,0",
+       "option -load_beam_spin_axis: the axis has no length"},
+      {"-load_beam_spin 1 -motion_beam_velocity 0,1,0",
+       "option -load_beam_spin: the body translates (-motion_beam_velocity)"},
+      {"-motion_beam_speed 1 -motion_beam_axis 0,0,0",
+       "option -motion_beam_axis: the axis has no length"},
+      {"-motion_beam_origin 1,0,0",
+       "option -motion_beam_origin needs -motion_beam_speed or -motion_beam_rpm"},
+      {"-motion_beam_velocity 1,0,0 -motion_beam_axis 1,0,0",
+       "option -motion_beam_axis needs -motion_beam_speed or -motion_beam_rpm"},
   };
   for (const auto& [options, message] : faults) {
     const auto given = [&, &text = options] {

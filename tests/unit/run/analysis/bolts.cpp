@@ -321,6 +321,25 @@ Physical Surface("section") = {c[0], d[0]};
   EXPECT_NE(message("section").find("can move rigidly"), std::string::npos) << message("section");
 }
 
+// The bolt is 1 m long: a tenth of it is the limit of small strains.
+TEST(Bolts, LargeShorteningIsReported) {
+  const auto warnings = [](const std::string& options) {
+    test::setOptions(assembly() + options);
+    return test::warningsOf([] { tightenedModel(); });
+  };
+  EXPECT_EQ(warnings("-bolt_b_shortening 0.099"), "");
+  const std::string given = warnings("-bolt_b_shortening 0.2"),
+                    found = warnings(formatted("-bolt_b_force %g", 0.3 * boltStiffness));
+  EXPECT_TRUE(test::contains(given,
+                             "bolt 'b' becomes 0.2 m shorter, 0.2 times the length of its "
+                             "body 'bolt' along it, 1 m"))
+      << given;
+  EXPECT_TRUE(test::contains(given, "-bolt_b_shortening")) << given;
+  // The bolt and the sleeve are springs: F (1/k_b + 1/k_s), k_s = 2 k_b, gives 0.45 m.
+  EXPECT_TRUE(test::contains(found, "bolt 'b' becomes 0.45 m shorter")) << found;
+  EXPECT_TRUE(test::contains(found, "-bolt_b_force")) << found;
+}
+
 TEST(Bolts, FaultsAreNamed) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"-bolt_b_shortening 1 -bolt_under_pressure on",
