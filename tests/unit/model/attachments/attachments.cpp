@@ -286,6 +286,14 @@ TEST(Attachments, FaultsAreNamed) {
        "option -motion_beam_origin needs -motion_beam_speed or -motion_beam_rpm"},
       {"-motion_beam_velocity 1,0,0 -motion_beam_axis 1,0,0",
        "option -motion_beam_axis needs -motion_beam_speed or -motion_beam_rpm"},
+      {r + s +
+           "-spring_upper_from r -spring_upper_to s -spring_upper_stiffness 1 "
+           "-spring_uper_damping 1",
+       "option -spring_uper_damping needs -spring_uper_from; did you mean -spring_upper_damping?"},
+      {r + "-mass_r_total 1",
+       "body 'reference node r' can move rigidly with closed frictionless contact (translation"},
+      {r + "-mass_r_total 1",
+       "-constraint_<group>_clamped, -constraint_<name>_clamped_rotation, -ground_"},
   };
   for (const auto& [options, message] : faults) {
     const auto given = [&, &text = options] {

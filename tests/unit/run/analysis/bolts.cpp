@@ -318,7 +318,36 @@ Physical Surface("section") = {c[0], d[0]};
             std::string::npos)
       << message("notch");
   // Cut through, the upper half is loose: nothing holds the bolt against its force.
-  EXPECT_NE(message("section").find("can move rigidly"), std::string::npos) << message("section");
+  EXPECT_NE(message("section").find("body 'bolt' can move rigidly"), std::string::npos)
+      << message("section");
+  EXPECT_NE(message("section").find("as the section of bolt 'b' opens, so the part of the body on "
+                                    "one side of it is loose"),
+            std::string::npos)
+      << message("section");
+}
+
+// A bar of three cells, clamped at its ends: the part between two sections is loose.
+TEST(Bolts, InSeriesAreNamed) {
+  test::setOptions("-mesh_file " + test::writeFile("series.geo", R"(
+Point(1) = {0, 0, 0}; Point(2) = {0, 1, 0}; Line(1) = {1, 2}; Transfinite Curve{1} = 2;
+a[] = Extrude{1, 0, 0}{ Line{1}; Layers{1}; Recombine; };
+b[] = Extrude{0, 0, 1}{ Surface{a[1]}; Layers{1}; Recombine; };
+c[] = Extrude{0, 0, 1}{ Surface{b[0]}; Layers{1}; Recombine; };
+d[] = Extrude{0, 0, 1}{ Surface{c[0]}; Layers{1}; Recombine; };
+Physical Volume("bolt") = {b[1], c[1], d[1]};
+Physical Surface("low") = {a[1]};
+Physical Surface("high") = {d[0]};
+Physical Surface("one") = {b[0]};
+Physical Surface("two") = {c[0]};
+)") + test::material("bolt", "1e9", "0.3", "1000") +
+                   "-constraint_low_clamped xyz -constraint_high_clamped xyz -bolt_b_section one "
+                   "-bolt_b_force 1 -bolt_c_section two -bolt_c_force 1");
+  const std::string found = test::errorOf([] { tightenedModel(); });
+  EXPECT_TRUE(test::contains(found, "body 'bolt' can move rigidly")) << found;
+  EXPECT_TRUE(test::contains(found,
+                             "as the sections of bolts 'b' and 'c' open, so the parts between "
+                             "or beyond them are loose"))
+      << found;
 }
 
 // The bolt is 1 m long: a tenth of it is the limit of small strains.
