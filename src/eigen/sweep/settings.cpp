@@ -22,8 +22,8 @@ const RealListOption pressureOption(
     true);
 const RealListOption dampingOption(
     "flutter", "flutter_damping", "1", "", nonNegative,
-    "swept factors on the damping of materials, of dashpots to the ground and of free modes, but "
-    "not on friction damping",
+    "swept factors on the damping of materials, ground dashpots, springs, bushings and free modes, "
+    "but not on friction damping",
     true);
 
 std::vector<double> ascending(const RealListOption& option) {

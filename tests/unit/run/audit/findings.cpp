@@ -146,6 +146,27 @@ TEST(Sections, ThatNothingJoins) {
   EXPECT_EQ(test::linesOf(laminate), "");
 }
 
+// The numbers of nodes of couplings: the body has those of the group, and so has the reference node
+// that they follow; a reference node that follows them is one node.
+TEST(Supports, CountTheNodesOfCouplings) {
+  test::BlockWriter writer;
+  writer.add("box", {test::hex8, {2, 2, 2}, {0, 0, 0}, {0.1, 0.05, 0.01}, 0});
+  const std::string options = "-mesh_file " + test::writeFile("audit_coupled.msh", writer.text()) +
+                              test::material("box", "2.1e11", "0.3", "7850") +
+                              "-constraint_box_low_clamped xyz -reference_r_centre_of box_high "
+                              "-coupling_c_reference r -coupling_c_nodes box_high "
+                              "-coupling_c_kind ";
+  for (const std::string kind : {"rigid", "distributed"}) {
+    const auto found = test::audited(options + kind);
+    for (const auto& part : found.parts) {
+      const auto support = std::ranges::find(part.supports, "coupling 'c'", &audit::Support::by);
+      ASSERT_NE(support, part.supports.end()) << part.part;
+      const bool isReference = part.part == "reference node r";
+      EXPECT_EQ(support->nodes, isReference && kind == "distributed" ? 1 : 9) << part.part << kind;
+    }
+  }
+}
+
 TEST(Units, Pressure) {
   const auto options = block("audit_p.msh", {0.1, 0.05, 0.01}, "2.1e11", "7850");
   const std::string load = " -load_box_x0_pressure ";
