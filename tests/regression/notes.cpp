@@ -43,6 +43,23 @@ TEST(Notes, OptionsThatNothingAsksFor) {
       << run.out;
 }
 
+// A single interface whose nodes match has a line of its own if it is not hard contact.
+TEST(Notes, SoftLayerAndKeptContact) {
+  const Options soft = with(spoken, {{"contact_plate_stiffness", "1e3"},
+                                     {"contact_plate_separation", "off"},
+                                     {"contact_plate_role", "frictionless"},
+                                     {"flutter_friction", "0"},
+                                     {"flutter_sensitivities", "on"}});
+  const ProgramRun run = runProgram("notes/soft", 1, commandLine(soft)),
+                   dry =
+                       runProgram("notes/soft_dry", 1, commandLine(with(soft, {{"dry_run", ""}})));
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  EXPECT_TRUE(says(run, "; with a soft layer of 1000 N/m3; they do not separate")) << run.out;
+  EXPECT_TRUE(says(run, "sensitivities.csv has no rows, since no mode was found unstable"))
+      << run.out;
+  EXPECT_TRUE(says(dry, "soft layer of 1000 N/m3, do not separate")) << dry.out;
+}
+
 // The case displaces the pad along y; without a hold along y its displacement is left out.
 TEST(Notes, DisplacementThatIsNotHeld) {
   const ProgramRun run = runProgram(

@@ -64,6 +64,37 @@ TEST(NoSeparation, RefusesFrictionUnderTension) {
   EXPECT_NE(reason.find("-contact_interface_separation"), std::string::npos) << reason;
 }
 
+// A sticking interface that may slide is one with friction, too: released under tension its nodes
+// would be pushed in the direction of motion.
+TEST(NoSeparation, RefusesReleasedNodesUnderTension) {
+  const std::string sticking =
+      small + kept + "-flutter_friction 0 -contact_interface_role sticking " +
+      "-contact_interface_friction 0.1 -constraint_pad_top_displacement 0.01,";
+  for (const std::string full : {"off", "on"}) {
+    const auto refused = runCase(
+        "two_layers", sticking + "0.01,0 -contact_interface_release on -steady_full " + full);
+    EXPECT_FALSE(refused.converged());
+    const std::string& reason = refused.steady.solutions.at(0).reason;
+    for (const std::string part : {"interface 'interface'", "nodes with friction are under tension",
+                                   "friction needs pressure", "-contact_interface_separation off"})
+      EXPECT_NE(reason.find(part), std::string::npos) << reason;
+    // Under pressure the same nodes slide: the shear stress is about that of the pressure.
+    const auto pressed = runCase(
+        "two_layers", sticking + "-0.01,0 -contact_interface_release on -steady_full " + full);
+    ASSERT_TRUE(pressed.converged()) << pressed.steady.solutions.at(0).reason;
+    EXPECT_EQ(pressed.steady.solutions.at(0).resultants.at(0).released,
+              pressed.model.contact.interfaces.totalNodes);
+  }
+  // Without a release the interface is a bond: its nodes are beyond any coefficient of friction,
+  // and none is the least sufficient one.
+  const auto bonded = runCase("two_layers", sticking + "0.01,0");
+  ASSERT_TRUE(bonded.converged()) << bonded.steady.solutions.at(0).reason;
+  const auto& resultant = bonded.steady.solutions.at(0).resultants.at(0);
+  EXPECT_EQ(resultant.overLimit, bonded.model.contact.interfaces.totalNodes);
+  EXPECT_EQ(resultant.pulled, resultant.overLimit);
+  EXPECT_EQ(resultant.leastFriction, 0);
+}
+
 /// A stiff block, 3 × 1 with the mass 3 kg, on a soft layer of 1 N/m3 on its upper face. A force of
 /// 0.1 N at the distance `arm` from the middle presses it up against a rigid obstacle; the
 /// reference node of its lower face has no motion along x.

@@ -9,8 +9,12 @@
 
 namespace squeal::factor {
 
-/// The matrices K0 and M0, n×n, symmetric positive definite. The object also owns a direct solver
-/// of K0 (prefix -modes_st_), whose single factorisation serves all stages.
+/// Collective. Returns the number of rows of a matrix without an entry other than zero.
+PetscInt zeroRows(Mat matrix);
+
+/// The matrices K0 and M0, n×n, symmetric positive definite, except that M0 may have rows of zeros:
+/// unknowns without mass. The object also owns a direct solver of K0 (prefix -modes_st_), whose
+/// single factorisation serves all stages.
 class AssociatedSystem {
  public:
   /// Collective. Takes both matrices; messages call K0 `name`.

@@ -133,11 +133,4 @@ double Option::number(const std::string& subject, const std::string& value) cons
 
 const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
 
-void requireOption(const std::vector<const Option*>& options, const Option& needed) {
-  for (const Option* option : options)
-    for (const auto& subject : option->subjects())
-      if (!needed.given(subject))
-        throw Error("option " + option->dashed(subject) + " needs " + needed.dashed(subject));
-}
-
 }  // namespace squeal

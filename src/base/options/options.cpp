@@ -85,7 +85,28 @@ std::string nearestName(const std::string& name) {
   return nearest;
 }
 
+/// Returns the subject of a given option that is nearest to a mistyped one; empty if none is near.
+std::string nearestSubject(const Option& option, const std::string& subject) {
+  std::string nearest;
+  std::size_t least = std::min<std::size_t>(3, subject.size());  // one or two wrong letters
+  if (subject.size() > 100) return nearest;
+  for (const auto& known : option.subjects())
+    if (const auto distance = editDistance(subject, known); distance < least)
+      least = distance, nearest = known;
+  return nearest;
+}
+
 }  // namespace
+
+void requireOption(const std::vector<const Option*>& options, const Option& needed) {
+  for (const Option* option : options)
+    for (const auto& subject : option->subjects()) {
+      if (needed.given(subject)) continue;
+      const std::string near = nearestSubject(needed, subject);
+      throw Error("option " + option->dashed(subject) + " needs " + needed.dashed(subject) +
+                  (near.empty() ? "" : "; did you mean " + option->dashed(near) + "?"));
+    }
+}
 
 SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string meaning_)
     : stage(std::move(stage_)), prefix(std::move(prefix_)), meaning(std::move(meaning_)) {

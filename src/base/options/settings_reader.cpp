@@ -96,6 +96,23 @@ std::string violatedRule(const std::string& name) {
   return isName("-" + name) ? "" : "it must begin with a letter";
 }
 
+/// Returns true for an equation that begins like the name of an option: -a:x + b:y = 0.
+bool looksLikeEquation(const Word& word) {
+  const auto colon = word.text.find(':');
+  return !word.quoted && isName(word.text) && colon != std::string::npos &&
+         word.text.find('=', colon) != std::string::npos;
+}
+
+/// Throws Error for word i, an option, that such an equation follows.
+[[noreturn]] void rejectEquation(const std::vector<Word>& words, std::size_t i,
+                                 const std::string& file) {
+  const std::string value = words[i + 1].text;
+  throw Error(prefixed(Setting{"", "", file, words[i].line}.place(),
+                       "option " + words[i].text + ": its value '" + value +
+                           "' begins like the name of an option; begin it with a number: '-1*" +
+                           value.substr(1) + "'"));
+}
+
 /// Returns the text with line breaks and tabs as escapes.
 std::string withoutBreaks(const std::string& text) {
   std::string line;
@@ -160,6 +177,7 @@ void SettingsReader::readWords(const std::vector<Word>& words, const std::string
     const Word& word = words[i];
     if (word.quoted || !isName(word.text)) rejectStray(words, i, file);
     Setting setting{word.text.substr(1), "", file, word.line};
+    if (i + 1 < words.size() && looksLikeEquation(words[i + 1])) rejectEquation(words, i, file);
     if (i + 1 < words.size() && words[i + 1].line == word.line &&
         (words[i + 1].quoted || !isName(words[i + 1].text)))
       setting.value = words[++i].text;

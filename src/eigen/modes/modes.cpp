@@ -334,12 +334,14 @@ Modes compute(const factor::AssociatedSystem& system, const Settings& given) {
   Settings settings = given;
   const PetscInt size = rowsOf(system.k0());
   const MPI_Comm comm = commOf(system.k0());
-  if (settings.count > size) {
+  // Unknowns without mass have no mode.
+  const PetscInt most = settings.count <= size / 2 ? size : size - factor::zeroRows(system.m0());
+  if (settings.count > most) {
     if (settings.countGiven)
       throw Error(formatted("option -modes_count %d: the problem has only %" PetscInt_FMT
-                            " unknowns",
-                            settings.count, size));
-    settings.count = size;  // the default
+                            " unknowns%s",
+                            settings.count, most, most < size ? " with mass" : ""));
+    settings.count = most;  // the default
   }
   Stage stage(comm, "modes");
   Modes modes = computeBy(system, settings, stage);

@@ -21,8 +21,8 @@ const RealListOption pressureOption(
     "but not on gravity and centrifugal forces");
 const RealListOption dampingOption(
     "flutter", "flutter_damping", "1", "", sequencesOf(nonNegative),
-    "swept factors on the damping of materials, of dashpots to the ground and of free modes, but "
-    "not on friction damping");
+    "swept factors on the damping of materials, ground dashpots, springs, bushings and free modes, "
+    "but not on friction damping");
 
 std::vector<double> ascending(const RealListOption& option) {
   auto list = option.get();

@@ -64,7 +64,7 @@ Form springOf(const mesh::Mesh& mesh, const SpringSettings& spring) {
                   to = mesh::pointNode(mesh, spring.to,
                                        "option " + springToName(spring.name) + ": ");
   const Point line = minus(to.position, from.position);
-  if (!(mesh::length(line) > 0))
+  if (!(mesh::length(line) > mesh.coincidence(to.position)))
     throw Error("option " + springToName(spring.name) + ": both ends lie at " +
                 mesh::text(to.position) + ", so the spring has no direction; use " +
                 bushingStiffnessName(spring.name));
@@ -91,6 +91,9 @@ BushingEnds endsOf(const mesh::Mesh& mesh, const BushingSettings& bushing) {
   ends.centre = ends.from.position;
   if (bushing.to.empty()) return ends;
   ends.to = mesh::pointNode(mesh, bushing.to, "option " + bushingToName(bushing.name) + ": ");
+  if (ends.to->displacement == ends.from.displacement)
+    throw Error("option " + bushingToName(bushing.name) + " " + bushing.to +
+                ": both ends are the same node; without this option the second end is the ground");
   const Point gap = minus(ends.to->position, ends.from.position);
   const bool fromTurns = ends.from.rotation >= 0, toTurns = ends.to->rotation >= 0;
   if (fromTurns && toTurns)
@@ -114,7 +117,7 @@ void addBushing(const mesh::Mesh& mesh, const BushingSettings& bushing, const Se
                  componentsOf(bushing.stiffness, dimension, bushingStiffnessName(bushing.name)),
              damping = componentsOf(bushing.damping, dimension, bushingDampingName(bushing.name));
   const Matrix3 axes =
-      frame::named(settings.frames, bushing.frame, bushingFrameName(bushing.name), dimension)
+      frame::named(settings.frames, bushing.frame, bushingFrameName(bushing.name), mesh)
           .axesAt(ends.centre);
   const BushingAxes layout{dimension, dimension == 3 ? 3 : 1};
   for (int k = 0; k < std::ssize(stiffness); ++k) {
@@ -200,7 +203,7 @@ void addMasses(const mesh::Mesh& mesh, const MassSettings& given, const Settings
   if (mesh.reference(given.group)) {
     const PointNode node = mesh::pointNode(mesh, given.group, "");
     const Matrix3 axes =
-        frame::named(settings.frames, given.frame, massFrameName(given.group), mesh.dimension)
+        frame::named(settings.frames, given.frame, massFrameName(given.group), mesh)
             .axesAt(node.position);
     const Point local = given.offset.in(mesh.dimension);
     masses.push_back({given.group, node, given.total, mesh::along(axes, local),
@@ -231,8 +234,8 @@ void addMoment(const mesh::Mesh& mesh, const ForceSettings& given, const frame::
   const Point local = given.moment.in(3);
   if (mesh.dimension == 2 && (local[0] != 0 || local[1] != 0))
     throw Error("option " + momentName(given.group) + ": in the plane must be 0,0,Mz");
+  const Matrix3 axes = frame.axesAt(reference->position);  // on all ranks, as it may throw
   if (mesh.ownedNode(reference->rotation) < 0) return;
-  const Matrix3 axes = frame.axesAt(reference->position);
   const Point moment = mesh::along(axes, local);
   forces.push_back({reference->rotation, onRotation(moment, mesh.dimension), given.hydraulic});
 }
@@ -281,7 +284,7 @@ std::vector<NodalForce> forcesOf(const mesh::Mesh& mesh, const Settings& setting
   std::string failure;
   for (const auto& given : settings.forces) {
     const auto frame =
-        frame::named(settings.frames, given.frame, forceFrameName(given.group), mesh.dimension);
+        frame::named(settings.frames, given.frame, forceFrameName(given.group), mesh);
     if (given.hasMoment) addMoment(mesh, given, frame, forces);
     const Point local = given.force.in(mesh.dimension);
     const auto& nodes = mesh.nodeGroups.at(given.group);
@@ -291,7 +294,7 @@ std::vector<NodalForce> forcesOf(const mesh::Mesh& mesh, const Settings& setting
         const Point force = mesh::along(axes, mesh::scaled(local, 1.0 / count));
         forces.push_back({mesh.firstNode + node, force, given.hydraulic});
       } catch (const Error& error) {
-        failure = "option " + forceName(given.group) + ": " + error.what();
+        failure = error.what();
       }
   }
   failTogether(mesh.comm, failure);

@@ -115,6 +115,7 @@ void Supports::addRotations(const std::string& group, const ClampSettings& clamp
   if (dimension_ == 2 && clamp.rotations != "z")
     throw Error("option " + clampedRotationName(group) + " " + clamp.rotations +
                 ": in the plane must be z");
+  const mesh::Matrix3 axes = frame.axesAt(reference.position);  // on all ranks, as it may throw
   const PetscInt node = mesh_.ownedNode(reference.rotation);
   if (node < 0) return;
   for (const char letter : clamp.rotations) {
@@ -124,15 +125,14 @@ void Supports::addRotations(const std::string& group, const ClampSettings& clamp
     else if (frame.isGlobal())
       hold(node, component, angle[component], failure);
     else
-      turned_[node].push_back({frame.axesAt(reference.position)[component], angle[component],
-                               int(std::ssize(found_.groups) - 1)});
+      turned_[node].push_back(
+          {axes[component], angle[component], int(std::ssize(found_.groups) - 1)});
   }
 }
 
 void Supports::add(const std::string& group, const ClampSettings& clamp, std::string& failure) {
   found_.groups.push_back(group);
-  const Frame frame =
-      frame::named(settings_.frames, clamp.frame, clampFrameName(group), dimension_);
+  const Frame frame = frame::named(settings_.frames, clamp.frame, clampFrameName(group), mesh_);
   if (!clamp.rotations.empty()) {
     warnOfAngles(mesh_.comm, group, clamp);
     addRotations(group, clamp, frame, failure);
@@ -151,7 +151,7 @@ void Supports::add(const std::string& group, const ClampSettings& clamp, std::st
                                    values[component], int(std::ssize(found_.groups) - 1)});
       }
     } catch (const Error& error) {
-      failure = "option " + clampedName(group) + ": " + error.what();
+      failure = error.what();
     }
 }
 

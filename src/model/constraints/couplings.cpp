@@ -156,7 +156,7 @@ void Couplings::addRigid(int coupling) {
   const auto& given = settings_.couplings[coupling];
   const mesh::Reference& reference = *mesh_.reference(given.reference);
   const auto frame =
-      frame::named(settings_.frames, given.frame, couplingFrameName(given.name), mesh_.dimension);
+      frame::named(settings_.frames, given.frame, couplingFrameName(given.name), mesh_);
   const std::string allowed = std::string("xyz").substr(0, mesh_.dimension);
   // In the plane all components are x and y.
   const std::string components = given.components == "xyz" ? allowed : given.components;
@@ -170,7 +170,7 @@ void Couplings::addRigid(int coupling) {
             failure);
       addFollowingRotation(group, coupling, reference, failure);
     } catch (const Error& error) {
-      failure = head(given) + error.what();
+      failure = error.what();
     }
   failTogether(mesh_.comm, failure);
 }

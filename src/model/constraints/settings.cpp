@@ -359,6 +359,8 @@ std::string couplingFrameName(const std::string& coupling) {
   return couplingFrameOption.dashed(coupling);
 }
 std::string equationName(const std::string& equation) { return equationOption.dashed(equation); }
+std::string boltForceName(const std::string& bolt) { return boltForceOption.dashed(bolt); }
+std::string boltShorteningName(const std::string& bolt) { return shorteningOption.dashed(bolt); }
 std::string boltsUnderPressureName() { return underPressureOption.dashed(); }
 
 }  // namespace squeal::constraints

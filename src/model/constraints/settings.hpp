@@ -96,6 +96,8 @@ std::string couplingComponentsName(const std::string& coupling);
 std::string couplingFrameName(const std::string& coupling);
 std::string pinnedName(const std::string& coupling);
 std::string equationName(const std::string& equation);
+std::string boltForceName(const std::string& bolt);
+std::string boltShorteningName(const std::string& bolt);
 std::string boltsUnderPressureName();
 
 }  // namespace squeal::constraints

@@ -42,6 +42,29 @@ bool isFree(double eigenvalue, double largest) {
   return eigenvalue <= 1e-12 * std::max(largest, 1.0);
 }
 
+/// Returns the bolts whose sections open in column k of the rigid motions g.
+std::vector<std::string> openingBolts(const mesh::Mesh& mesh, const linalg::DenseMatrix& g,
+                                      const RigidMotions& motions, int k) {
+  std::vector<std::string> bolts;
+  for (const auto& section : mesh.sections) {
+    const int first = mesh.references[section.reference].part * motions.perPart();
+    double opening = 0;
+    for (int d = 0; d < mesh.dimension; ++d) opening += section.normal[d] * g(first + d, k);
+    if (std::abs(opening) > 1e-6) bolts.push_back("'" + section.name + "'");
+  }
+  return bolts;
+}
+
+/// Returns what the bolts of a rigid-body mode do, for messages; empty without bolts.
+std::string boltText(const RigidBodyMode& mode) {
+  if (mode.bolts.empty()) return "";
+  if (mode.bolts.size() == 1)
+    return " as the section of bolt " + mode.bolts[0] +
+           " opens, so the part of the body on one side of it is loose";
+  return " as the sections of bolts " + joined(mode.bolts, " and ") +
+         " open, so the parts between or beyond them are loose";
+}
+
 }  // namespace
 
 std::vector<unsigned char> looseParts(const mesh::Mesh& mesh, const Contact& contact,
@@ -64,9 +87,13 @@ std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact
   linalg::DenseMatrix g = gramOf(mesh, contact, bodies, motions, holding);
   const auto eigenvalues = linalg::symmetricEigen(g);
   if (!isFree(eigenvalues.front(), eigenvalues.back())) return std::nullopt;
+  std::vector<unsigned char> isOfBolt(mesh.parts, 0), isReference(mesh.parts, 0);
+  for (const auto& reference : mesh.references) isReference[reference.part] = 1;
+  for (const auto& section : mesh.sections) isOfBolt[mesh.references[section.reference].part] = 1;
   int worst = 0;
   double most = -1;
   for (int part = 0; part < mesh.parts; ++part) {
+    if (isOfBolt[part]) continue;  // its section opens because a body is loose
     double weight = 0;
     for (int k = 0; k < motions.perPart(); ++k)
       weight += std::pow(g(part * motions.perPart() + k, 0), 2);
@@ -83,16 +110,18 @@ std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact
       if (sign == 0) sign = std::copysign(1, part);
       motion += formatted(motion.empty() ? "%s: %.3g" : ", %s: %.3g", names[k], sign * part);
     }
-  return RigidBodyMode{mesh.partName[worst], motion};
+  return RigidBodyMode{mesh.partName[worst], motion, openingBolts(mesh, g, motions, 0),
+                       isReference[worst] != 0};
 }
 
 void rejectRigidBodyModes(const mesh::Mesh& mesh, const Contact& contact,
                           const elasticity::Bodies& bodies) {
   if (const auto mode = rigidBodyMode(mesh, contact, bodies, {}))
     throw Error("singular problem: body '" + mode->body +
-                "' can move rigidly with closed frictionless contact (" + mode->motion +
-                "); support it with -constraint_<group>_clamped, -ground_<group>_stiffness or "
-                "-bushing_<name>_stiffness");
+                "' can move rigidly with closed frictionless contact (" + mode->motion + ")" +
+                boltText(*mode) + "; support it with -constraint_<group>_clamped, " +
+                (mode->isReference ? "-constraint_<name>_clamped_rotation, " : "") +
+                "-ground_<group>_stiffness or -bushing_<name>_stiffness");
 }
 
 }  // namespace squeal::contact

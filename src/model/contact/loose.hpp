@@ -14,7 +14,9 @@ namespace squeal::contact {
 
 /// A connected part of the mesh that can move without strain.
 struct RigidBodyMode {
-  std::string body, motion;  ///< names of its bodies, and the rigid motion in words
+  std::string body, motion;        ///< names of its bodies, and the rigid motion in words
+  std::vector<std::string> bolts;  ///< those whose sections open with it
+  bool isReference = false;        ///< the part is a reference node
 };
 
 /// Collective. Returns the part with the rigid-body mode of the least support by constraints,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Anisotropic materials of moving bodies: matter that arrives at a place must have the law of the
-/// place.
+/// The axes of anisotropic materials: defined in all cells, and unchanged by the motion of the
+/// bodies, since matter that arrives at a place must have the law of the place.
 #include <vector>
 
 #include "model/elasticity/motion.hpp"
@@ -17,5 +17,10 @@ namespace squeal::elasticity {
 /// and warns without: under approximation A the axes stay at rest while the matter moves.
 void checkCarriedAxes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                       const std::vector<Motion>& motions, bool convective);
+
+/// Collective. Throws Error if the centre of a cell lies on the axis of the cylindrical axes of its
+/// material, up to round-off, unless the law is symmetric about this axis: the radial direction is
+/// not defined there.
+void requireMaterialAxes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials);
 
 }  // namespace squeal::elasticity

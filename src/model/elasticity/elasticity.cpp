@@ -220,6 +220,7 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
   bodies.motions = motionsOf(mesh.bodies, mesh.dimension, settings.motions);
   bodies.materials = material::materialsOf(mesh, materials);
   requireHex20(mesh, bodies.materials);
+  requireMaterialAxes(mesh, bodies.materials);
   checkCarriedAxes(mesh, bodies.materials, bodies.motions, settings.convective);
   assembleMatrices(mesh, bodies);
   bodies.exposed = exposedCells(mesh, bodies.materials);

@@ -30,7 +30,7 @@ std::vector<Matrix3> shares(const mesh::Mesh& mesh, const Settings& settings,
   const auto& nodes = mesh.nodeGroups.at(group);
   const PetscInt count = mpi::sum(mesh.comm, PetscInt(nodes.size()));
   const auto frame = frame::named(settings.attachments.frames, settings.ground.at(group).frame,
-                                  groundFrameName(group), mesh.dimension);
+                                  groundFrameName(group), mesh);
   mesh::Point total = given.in(mesh.dimension);
   for (double& x : total) x /= count;
   std::vector<Matrix3> result;
@@ -38,7 +38,7 @@ std::vector<Matrix3> shares(const mesh::Mesh& mesh, const Settings& settings,
   for (const PetscInt node : nodes) try {
       result.push_back(alongAxes(total, frame.axesAt(mesh.coordinates[node])));
     } catch (const Error& error) {
-      failure = "option " + groundFrameName(group) + ": " + error.what();
+      failure = error.what();
     }
   failTogether(mesh.comm, failure);
   return result;

@@ -25,10 +25,10 @@ std::vector<Motion> motionsOf(const std::vector<std::string>& bodies, int dimens
     Motion& motion = motions.emplace_back();
     const auto given = settings.find(body);
     if (given == settings.end()) continue;
-    const auto& [option, moves, velocity, speed, axis, origin] = given->second;
+    const auto& [option, moves, velocity, speed, axis, origin, axisOption] = given->second;
     motion = {velocity.in(dimension), speed, axis.in(dimension), origin.in(dimension)};
     if (!(mesh::length(motion.axis) > 0))
-      throw Error("option " + axisName(body) + ": the axis has no length");
+      throw Error("option " + axisOption + ": the axis has no length");
     motion.axis = mesh::unit(motion.axis);
   }
   return motions;

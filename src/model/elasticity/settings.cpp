@@ -89,12 +89,18 @@ std::map<std::string, MotionSettings> motionsGiven() {
                                                          &axisOption, &originOption})
     for (const auto& body : option->subjects())
       motions.try_emplace(body, MotionSettings{.option = option->dashed(body)});
+  for (const Option* option : std::vector<const Option*>{&axisOption, &originOption})
+    for (const auto& body : option->subjects())
+      if (!speedOption.given(body) && !rpmOption.given(body))
+        throw Error("option " + option->dashed(body) + " needs " + speedOption.dashed(body) +
+                    " or " + rpmOption.dashed(body) + ": only a rotation has an axis");
   for (auto& [body, motion] : motions) {
     motion.moves = velocityOption.given(body) || speedOption.given(body) || rpmOption.given(body);
     motion.velocity = velocityOption.vector(body);
     motion.speed = rotationSpeed(body);
     motion.axis = axisOption.vector(body);
     motion.origin = originOption.vector(body);
+    motion.axisOption = axisOption.dashed(body);
   }
   return motions;
 }
@@ -112,10 +118,15 @@ void readBodyForces(Settings& settings) {
     if (settings.motions.contains(body) && settings.motions.at(body).speed != 0)
       throw Error("option " + spinOption.dashed(body) + ": the body rotates, and " +
                   "-load_centrifugal gives its centrifugal forces already");
+    if (velocityOption.given(body) && velocityOption.vector(body).in(3) != mesh::Point{})
+      throw Error("option " + spinOption.dashed(body) + ": the body translates (" +
+                  velocityOption.dashed(body) +
+                  "); a spin acts on a body that does not move otherwise");
     settings.spins[body] = {.option = spinOption.dashed(body),
                             .speed = spinOption.get(body),
                             .axis = spinAxisOption.vector(body),
-                            .origin = spinOriginOption.vector(body)};
+                            .origin = spinOriginOption.vector(body),
+                            .axisOption = spinAxisOption.dashed(body)};
   }
   settings.bodyForces =
       gravityOption.given() || !settings.accelerations.empty() || !settings.spins.empty();

@@ -23,6 +23,7 @@ struct MotionSettings {
   double speed = 0;           ///< of a rotation, rad/s
   VectorValue axis = {};      ///< direction of the rotation axis
   VectorValue origin = {};    ///< a point of the rotation axis, m
+  std::string axisOption;     ///< the option of the axis, with its dash, for messages
 };
 
 /// Springs and dashpots from the nodes of one group to the ground, totals of the group.

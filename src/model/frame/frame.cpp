@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "model/frame/frame.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/system/error.hpp"
@@ -15,6 +16,9 @@ using mesh::unit;
 
 /// Two directions are parallel if the sine of their angle is below this.
 constexpr double parallel = 1e-6;
+/// A point lies on an axis if its distance is below this, relative to the size of the mesh, or
+/// below the round-off of its coordinates, relative to them.
+constexpr double onAxis = 1e-9, positionRounding = 1e-12;
 
 Point unitOf(const VectorValue& direction, const std::string& option, int dimension) {
   const Point given = direction.in(dimension);
@@ -65,23 +69,30 @@ Frame::Frame(const FrameSettings& settings, int dimension)
     axes_[2] = {0, 0, 1}, axes_[1] = mesh::scaled(axes_[1], -1);
 }
 
+Frame::Frame(const FrameSettings& settings, const std::string& option, const mesh::Mesh& mesh)
+    : Frame(settings, mesh.dimension) {
+  option_ = option, diagonal_ = mesh.diagonal;
+}
+
 Matrix3 Frame::axesAt(const Point& x) const {
   if (!cylindrical_) return mesh::product(turn_, axes_);
   const Point r = mesh::minus(x, origin_), radial = mesh::tangential(r, axes_[2]);
-  if (length(radial) <= parallel * length(r))
-    throw Error(
-        formatted("frame '%s': the point (%g, %g, %g) m lies on its axis, where the radial "
-                  "direction is not defined",
-                  name_.c_str(), x[0], x[1], x[2]));
+  const double rounding =
+      std::max(onAxis * diagonal_, positionRounding * std::max(length(x), length(origin_)));
+  if (length(radial) <= std::max(parallel * length(r), rounding))
+    throw Error((option_.empty() ? "" : "option " + option_ + " " + name_ + ": ") +
+                formatted("the point (%g, %g, %g) m lies on the axis of the cylindrical frame "
+                          "'%s', where the radial direction is not defined",
+                          x[0], x[1], x[2], name_.c_str()));
   const Point e = unit(radial);
   return mesh::product(turn_, {e, cross(axes_[2], e), axes_[2]});
 }
 
 Frame named(const std::map<std::string, FrameSettings>& frames, const std::string& name,
-            const std::string& option, int dimension) {
+            const std::string& option, const mesh::Mesh& mesh) {
   if (name.empty()) return {};
   if (const auto found = frames.find(name); found != frames.end())
-    return Frame(found->second, dimension);
+    return Frame(found->second, option, mesh);
   std::vector<std::string> names;
   for (const auto& [known, settings] : frames) names.push_back(known);
   throw Error("option " + option + " " + name + ": no frame has this name; " +

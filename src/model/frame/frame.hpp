@@ -24,8 +24,10 @@ class Frame {
   /// Throws Error for directions that are zero or parallel and, if `dimension` is 2, for axes out
   /// of the plane or turned out of it.
   Frame(const FrameSettings& settings, int dimension);
-  /// Returns the axes at a point, by rows. Throws Error, naming the frame, at a point on the axis
-  /// of a cylindrical one.
+  /// The same for an option, which messages name, on a mesh.
+  Frame(const FrameSettings& settings, const std::string& option, const mesh::Mesh& mesh);
+  /// Returns the axes at a point, by rows. Throws Error, naming the option and the frame, at a
+  /// point on the axis of a cylindrical one, up to round-off of the size of the mesh.
   Matrix3 axesAt(const Point& x) const;
   bool isGlobal() const { return name_.empty(); }
   bool isCylindrical() const { return cylindrical_; }
@@ -36,7 +38,8 @@ class Frame {
   const Matrix3& turn() const { return turn_; }
 
  private:
-  std::string name_;
+  std::string name_, option_;
+  double diagonal_ = 0;  // of the mesh
   bool cylindrical_ = false;
   Point origin_{};
   Matrix3 axes_ = mesh::identity3;  // before the turn
@@ -46,6 +49,6 @@ class Frame {
 /// Returns the frame that an option names, the global one for an empty name. Throws Error, naming
 /// the option and the frames, if there is none of this name.
 Frame named(const std::map<std::string, FrameSettings>& frames, const std::string& name,
-            const std::string& option, int dimension);
+            const std::string& option, const mesh::Mesh& mesh);
 
 }  // namespace squeal::frame

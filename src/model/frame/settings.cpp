@@ -12,11 +12,11 @@ namespace {
 
 const RealListOption originOption("frame", "frame_<name>_origin", "0,0,0", "m", anyReal,
                                   "origin of local axes; cylindrical: a point on the axis");
-const RealListOption xOption("frame", "frame_<name>_x", "1,0,0", "", anyReal,
+const RealListOption xOption("frame", "frame_<name>_x", "", "", anyReal,
                              "direction of the local x axis of rectangular axes");
 const RealListOption xyOption("frame", "frame_<name>_xy", "0,1,0", "", anyReal,
                               "another direction in the local plane of x and y");
-const RealListOption axisOption("frame", "frame_<name>_axis", "0,0,1", "", anyReal,
+const RealListOption axisOption("frame", "frame_<name>_axis", "", "", anyReal,
                                 "axis of cylindrical axes: x is radial, y tangential, z axial");
 const RealOption turnOption("frame", "frame_<name>_turn", 0.0, "deg", anyReal,
                             "angle by which the local axes are turned about one of them, "

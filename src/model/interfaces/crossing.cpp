@@ -108,12 +108,17 @@ Crossing crossingOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchan
   return crossing;
 }
 
+/// Returns a ratio as a percentage of two digits, or 100.
+std::string percent(double ratio) {
+  return formatted(ratio > 0.0995 ? "%.0f" : "%.2g", 100 * ratio);
+}
+
 std::string describe(const Crossing& crossing, const std::string& who, const std::string& label) {
   return label + ": " + who +
          formatted(
              " moves through its own contact surface: the component of its velocity along "
-             "the normal is %.2g %% of its magnitude on average, %.2g %% at ",
-             100 * crossing.mean, 100 * crossing.there) +
+             "the normal is %s %% of its magnitude on average, %s %% at ",
+             percent(crossing.mean).c_str(), percent(crossing.there).c_str()) +
          text(crossing.where);
 }
 

@@ -49,10 +49,10 @@ Law cylindricalLaw(const Anisotropy& given, const CylinderAxis& axis, int dimens
 }
 
 /// Replaces the name of a frame by its axes.
-Anisotropy withAxes(Anisotropy given, const Settings& settings, int dimension) {
+Anisotropy withAxes(Anisotropy given, const Settings& settings, const mesh::Mesh& mesh) {
   const auto* name = std::get_if<FrameName>(&given.axes);
   if (!name) return given;
-  const auto frame = frame::named(settings.frames, name->name, given.axesOption, dimension);
+  const auto frame = frame::named(settings.frames, name->name, given.axesOption, mesh);
   if (frame.isCylindrical()) {
     given.stiffness = rotated(given.stiffness, frame.turn());
     given.axes = CylinderAxis{frame.origin(), frame.axis()};
@@ -61,10 +61,11 @@ Anisotropy withAxes(Anisotropy given, const Settings& settings, int dimension) {
   return given;
 }
 
-Law lawOf(const BodySettings& body, const Settings& settings, int dimension) {
+Law lawOf(const BodySettings& body, const Settings& settings, const mesh::Mesh& mesh) {
+  const int dimension = mesh.dimension;
   const bool planeStress = settings.planeStress;
   if (!body.anisotropy) return {isotropic(body.young, body.poisson, dimension, planeStress), {}};
-  const Anisotropy given = withAxes(*body.anisotropy, settings, dimension);
+  const Anisotropy given = withAxes(*body.anisotropy, settings, mesh);
   if (const auto* axis = std::get_if<CylinderAxis>(&given.axes))
     return cylindricalLaw(given, *axis, dimension, planeStress);
   const Hooke turned = rotated(given.stiffness, std::get<Axes>(given.axes));
@@ -78,11 +79,11 @@ Law lawOf(const BodySettings& body, const Settings& settings, int dimension) {
 
 /// Returns the axes of a material; empty if it is isotropic.
 std::function<Axes(const Point&)> axesOf(const BodySettings& body, const Settings& settings,
-                                         int dimension) {
+                                         const mesh::Mesh& mesh) {
   if (!body.anisotropy) return {};
   const Anisotropy& given = *body.anisotropy;
   if (const auto* name = std::get_if<FrameName>(&given.axes)) {
-    const auto frame = frame::named(settings.frames, name->name, given.axesOption, dimension);
+    const auto frame = frame::named(settings.frames, name->name, given.axesOption, mesh);
     if (!frame.isCylindrical()) return [axes = frame.axesAt({})](const Point&) { return axes; };
     return [frame](const Point& x) {
       const Axes axes = cylindricalAxes(x, frame.origin(), frame.axis());
@@ -117,13 +118,13 @@ std::vector<Material> materialsOf(const mesh::Mesh& mesh, const Settings& settin
   std::vector<Material> materials;
   for (const auto& group : mesh.materialGroups) {
     const BodySettings& body = settings.bodies.at(group.name);
-    materials.push_back({.law = lawOf(body, settings, mesh.dimension),
+    materials.push_back({.law = lawOf(body, settings, mesh),
                          .density = body.density,
                          .massDamping = body.massDamping,
                          .stiffnessDamping = body.stiffnessDamping,
                          .reducedIntegration = body.reducedIntegration,
                          .poisson = poissonRatio(body, mesh.dimension, settings.planeStress),
-                         .axes = axesOf(body, settings, mesh.dimension)});
+                         .axes = axesOf(body, settings, mesh)});
   }
   return materials;
 }

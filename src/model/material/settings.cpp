@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "model/material/settings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
+#include "base/system/text.hpp"
+#include "model/material/section_lists.hpp"
 #include "model/mesh/vector.hpp"
 
 namespace squeal::material {
@@ -69,10 +72,6 @@ const ChoiceOption integrationOption(
     "material", "material_<group>_integration", {"full", "reduced"}, "full",
     "quadrature of the stiffness; reduced: 2x2x2 points (C3D20R), only for hex20 cells; mass and "
     "loads always have full integration");
-const TextOption sectionsOption(
-    "material", "material_<body>_sections", "",
-    "volume groups that make up a body, each with a material of its own; options that a section "
-    "does not have are those of the body");
 const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
                                "assumption of plane problems: plane strain or plane stress");
 
@@ -180,6 +179,11 @@ std::vector<const Option*> materialOptions() {
   return options;
 }
 
+[[noreturn]] void rejectAxes(const Option& option, const std::string& group) {
+  throw Error("option " + option.dashed(group) + " needs " + engineeringOption.dashed(group) +
+              ", _transverse, _orthotropic or _anisotropic");
+}
+
 /// Throws Error if options of different laws, or of different axes, are given.
 void rejectSecondLaw(const std::string& group) {
   const auto laws = anisotropicLaws();
@@ -255,9 +259,7 @@ void MaterialReader::readLaw(BodySettings& settings) {
     return;
   }
   for (const auto* option : axesOptions())
-    if (option->given(group_))
-      throw Error("option " + option->dashed(group_) + " needs " +
-                  engineeringOption.dashed(group_) + ", _transverse, _orthotropic or _anisotropic");
+    if (option->given(group_)) rejectAxes(*option, group_);
   if (!ofGroup && body_ != group_ && !youngOption.given(body_) && !poissonOption.given(body_))
     throw Error("option " + youngOption.dashed(group_) +
                 " (or _engineering_constants, _transverse, _orthotropic, _anisotropic) is missing: "
@@ -289,32 +291,6 @@ BodySettings MaterialReader::read() {
   return settings;
 }
 
-/// Returns the sections of the bodies that have any. Throws Error for a list without a group, and
-/// for a group that is in two lists or twice in one.
-std::map<std::string, std::vector<std::string>> sectionsGiven() {
-  std::map<std::string, std::vector<std::string>> sections;
-  std::map<std::string, std::string> bodyOf;
-  for (const auto& body : sectionsOption.subjects()) {
-    const std::string option = "option " + sectionsOption.dashed(body);
-    sections[body] = sectionsOption.list(body);
-    if (sections[body].empty()) throw Error(option + ": names no group");
-    for (const auto& section : sections[body]) {
-      const auto [known, isNew] = bodyOf.emplace(section, body);
-      if (!isNew && known->second == body)
-        throw Error(option + ": names the group '" + section + "' twice");
-      if (!isNew)
-        throw Error(option + ": '" + section + "' is also in " +
-                    sectionsOption.dashed(known->second) + "; a section belongs to one body");
-    }
-  }
-  for (const auto& [section, body] : bodyOf)
-    if (sectionsOption.given(section))
-      throw Error("option " + sectionsOption.dashed(body) + ": '" + section + "' " +
-                  (section == body ? "is the body itself; its sections are other groups"
-                                   : "has sections itself; name these instead"));
-  return sections;
-}
-
 /// Returns the volume groups with an elastic law, sections included. Throws Error for a group with
 /// other options but no law.
 std::set<std::string> groupsGiven(const std::map<std::string, std::vector<std::string>>& sections) {
@@ -336,14 +312,39 @@ std::set<std::string> groupsGiven(const std::map<std::string, std::vector<std::s
   return groups;
 }
 
+/// Returns the material of a group outside the lists of sections. An error names the lists of
+/// sections, where its name may be misspelt.
+BodySettings alone(const std::string& group,
+                   const std::map<std::string, std::vector<std::string>>& sections,
+                   std::set<std::string>& used) try {
+  return MaterialReader(group, group, used).read();
+} catch (const Error& error) {
+  std::string lists;
+  for (const auto& [body, list] : sections)
+    lists += "; '" + group + "' is not in " + sectionsName(body) + " " + joined(list, ",");
+  throw Error(error.what() + lists);
+}
+
+/// Reads the assumption of plane problems.
+void readPlane(Settings& settings) {
+  settings.planeStress = planeOption.get() == "stress";
+  if (planeOption.given()) settings.planeOption = planeOption.dashed();
+}
+
 /// Throws Error for an option of a body that all of its sections replace.
 void rejectIdle(const Settings& settings, const std::set<std::string>& used) {
   for (const auto& [body, sections] : settings.sections) {
     rejectSecondLaw(body);
-    for (const Option* option : materialOptions())
-      if (option->given(body) && !used.contains(option->fullName(body)))
-        throw Error("option " + option->dashed(body) + ": no section of '" + body +
-                    "' uses it, as all have their own; remove it");
+    const bool anisotropic = std::ranges::any_of(sections, [&](const auto& section) {
+      return settings.bodies.at(section).anisotropy.has_value();
+    });
+    for (const Option* option : materialOptions()) {
+      if (!option->given(body) || used.contains(option->fullName(body))) continue;
+      if (const auto axes = axesOptions(); !anisotropic && std::ranges::count(axes, option))
+        rejectAxes(*option, body);
+      throw Error("option " + option->dashed(body) + ": no section of '" + body +
+                  "' uses it, as all have their own; remove it");
+    }
   }
 }
 
@@ -358,12 +359,14 @@ Settings Settings::given() {
   std::set<std::string> used;
   for (const auto& group : groupsGiven(settings.sections)) {
     const auto body = bodyOf.find(group);
-    settings.bodies[group] =
-        MaterialReader(group, body == bodyOf.end() ? group : body->second, used).read();
+    if (body != bodyOf.end())
+      settings.bodies[group] = MaterialReader(group, body->second, used).read();
+    else
+      settings.bodies[group] = alone(group, settings.sections, used);
   }
   rejectIdle(settings, used);
   settings.frames = frame::framesGiven();
-  settings.planeStress = planeOption.get() == "stress";
+  readPlane(settings);
   return settings;
 }
 
@@ -372,7 +375,7 @@ std::vector<mesh::GroupRequest> groupRequests(const Settings& settings) {
   for (const auto& [group, body] : settings.bodies) bodies[group] = youngOption.dashed(group);
   for (const auto& [body, sections] : settings.sections) {
     for (const auto& section : sections) bodies.erase(section);
-    bodies[body] = sectionsOption.dashed(body);
+    bodies[body] = sectionsName(body);
   }
   std::vector<mesh::GroupRequest> requests;
   for (const auto& [body, option] : bodies) requests.push_back({body, option});
@@ -382,8 +385,7 @@ std::vector<mesh::GroupRequest> groupRequests(const Settings& settings) {
 std::map<std::string, std::vector<mesh::GroupRequest>> sectionRequests(const Settings& settings) {
   std::map<std::string, std::vector<mesh::GroupRequest>> requests;
   for (const auto& [body, sections] : settings.sections)
-    for (const auto& section : sections)
-      requests[body].push_back({section, sectionsOption.dashed(body)});
+    for (const auto& section : sections) requests[body].push_back({section, sectionsName(body)});
   return requests;
 }
 

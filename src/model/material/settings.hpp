@@ -51,6 +51,7 @@ struct Settings {
   std::map<std::string, BodySettings> bodies;
   std::map<std::string, std::vector<std::string>> sections;  ///< [body] its sections
   std::map<std::string, frame::FrameSettings> frames;        ///< [name]
+  std::string planeOption;  ///< the option of `planeStress` if it is given, with its dash
 
   /// Reads the options. Throws Error if no group has a law, for a group with other options but no
   /// law, for a wrong or missing option, for options of different laws, for constants without

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/system/text.hpp"
+#include "model/mesh/vector.hpp"
 
 namespace squeal::mesh {
 
@@ -15,6 +16,10 @@ const Reference* Mesh::referenceWith(PetscInt global) const {
 const Reference* Mesh::reference(const std::string& name) const {
   const auto found = std::ranges::find(references, name, &Reference::name);
   return found == references.end() ? nullptr : &*found;
+}
+
+double Mesh::coincidence(const Point& x) const {
+  return std::max(1e-9 * diagonal, 1e-12 * length(x));
 }
 
 bool Mesh::hasSections() const {

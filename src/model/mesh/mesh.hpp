@@ -134,6 +134,7 @@ struct Mesh {
   /// Number of nodes of the file in no cell, without those that gmsh makes at points.
   PetscInt unusedNodes = 0;
   Straightened straightened;
+  double diagonal = 0;      ///< of the box around all nodes of the file, m
   PetscInt ownedNodes = 0;  ///< local nodes 0 … ownedNodes−1 are owned here, the rest are ghosts
   PetscInt firstNode = 0;   ///< global number of local node 0; owned nodes are contiguous
   std::vector<PetscInt> globalNode;  ///< [local node] global number
@@ -164,6 +165,9 @@ struct Mesh {
   std::vector<InterfaceMatch> interfaces;  ///< in the order of the request
 
   PetscInt localNodes() const { return globalNode.size(); }
+  /// Returns the distance below which a point near x is x, m: larger than the round-off of
+  /// coordinates and of their means. Directions between closer points have no meaning.
+  double coincidence(const Point& x) const;
   /// Returns true if a body is made up of sections.
   bool hasSections() const;
   /// Returns a material group for messages: "body 'NAME'" or "section 'NAME' of body 'BODY'".

@@ -196,6 +196,7 @@ Mesh partOf(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   part.totalNodes = mesh.nodeCount(), part.totalCells = mesh.cellCount();
   part.unusedNodes = mesh.unusedNodes;
   part.straightened = mesh.straightened;
+  part.diagonal = mesh.diagonal;
   part.ownedNodes = local.owned(), part.firstNode = local.first();
   part.globalNode = local.global();
   std::vector<PetscInt> whole;

@@ -24,6 +24,25 @@ Point areaVector(const WholeMesh& mesh, std::span<const PetscInt> corners) {
   return sum;
 }
 
+/// Returns the uses of groups by options that need their nodes or faces, not only their centre.
+std::vector<GroupRequest> usesOf(const Request& request) {
+  std::vector<GroupRequest> uses = request.nodeGroups;
+  uses.insert(uses.end(), request.surfaces.begin(), request.surfaces.end());
+  for (const auto& interface : request.interfaces)
+    uses.insert(uses.end(), {interface.pad, interface.disc});
+  for (const auto& [image, of, option] : request.periodic)
+    uses.insert(uses.end(), {{image, option}, {of, option}});
+  return uses;
+}
+
+/// Throws Error for two bolts with the same section.
+void requireOwnGroup(const SectionRequest& section, const Request& request) {
+  for (const auto& other : request.sections)
+    if (other.name < section.name && other.surface.name == section.surface.name)
+      throw Error("option " + section.surface.option + ": the bolt '" + other.name +
+                  "' has this section already; each bolt needs a section of its own");
+}
+
 /// Cuts one section.
 class Cut {
  public:
@@ -38,6 +57,10 @@ class Cut {
   }
   /// Doubles the nodes, for the cells on the upper side.
   void doubleNodes();
+  /// Throws Error if a bolt, [node], has a node of this section already.
+  void requireOwnNodes(const std::map<PetscInt, std::string>& boltOf) const;
+  /// Throws Error if the group of this use is the section, or has a face of it.
+  void rejectUse(const GroupRequest& use, const meshfile::GroupElements& group) const;
   /// Gives the elements of a group on the upper side their nodes.
   void take(meshfile::GroupElements& group) const;
   const Point& normal() const { return normal_; }
@@ -63,13 +86,24 @@ void Cut::setNormal() {
   for (const auto& block : group_.blocks)
     for (std::size_t e = 0; e < block.tag.size(); ++e)
       vectors.push_back(areaVector(mesh_, block.cornersOf(e)));
-  const Point along = request_.axis ? request_.axis->in(mesh_.dimension) : vectors.front();
+  const Point first = vectors.front(),
+              along = request_.axis ? request_.axis->in(mesh_.dimension) : first;
   if (length(along) == 0) throw Error("option " + request_.axisOption + ": must not be zero");
   for (Point& vector : vectors) {
-    if (dot(vector, along) < 0) vector = scaled(vector, -1);
+    if (dot(vector, first) < 0) vector = scaled(vector, -1);
     normal_ = plus(normal_, vector);
   }
   normal_ = unit(normal_);
+  constexpr double across = 0.1;  // cosine of 84 degrees
+  const double sense = dot(unit(along), normal_);
+  if (std::abs(sense) < across)
+    throw Error("option " + request_.axisOption +
+                ": the axis lies across the normal of the section, " + text(normal_) +
+                ", and so does not select its upper side");
+  if (sense < 0) {
+    normal_ = scaled(normal_, -1);
+    for (Point& vector : vectors) vector = scaled(vector, -1);
+  }
   for (const Point& vector : vectors)
     if (dot(unit(vector), normal_) < 0.9)
       throw Error(head_ +
@@ -145,6 +179,31 @@ void Cut::doubleNodes() {
       if (const auto found = upper_.find(node); found != upper_.end()) node = found->second;
 }
 
+void Cut::requireOwnNodes(const std::map<PetscInt, std::string>& boltOf) const {
+  for (const PetscInt node : nodes_)
+    if (const auto found = boltOf.find(node); found != boltOf.end())
+      throw Error(head_ + "the node at " + text(mesh_.points[node]) +
+                  " belongs to the section of the bolt '" + found->second +
+                  "' already; sections must not share nodes");
+}
+
+void Cut::rejectUse(const GroupRequest& use, const meshfile::GroupElements& group) const {
+  if (group.dimension != mesh_.dimension - 1) return;
+  for (const auto& block : group.blocks)
+    for (std::size_t e = 0; e < block.tag.size(); ++e) {
+      const auto corners = block.cornersOf(e);
+      if (!std::ranges::all_of(corners, [&](PetscInt node) { return nodes_.contains(node); }))
+        continue;
+      const bool isSame = use.name == request_.surface.name;
+      throw Error(
+          "option " + use.option + ": group '" + use.name +
+          (isSame ? "' is the section" : "' has a face of the section") + " of the bolt '" +
+          request_.name + "' (" + request_.surface.option +
+          "), whose nodes are doubled, so that it would mean one of the two sides; only the "
+          "bolt may use these faces: use another group");
+    }
+}
+
 void Cut::take(meshfile::GroupElements& group) const {
   for (auto& block : group.blocks)
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
@@ -162,16 +221,20 @@ void Cut::take(meshfile::GroupElements& group) const {
 
 void cutSections(WholeMesh& mesh, std::map<std::string, meshfile::GroupElements>& groups,
                  const Request& request) {
-  std::set<PetscInt> cut;
+  std::map<PetscInt, std::string> boltOf;  // [node]
+  const auto uses = usesOf(request);
   for (const auto& wanted : request.sections) {
+    requireOwnGroup(wanted, request);
     Cut section(mesh, wanted, groups.at(wanted.surface.name));
+    section.requireOwnNodes(boltOf);
     section.doubleNodes();
+    for (const auto& use : uses)
+      if (const auto used = groups.find(use.name); used != groups.end())
+        section.rejectUse(use, used->second);
     for (auto& [name, group] : groups)
       if (name != wanted.surface.name) section.take(group);
     for (const auto& [lower, upper] : section.upper()) {
-      if (!cut.insert(lower).second || !cut.insert(upper).second)
-        throw Error("option " + wanted.surface.option + ": the node at " +
-                    text(mesh.points[lower]) + " belongs to another section");
+      boltOf[lower] = boltOf[upper] = wanted.name;
       mesh.sectionPairs.push_back({upper, lower, int(std::ssize(mesh.sections)), -1});
     }
     mesh.sections.push_back({wanted.name, section.normal(), -1});

@@ -36,14 +36,14 @@ void fields(Stream& stream, Section& section) {
 }
 
 void fields(Stream& stream, Mesh& mesh) {
-  auto& [comm, dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
-         globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, materialGroups, cells,
-         surfaces, faces, nodeGroups, references, sections, sectionPairs, layers, layerNodes,
-         images, pairs, interfaces] = mesh;
-  stream(dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
-         globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, materialGroups, cells,
-         surfaces, faces, nodeGroups, references, sections, sectionPairs, layers, layerNodes,
-         images, pairs, interfaces);
+  auto& [comm, dimension, totalNodes, totalCells, unusedNodes, straightened, diagonal, ownedNodes,
+         firstNode, globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies,
+         materialGroups, cells, surfaces, faces, nodeGroups, references, sections, sectionPairs,
+         layers, layerNodes, images, pairs, interfaces] = mesh;
+  stream(dimension, totalNodes, totalCells, unusedNodes, straightened, diagonal, ownedNodes,
+         firstNode, globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies,
+         materialGroups, cells, surfaces, faces, nodeGroups, references, sections, sectionPairs,
+         layers, layerNodes, images, pairs, interfaces);
 }
 
 }  // namespace squeal::mesh

@@ -307,6 +307,16 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
   }
 }
 
+/// Returns the diagonal of the box around these points.
+double diagonalOf(const std::vector<Point>& points) {
+  if (points.empty()) return 0;
+  Point low = points[0], high = points[0];
+  for (const Point& x : points)
+    for (std::size_t d = 0; d < 3; ++d)
+      low[d] = std::min(low[d], x[d]), high[d] = std::max(high[d], x[d]);
+  return length(minus(high, low));
+}
+
 /// Finds the connected parts of the mesh by union-find over the nodes of each cell.
 void findParts(WholeMesh& mesh) {
   std::vector<PetscInt> parent(mesh.points.size());
@@ -370,6 +380,7 @@ WholeMesh load(const meshfile::Settings& file, const Request& request, meshfile:
   readDiscFaces(mesh, request, named, splitter);
   for (const auto& [name, group] : named.groups)
     mesh.nodeGroups[name] = groupNodes(group, splitter);
+  mesh.diagonal = diagonalOf(mesh.points);
   addReferences(mesh, model, request);
   findParts(mesh);
   return mesh;

@@ -26,6 +26,7 @@ struct WholeMesh {
   std::vector<PetscInt> tags;
   PetscInt unusedNodes = 0;  ///< see Mesh
   Straightened straightened;
+  double diagonal = 0;  ///< see Mesh
   std::vector<std::string> bodies, surfaces;
   std::vector<MaterialGroup> materialGroups;  ///< see Mesh
   std::vector<WholeBlock> cells;

@@ -78,16 +78,18 @@ std::string badDiagonal(Mat matrix) {
                    count, lowest + 1);
 }
 
-/// Collective. Throws Error if the matrix is not positive definite. In a large model, cancellation
+/// Collective. Throws Error if the matrix is not positive definite, except for `free` eigenvalues
+/// that are zero because so many rows are. In a large model, cancellation
 /// leaves a pivot of 1e-13 of the scaled matrix instead of zero. The rows are scaled, so stiff
 /// springs do not cause such small pivots.
-void requirePositiveDefinite(Mat matrix, const std::string& what, const std::string& advice) {
+void requirePositiveDefinite(Mat matrix, const std::string& what, const std::string& advice,
+                             PetscInt free = 0) {
   PetscReal norm = 0;
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));
   if (norm == 0) throw Error(what + " is zero");
   const std::string bad = badDiagonal(matrix);
   const auto [negative, zero] = factor::inertia(matrix, 1e-13);
-  if (negative == 0 && zero == 0) return;
+  if (negative == 0 && zero == free) return;
   throw Error(formatted("%s is not positive definite: %" PetscInt_FMT " negative and %" PetscInt_FMT
                         " zero eigenvalues%s; %s",
                         what.c_str(), negative, zero, bad.c_str(), advice.c_str()));
@@ -108,13 +110,15 @@ SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms) {
   if (departure <= symmetric) departure = 0;
   mass = symmetrised(mass);
   stiffness = symmetrised(stiffness);
-  requirePositiveDefinite(mass, massName, "condense unknowns without mass");
+  const PetscInt massless = factor::zeroRows(mass);
+  requirePositiveDefinite(
+      mass, massName, "an unknown without mass must have a row and a column of zeros", massless);
   requirePositiveDefinite(stiffness,
                           stiffnessName + (departure > 0 ? ", by its symmetric part," : ""),
                           "is a body under-constrained? If so, support it by weak springs");
   return {factor::AssociatedSystem(std::move(stiffness), std::move(mass),
                                    "associated symmetric stiffness"),
-          departure};
+          departure, massless};
 }
 
 }  // namespace squeal::matrices

@@ -14,13 +14,14 @@ namespace squeal::matrices {
 /// unmarked friction, the friction stays in the pencil.
 struct SymmetricPart {
   factor::AssociatedSystem system;  ///< K0 is the symmetric part of the sum
-  double asymmetry;  ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0 if it is 1e-10 or less
+  double asymmetry;   ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0 if it is 1e-10 or less
+  PetscInt massless;  ///< number of unknowns without mass
 };
 
 /// Collective. Returns the associated system of the terms. Throws Error, naming the matrices, if
-/// there is no such stiffness or mass, if the mass is not symmetric to 1e-10, and if the mass or
-/// the stiffness is not positive definite within round-off, as with massless unknowns or a
-/// rigid-body mode.
+/// there is no such stiffness or mass, if the mass is not symmetric to 1e-10, and if the stiffness,
+/// or the mass without its rows of zeros, is not positive definite within round-off, as with a
+/// rigid-body mode. The stiffness determines unknowns without mass, such as reference nodes.
 SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms);
 
 }  // namespace squeal::matrices

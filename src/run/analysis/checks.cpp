@@ -39,6 +39,27 @@ void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const swe
                         term.coefficient({friction, speed, 1, damping}));
 }
 
+namespace {
+
+/// Returns true if a base motion has an effect: on contact, by convective terms or by centrifugal
+/// forces.
+bool anyMotion(const elasticity::Bodies& bodies, const contact::Contact& contact) {
+  const auto& all = contact.interfaces;
+  const bool anyContact = !std::ranges::all_of(all.options, &interfaces::InterfaceSettings::isTied);
+  const auto& settings = bodies.settings;
+  return std::ranges::any_of(bodies.motions,
+                             [&](const auto& motion) {
+                               return motion.moves() &&
+                                      (anyContact || settings.convective ||
+                                       (motion.speed != 0 && settings.centrifugal));
+                             }) ||
+         std::ranges::any_of(all.obstacles, [](const auto& obstacle) {
+           return obstacle.velocity != mesh::Point{};
+         });
+}
+
+}  // namespace
+
 void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact& contact,
                        const pencil::Settings& pencil, const sweep::Sweep& sweep) {
   const auto given = [](const std::vector<double>& factors) {
@@ -46,9 +67,15 @@ void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact&
   };
   if (given(sweep.dampings) && !bodies.damping && !pencil.isModallyDamped())
     throw Error(
-        "option -flutter_damping scales the damping of the bodies, and there is none: give "
+        "option -flutter_damping scales the damping of bodies and joints, and there is none: give "
         "-material_<group>_rayleigh_*, "
-        "-material_<group>_loss_factor, -ground_<group>_damping or -flutter_modal_damping");
+        "-material_<group>_loss_factor, -ground_<group>_damping, -spring_<name>_damping, "
+        "-bushing_<name>_damping or -flutter_modal_damping");
+  if (given(sweep.speeds) && !anyMotion(bodies, contact))
+    throw Error(
+        "option -flutter_speed scales the motion of bodies and obstacles, and none has an effect: "
+        "give -motion_<body>_velocity or _speed with contact or -motion_convective on, or "
+        "-contact_<interface>_obstacle_velocity");
   if (!given(sweep.pressures)) return;
   OwnedVec pressures;
   check(VecDuplicate(bodies.load, pressures.out()));

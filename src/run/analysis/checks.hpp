@@ -19,8 +19,8 @@ void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact
 /// that is not a finite number.
 void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep);
 
-/// Collective. Throws Error for damping or pressure factors other than 1 if there is no damping or
-/// load, since the results would not depend on them.
+/// Collective. Throws Error for damping, speed or pressure factors other than 1 if there is no
+/// damping, motion or load, since the results would not depend on them.
 void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact& contact,
                        const pencil::Settings& pencil, const sweep::Sweep& sweep);
 

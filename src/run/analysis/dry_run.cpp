@@ -64,7 +64,11 @@ void printContact(const contact::Contact& contact, MPI_Comm comm) {
     std::string what = contact.interfaces.options[i].onObstacle() ? "nodes on a rigid obstacle"
                        : report.matching                          ? "pairs of nodes"
                                                                   : "mortar nodes";
-    if (contact.interfaces.options[i].isTied()) what += ", tied";
+    const auto& options = contact.interfaces.options[i];
+    if (options.isTied()) what += ", tied";
+    if (options.layerStiffness > 0)
+      what += formatted(", soft layer of %.4g N/m3", options.layerStiffness);
+    if (!options.separates) what += ", do not separate";
     interfaces.push_back(counted(contact.interfaces.names[i], report.nodes, what));
   }
   printList(comm, "contact", interfaces);

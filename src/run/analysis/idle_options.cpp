@@ -39,11 +39,30 @@ void warnOfCouplings(const mesh::Mesh& mesh, const constraints::Settings& settin
   }
 }
 
+/// Warns of base motions without an effect: nothing slides, and nothing is convected.
+void warnOfMotions(const mesh::Mesh& mesh, const ModelSettings& settings) {
+  const auto& elasticity = settings.elasticity;
+  const bool anyContact =
+      !std::ranges::all_of(settings.interfaces.interfaces, &interfaces::InterfaceSettings::isTie);
+  if (anyContact || elasticity.convective) return;
+  for (const auto& [body, motion] : elasticity.motions)
+    if (motion.moves && !(motion.speed != 0 && elasticity.centrifugal))
+      warn(mesh, motion.option,
+           motion.speed != 0 ? "without contact, -load_centrifugal and -motion_convective a motion "
+                               "has no effect"
+                             : "without contact and -motion_convective on a translation has no "
+                               "effect");
+}
+
 }  // namespace
 
 void warnOfIdleOptions(const mesh::Mesh& mesh, const ModelSettings& settings) {
   warnOfFrames(mesh, settings);
   warnOfCouplings(mesh, settings.constraints);
+  warnOfMotions(mesh, settings);
+  if (mesh.dimension == 3 && !settings.materials.planeOption.empty())
+    warn(mesh, settings.materials.planeOption,
+         "the mesh is solid, and this is about plane problems");
 }
 
 }  // namespace squeal::analysis

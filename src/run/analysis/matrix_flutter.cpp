@@ -55,7 +55,11 @@ matrices::SymmetricPart symmetricPart(MPI_Comm comm,
         "; stiffness without friction unsymmetric by %.1e: free modes of its symmetric part",
         symmetric.asymmetry);
   stage.finish(
-      formatted("%" PetscInt_FMT " unknowns%s", symmetric.system.size(), asymmetry.c_str()));
+      formatted("%" PetscInt_FMT " unknowns%s%s", symmetric.system.size(),
+                symmetric.massless > 0
+                    ? formatted(", %" PetscInt_FMT " without mass", symmetric.massless).c_str()
+                    : "",
+                asymmetry.c_str()));
   return symmetric;
 }
 

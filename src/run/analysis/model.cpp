@@ -63,7 +63,9 @@ contact::Assembled assembleContact(const mesh::Mesh& mesh, elasticity::Bodies bo
   stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces",
                          contact.interfaces.totalNodes, contact.interfaces.names.size()));
   for (int i = 0; i < std::ssize(contact.interfaces.names); ++i)
-    if (contact.interfaces.names.size() > 1 || !contact.interfaces.reports[i].matching)
+    if (const auto& options = contact.interfaces.options[i];
+        contact.interfaces.names.size() > 1 || !contact.interfaces.reports[i].matching ||
+        options.layerStiffness > 0 || !options.separates)
       printLine(mesh.comm, "  " + interfaces::describe(contact.interfaces, i));
   return assembled;
 }

@@ -10,6 +10,10 @@
 namespace squeal::analysis {
 namespace {
 
+std::string stickText(PetscInt nodes) {
+  return formatted("%" PetscInt_FMT " %s", nodes, nodes == 1 ? "node sticks" : "nodes stick");
+}
+
 /// Not collective. Reports sticking interfaces on which nodes slide, or exceed the limit of
 /// friction.
 void reportSticking(const steady::Solution& solution, MPI_Comm comm) {
@@ -21,15 +25,20 @@ void reportSticking(const steady::Solution& solution, MPI_Comm comm) {
                                        " nodes slide, and %" PetscInt_FMT
                                        " cycle between stick and separation (they are left free)",
                                        solution.revisions, resultant.released, resultant.unheld));
-    if (resultant.overLimit > 0)
+    if (const PetscInt pressed = resultant.overLimit - resultant.pulled; pressed > 0)
       printWarning(
-          comm,
-          head + formatted("%" PetscInt_FMT
-                           " nodes stick beyond its coefficient of friction and need up to %.4g, "
-                           "at %s; the tables of the steady state list them, and "
-                           "-contact_%s_release on lets them slide",
-                           resultant.overLimit, resultant.leastFriction,
-                           interfaces::text(resultant.worst).c_str(), resultant.interface.c_str()));
+          comm, head + formatted("%s beyond its coefficient of friction and %s up to %.4g, "
+                                 "at %s; the tables of the steady state list them, and "
+                                 "-contact_%s_release on lets them slide",
+                                 stickText(pressed).c_str(), pressed == 1 ? "needs" : "need",
+                                 resultant.leastFriction, interfaces::text(resultant.worst).c_str(),
+                                 resultant.interface.c_str()));
+    if (resultant.pulled > 0)
+      printWarning(comm, head + stickText(resultant.pulled) +
+                             " under tension with a tangential force, for which no coefficient of "
+                             "friction suffices; the tables of the steady state list them. Leave "
+                             "-contact_" +
+                             resultant.interface + "_friction out if the interface is bonded");
   }
 }
 

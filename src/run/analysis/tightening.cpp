@@ -2,6 +2,8 @@
 #include "run/analysis/tightening.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "base/petsc/arrays.hpp"
 #include "base/session/stages.hpp"
@@ -9,11 +11,42 @@
 #include "base/system/text.hpp"
 #include "model/contact/build.hpp"
 #include "model/contact/coupled.hpp"
+#include "model/mesh/vector.hpp"
 #include "steady/condensed/condensed_problem.hpp"
 #include "steady/steady/nodal_forces.hpp"
 
 namespace squeal::analysis {
 namespace {
+
+/// The body that a bolt cuts.
+struct BoltBody {
+  int body = -1;      // index into Mesh::bodies
+  double length = 0;  // along the normal of the section, m
+};
+
+/// Collective. Returns the body of a bolt.
+BoltBody bodyOf(const mesh::Mesh& mesh, int section) {
+  std::set<PetscInt> nodes;  // on the upper side, which this rank owns
+  for (const auto& pair : mesh.sectionPairs)
+    if (pair.section == section) nodes.insert(pair.node);
+  BoltBody found;
+  for (const auto& block : mesh.cells)
+    for (std::size_t e = 0; e < block.tag.size(); ++e)
+      if (std::ranges::any_of(block.nodesOf(e),
+                              [&](PetscInt node) { return nodes.contains(node); }))
+        found.body = block.body[e];
+  found.body = mpi::max(mesh.comm, found.body);
+  double low = INFINITY, high = -INFINITY;
+  for (const auto& block : mesh.cells)
+    for (std::size_t e = 0; e < block.tag.size(); ++e)
+      if (block.body[e] == found.body)
+        for (const PetscInt node : block.nodesOf(e)) {
+          const double x = mesh::dot(mesh.coordinates[node], mesh.sections[section].normal);
+          low = std::min(low, x), high = std::max(high, x);
+        }
+  found.length = mpi::max(mesh.comm, high) - mpi::min(mesh.comm, low);
+  return found;
+}
 
 /// Returns the forces of the bolts on the openings of their sections.
 OwnedVec tensions(const mesh::Mesh& mesh, const std::vector<constraints::BoltSettings>& bolts) {
@@ -44,6 +77,28 @@ std::vector<double> openingsOf(const mesh::Mesh& mesh, Vec displacement) {
   return openings;
 }
 
+/// Collective. Warns of bolts that become shorter by more than a tenth of the length of their body
+/// along them, or longer: the strains are not small.
+void warnOfShortening(const mesh::Mesh& mesh, const std::vector<constraints::BoltSettings>& bolts,
+                      const std::vector<double>& openings) {
+  constexpr double large = 0.1;
+  for (std::size_t i = 0; i < bolts.size(); ++i) {
+    const BoltBody body = bodyOf(mesh, int(i));
+    if (std::abs(openings[i]) <= large * body.length) continue;
+    printWarning(
+        mesh.comm,
+        formatted("warning: bolt '%s' becomes %.4g m %s, %.3g times the length of its body "
+                  "'%s' along it, %.4g m; strains are not small: check the unit of %s and "
+                  "the modulus of the body",
+                  bolts[i].name.c_str(), std::abs(openings[i]),
+                  openings[i] < 0 ? "shorter" : "longer", std::abs(openings[i]) / body.length,
+                  mesh.bodies[body.body].c_str(), body.length,
+                  (bolts[i].force ? constraints::boltForceName(bolts[i].name)
+                                  : constraints::boltShorteningName(bolts[i].name))
+                      .c_str()));
+  }
+}
+
 /// Collective. Returns the state in which the bolts have their tensions, which are loads of the
 /// model, without swept friction. A small speed gives interfaces with their own coefficient of
 /// friction a direction to slide.
@@ -59,8 +114,12 @@ steady::Solution tightened(const Model& model, bool withPressure) {
 
 void tightenBolts(Model& model, const constraints::Settings& settings) {
   const auto& bolts = settings.bolts;
-  if (std::ranges::none_of(bolts, [](const auto& bolt) { return bolt.force.has_value(); })) return;
   const mesh::Mesh& mesh = *model.mesh;
+  if (std::ranges::none_of(bolts, [](const auto& bolt) { return bolt.force.has_value(); })) {
+    std::vector<double> given;
+    for (const auto& bolt : bolts) given.push_back(-*bolt.shortening);
+    return warnOfShortening(mesh, bolts, given);
+  }
   Stage stage(mesh.comm, "bolts");
   const OwnedVec load = tensions(mesh, bolts);
   OwnedVec constant = std::move(model.bodies.constantLoad);
@@ -84,6 +143,7 @@ void tightenBolts(Model& model, const constraints::Settings& settings) {
     text += formatted("%s'%s' is %.6g m shorter", i == 0 ? "" : ", ", bolts[i].name.c_str(),
                       -openings[i]);
   stage.finish(text);
+  warnOfShortening(mesh, bolts, openings);
 }
 
 std::vector<double> boltForces(const Model& model, const steady::Solution& solution) {

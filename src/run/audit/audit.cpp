@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "run/audit/detached.hpp"
 #include "run/audit/near_faces.hpp"
 #include "run/audit/rotation.hpp"
 
@@ -28,6 +29,7 @@ Audit auditOf(const Subject& model) {
   add(rotationFindings(model, audit.bodies));
   add(nearFindings(model));
   add(cellFindings(model, audit.cells));
+  add(detachedFindings(model));
   add(conditionFindings(model));
   std::ranges::stable_sort(audit.findings, {}, &Finding::severity);
   return audit;
@@ -47,6 +49,8 @@ std::string text(Kind kind) {
       return "distorted cells";
     case Kind::locking:
       return "locking";
+    case Kind::detached:
+      return "detached sections";
     case Kind::overconstrained:
       return "over-constrained nodes";
     case Kind::adjustment:

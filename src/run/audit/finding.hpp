@@ -14,6 +14,7 @@ enum class Kind {
   unmergedNodes,    ///< nodes at the same place that nothing joins
   cells,            ///< distorted cells
   locking,          ///< linear cells of a nearly incompressible body
+  detached,         ///< sections of a body that nothing joins to its others
   overconstrained,  ///< nodes with more conditions than unknowns
   adjustment        ///< cells that the adjustment of a tie strains
 };

@@ -66,11 +66,10 @@ std::vector<BodyMass> pointMasses(const Subject& model) {
   std::vector<BodyMass> masses;
   for (const auto& given : attachments.masses) {
     const auto* reference = mesh.reference(given.group);
-    masses.push_back(
-        reference ? massAt(mesh, *reference, given,
-                           frame::named(attachments.frames, given.frame,
-                                        attachments::massFrameName(given.group), mesh.dimension))
-                  : massOf(mesh, given));
+    masses.push_back(reference ? massAt(mesh, *reference, given,
+                                        frame::named(attachments.frames, given.frame,
+                                                     attachments::massFrameName(given.group), mesh))
+                               : massOf(mesh, given));
   }
   return masses;
 }

@@ -103,11 +103,15 @@ void countCouplings(const Subject& model, Counts& counts) {
   for (int i = 0; i < std::ssize(all.couplings); ++i) {
     counts.begin(all.couplings[i].label());
     for (const auto& coupled : all.coupled) {
-      if (coupled.coupling != i) continue;
+      if (coupled.coupling != i || mesh.isRotation(mesh.globalNode[coupled.node])) continue;
       counts.addNode(coupled.node);
       std::set<int> parts;
-      for (const auto& master : coupled.masters) parts.insert(master.part);
-      for (const int part : parts) counts.add(part);
+      for (const auto& master : coupled.masters) {
+        if (coupled.distributed) counts.add(master.part);  // the nodes that it follows
+        parts.insert(master.part);
+      }
+      if (!coupled.distributed)
+        for (const int part : parts) counts.add(part);
     }
   }
   for (const auto& equation : all.constraints.equations) {

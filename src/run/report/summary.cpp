@@ -59,6 +59,7 @@ Json steadyEntry(const steady::Solution& solution) {
     if (!resultant.stickingLimit) continue;
     found["friction"] = *resultant.stickingLimit;
     found["nodes_beyond_friction"] = resultant.overLimit;
+    if (resultant.pulled > 0) found["nodes_stuck_under_tension"] = resultant.pulled;
     found["nodes_released"] = resultant.released;
   }
   if (solution.revisions > 0) entry["revisions_of_sticking"] = solution.revisions;
@@ -77,6 +78,11 @@ Json interfaceEntries(const contact::Contact& contact) {
                   {"coupling", contact.interfaces.options[i].onObstacle() ? "rigid obstacle"
                                : report.matching                          ? "node on node"
                                                                           : "mortar"}};
+    const auto& options = contact.interfaces.options[i];
+    if (options.layerStiffness > 0) entry["stiffness_n_per_m3"] = options.layerStiffness;
+    if (options.layerTangentialStiffness > 0)
+      entry["tangential_stiffness_n_per_m3"] = options.layerTangentialStiffness;
+    if (!options.separates) entry["separation"] = "off";
     if (!report.matching) {
       entry["why_not_node_on_node"] = report.whyNot;
       entry["slave_faces"] = report.slave.faces, entry["master_faces"] = report.master.faces;

@@ -124,8 +124,12 @@ std::string contactPathTable(const analysis::Analysis& analysis) {
 void writeTables(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
   writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
-  if (analysis.settings.solver.sensitivity.wanted)
-    writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
+  if (analysis.settings.solver.sensitivity.wanted) {
+    const std::string table = sensitivityTable(analysis);
+    writeText(comm, folder / "sensitivities.csv", table);
+    if (std::ranges::count(table, '\n') == 1)
+      printLine(comm, "sensitivities.csv has no rows, since no mode was found unstable");
+  }
   if (analysis.model.mesh) {
     writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
     writeText(comm, folder / "reactions.csv", reactionTable(analysis));

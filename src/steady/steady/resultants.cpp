@@ -54,8 +54,10 @@ void addSticking(const contact::Contact& contact, int interface, const Solution&
     if (contact.interfaces.nodes[k].interface != interface || !solution.closed[k]) continue;
     if (solution.sticking.holds[k] == Hold::released) ++resultant.released;
     if (solution.sticking.holds[k] == Hold::open) ++resultant.unheld;
-    if (solution.sticking.holds[k] == Hold::held) held.push_back(k);
-    resultant.overLimit += exceedsLimit(contact, solution, k);
+    const bool over = exceedsLimit(contact, solution, k), pulled = isPulled(contact, solution, k);
+    if (solution.sticking.holds[k] == Hold::held && !pulled) held.push_back(k);
+    resultant.overLimit += over;
+    resultant.pulled += over && pulled;
   }
   for (const std::size_t k : held)
     resultant.leastFriction = std::max(resultant.leastFriction, ratio(k));
@@ -65,7 +67,8 @@ void addSticking(const contact::Contact& contact, int interface, const Solution&
     if (ratio(k) >= (1 - 1e-9) * resultant.leastFriction)
       worst.push_back(contact.interfaces.nodes[k].position);
   resultant.worst = firstOf(comm, worst);
-  for (PetscInt* count : {&resultant.released, &resultant.unheld, &resultant.overLimit})
+  for (PetscInt* count :
+       {&resultant.released, &resultant.unheld, &resultant.overLimit, &resultant.pulled})
     *count = mpi::sum(comm, *count);
 }
 

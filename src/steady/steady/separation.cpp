@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "steady/steady/separation.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "base/system/concatenation.hpp"
@@ -12,32 +13,40 @@
 namespace squeal::steady {
 namespace {
 
-struct Pulled {
-  Point position;
-  int interface;
-};
+/// Returns the coefficient of friction of contact node i. A node of a sticking interface has one
+/// only if it may slide.
+double frictionAt(const contact::Contact& contact, const Solution& solution, std::size_t i) {
+  const auto& node = contact.interfaces.nodes[i];
+  const auto& given = contact.interfaces.options[node.interface];
+  if (node.role == contact::Role::sticking)
+    return given.releases ? given.stickingLimit.value_or(0) : 0;
+  return solution.slip[i].friction(solution.at.friction);
+}
 
 }  // namespace
 
 std::string pulledFriction(const contact::Contact& contact, const Solution& solution) {
   const MPI_Comm comm = contact.mesh->comm;
-  int count = 0;
-  std::vector<Pulled> first;  // of this rank, at most one
+  const auto& all = contact.interfaces;
+  std::vector<int> counts(all.names.size(), 0);             // [interface]
+  std::vector<std::vector<Point>> first(all.names.size());  // [interface] of this rank, at most one
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const auto& node = contact.interfaces.nodes[i];
-    if (node.separates || solution.contact[i].normalForce >= -solution.negligibleForce ||
-        solution.slip[i].friction(solution.at.friction) == 0)
-      continue;
-    if (count++ == 0) first.push_back({node.position, node.interface});
+    const auto& node = all.nodes[i];
+    if (!isPulled(contact, solution, i) || frictionAt(contact, solution, i) == 0) continue;
+    if (counts[node.interface]++ == 0) first[node.interface].push_back(node.position);
   }
-  count = mpi::sum(comm, count);
-  if (count == 0) return "";
-  first = concatenated(comm, first);
+  mpi::reduce<int>(comm, counts, MPI_SUM);
+  const auto found = std::ranges::find_if(counts, [](int count) { return count > 0; });
+  if (found == counts.end()) return "";
+  const std::size_t interface = found - counts.begin();
+  const Point where = concatenated(comm, first[interface])[0];
   return formatted(
-      "%d %s with friction pulled, such as that at %s, and %s off keeps the sides together; "
-      "friction needs pressure: let them separate, or make the interface frictionless",
-      count, count == 1 ? "node is" : "nodes are", mesh::text(first[0].position).c_str(),
-      interfaces::separationName(contact.interfaces.names[first[0].interface]).c_str());
+      "interface '%s': %d %s with friction %s under tension, for example at %s, since %s off keeps "
+      "the two sides together; friction needs pressure: let the sides separate, or make the "
+      "interface frictionless",
+      all.names[interface].c_str(), *found, *found == 1 ? "node" : "nodes",
+      *found == 1 ? "is" : "are", mesh::text(where).c_str(),
+      interfaces::separationName(all.names[interface]).c_str());
 }
 
 std::string heldByContactOnly(const contact::Contact& contact, const elasticity::Bodies& bodies) {

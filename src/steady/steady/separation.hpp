@@ -8,8 +8,9 @@
 namespace squeal::steady {
 
 /// Collective. Returns the reason to refuse a state if the normal force is tensile at a node with
-/// friction that does not separate: Coulomb's law has no friction force there. Otherwise returns an
-/// empty text.
+/// friction that does not separate: Coulomb's law has no friction force there, and its formula
+/// −f R_N τ would push in the direction of motion. The nodes of a sticking interface have friction
+/// if they may slide (`_release`). Otherwise returns an empty text.
 std::string pulledFriction(const contact::Contact& contact, const Solution& solution);
 
 /// Collective. Returns a hint if a body can move rigidly without contact: then there may be no

@@ -11,9 +11,9 @@ void fields(Stream& stream, Sticking& sticking);
 
 void fields(Stream& stream, Resultant& resultant) {
   auto& [interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
-         overLimit, released, unheld, momentDefect] = resultant;
+         overLimit, pulled, released, unheld, momentDefect] = resultant;
   stream(interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
-         overLimit, released, unheld, momentDefect);
+         overLimit, pulled, released, unheld, momentDefect);
 }
 
 void fields(Stream& stream, Sticking& sticking) {

@@ -212,9 +212,8 @@ Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSyste
 std::optional<Sticking> Problem::nextHolds(Solution& solution) const {
   if (!solution.converged) return {};
   auto next = revised(contact_, solution);
-  if (!next) return {};
-  std::string failure = whyUnderConstrained(*next);
-  if (failure.empty() && solution.revisions == mostRevisions)
+  std::string failure = next ? whyUnderConstrained(*next) : pulledFriction(contact_, solution);
+  if (next && failure.empty() && solution.revisions == mostRevisions)
     failure = formatted("the active set of sticking nodes has not settled after %d revisions",
                         mostRevisions);
   if (failure.empty()) return next;
@@ -248,8 +247,6 @@ void Problem::conclude(Vec x, double left, Solution& solution) const {
   }
   recover(x, left, solution);
   rejectUnderConstrained(solution);
-  if (std::string why = pulledFriction(contact_, solution); solution.converged && !why.empty())
-    solution.converged = false, solution.reason = std::move(why);
   if (solution.reason.starts_with("DIVERGED"))
     solution.reason += heldByContactOnly(contact_, bodies_);
 }

@@ -35,13 +35,14 @@ struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
   Point moment{};  ///< of both forces on the pad about the origin, N·m (in plane problems: along z)
-  /// Largest |R_T| / R_N of the closed nodes of a sticking interface that stick: the least
-  /// coefficient of friction that the interface needs. Zero on other interfaces.
+  /// Largest |R_T| / R_N of the closed nodes of a sticking interface that stick under pressure: the
+  /// least coefficient of friction that they need. Zero on other interfaces.
   double leastFriction = 0;
   Point worst{};  ///< position of the node with this ratio, m
   std::optional<double>
       stickingLimit;       ///< coefficient of friction of a sticking interface, if given
   PetscInt overLimit = 0;  ///< sticking nodes above the limit of the interface
+  PetscInt pulled = 0;     ///< those of them under tension, for which no coefficient suffices
   PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
   PetscInt unheld = 0;     ///< closed nodes of a sticking interface without tangential force
   /// Magnitude of the sum of the moments on both sides, N·m. It is not zero if there is a distance
@@ -126,7 +127,8 @@ class Problem {
   /// Collective. Throws Error if f > 0 and |w| = 0 at a node with friction.
   void requireSlip(const sweep::Parameters& at) const;
   /// Collective. Returns the updated stick state of the nodes, or none if it has not changed. If an
-  /// update is needed but impossible, the solution is marked as not converged.
+  /// update is needed but impossible, or if the final state has friction under tension, the
+  /// solution is marked as not converged.
   std::optional<Sticking> nextHolds(Solution& solution) const;
   /// Collective. Sets the remaining members of a solution from the unknowns x. `left` is the 2-norm
   /// of the natural residual at x, N: of F, with min(R_N, 0) in the rows of gaps g ≤ 0.

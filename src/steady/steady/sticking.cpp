@@ -70,12 +70,18 @@ std::vector<contact::Slip> withReleased(const contact::Contact& contact,
   return slip;
 }
 
+bool isPulled(const contact::Contact& contact, const Solution& solution, std::size_t i) {
+  return !contact.interfaces.nodes[i].separates &&
+         solution.contact[i].normalForce < -solution.negligibleForce;
+}
+
 bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std::size_t i) {
   const auto& limit =
       contact.interfaces.options[contact.interfaces.nodes[i].interface].stickingLimit;
   const auto& state = solution.contact[i];
   return limit && solution.closed[i] && solution.sticking.holds[i] == Hold::held &&
-         mesh::length(state.frictionForce) > *limit * state.normalForce + solution.negligibleForce;
+         mesh::length(state.frictionForce) >
+             *limit * std::max(state.normalForce, 0.0) + solution.negligibleForce;
 }
 
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution) {

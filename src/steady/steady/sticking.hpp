@@ -39,8 +39,11 @@ struct Sticking {
 std::vector<contact::Slip> withReleased(const contact::Contact& contact,
                                         std::vector<contact::Slip> slip, const Sticking& sticking);
 
-/// Returns true if the reaction on the closed node i exceeds f R_N beyond round-off; false without
-/// a limit.
+/// Returns true if the normal force is tensile at node i, which does not separate.
+bool isPulled(const contact::Contact& contact, const Solution& solution, std::size_t i);
+
+/// Returns true if the reaction on the closed node i exceeds f R_N, or zero under tension, beyond
+/// round-off; false without a limit.
 bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std::size_t i);
 
 /// Collective. Returns the revised holds of a solution; none if they do not change. A held or

@@ -165,6 +165,17 @@ TEST(Words, RefusedNamesAreGivenWithTheirRule) {
 }
 
 // Characters that would turn or hide parts of a line are printed as escapes, letters as they are.
+// An equation that begins with a sign and a letter would be the name of an option.
+TEST(Words, EquationsThatBeginLikeNames) {
+  const auto message = [](const std::vector<std::string>& words) {
+    return errorOf([&] { settingsOfCall(words); });
+  };
+  EXPECT_EQ(message({"-equation_q", "-tip:z = -1e-3"}),
+            "option -equation_q: its value '-tip:z = -1e-3' begins like the name of an option; "
+            "begin it with a number: '-1*tip:z = -1e-3'");
+  EXPECT_EQ(message({"-equation_q", "-1*tip:z = -1e-3"}), "");
+}
+
 TEST(Text, HiddenCharactersAreEscaped) {
   EXPECT_EQ(escaped("disc \u00e4\u05d0\u4e2d\U0001f600\n\t1"),
             "disc \u00e4\u05d0\u4e2d\U0001f600\n\t1");

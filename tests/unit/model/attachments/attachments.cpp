@@ -207,6 +207,42 @@ TEST(Attachments, LoadsAreNodalForces) {
   EXPECT_NEAR(all[2], 2 - 50 - 8 - 10 * mass, 1e-10);
 }
 
+// Points that coincide, and points on an axis, up to round-off of their coordinates have no
+// direction: any would be as good.
+TEST(Attachments, DirectionsOfRoundingAreRefused) {
+  const std::string r = "-reference_r_position 1,2,3 -constraint_r_clamped xyz "
+                        "-constraint_r_clamped_rotation xyz ",
+                    // half a unit in the last place or one, and 1e-10 of the box of 0.17 m
+      near = "-reference_s_position 1,2.0000000000000004,3 ",
+                    axis = "-frame_f_axis 0,0,1 -frame_f_origin 1.0000000000000002,2,0 ",
+                    box0 = "-frame_f_axis 1,0,0 -frame_f_origin 0,1e-11,0.05 ",
+                    n = "-reference_n_position ";
+  const std::string point = " f: the point (1, 2, 3) m lies on the axis of the cylindrical frame";
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {r + near + "-spring_a_from r -spring_a_to s -spring_a_stiffness 1",
+       "option -spring_a_to: both ends lie at (1, 2, 3)"},
+      {r + axis + "-bushing_a_from r -bushing_a_stiffness 1,2,3 -bushing_a_frame f",
+       "option -bushing_a_frame" + point},
+      {r + axis + "-mass_r_total 1 -mass_r_offset 1,0,0 -mass_r_frame f",
+       "option -mass_r_frame" + point},
+      {r + axis + "-constraint_r_frame f", "option -constraint_r_frame" + point},
+      {r + axis + "-load_r_moment 1,0,0 -load_r_frame f", "option -load_r_frame" + point},
+      {r + axis + "-load_r_force 1,0,0 -load_r_frame f", "option -load_r_frame" + point},
+      {n + "0,0,0.05 -constraint_n_clamped xyz -constraint_n_clamped_rotation xyz " + box0 +
+           "-bushing_a_from n -bushing_a_stiffness 1,2,3 -bushing_a_frame f",
+       "option -bushing_a_frame f: the point (0, 0, 0.05) m lies on the axis"},
+      {box0 + "-ground_tip_stiffness 1,1,1 -ground_tip_frame f", ""},  // its nodes are off the axis
+  };
+  for (const auto& [options, message] : faults) {
+    const std::string found = test::errorOf([&, &text = options] {
+      test::setOptions(box + text);
+      test::buildModel();
+    });
+    EXPECT_NE(found.find(message), std::string::npos) << options << "\n  " << found;
+    EXPECT_EQ(found.empty(), message.empty()) << options << "\n  " << found;
+  }
+}
+
 TEST(Attachments, FaultsAreNamed) {
   const std::string r = "-reference_r_position 1,2,3 ", s = "-reference_s_position 1,2,4 ";
   const std::vector<std::pair<std::string, std::string>> faults{
@@ -234,10 +270,30 @@ TEST(Attachments, FaultsAreNamed) {
       {"-mass_tip_inertia 1,1,1,0,0,0", "option -mass_tip_inertia needs -mass_tip_total"},
       {"-load_tip_moment 1,0,0", "option -load_tip_moment: 'tip' is not a reference node"},
       {"-load_tip_force 1,0,0 -load_tip_frame f -frame_f_axis 1,0,0 -frame_f_origin 0,0.05,0.05",
-       "option -load_tip_force: frame 'f': the point"},
+       "option -load_tip_frame f: the point"},
+      {r + "-bushing_a_from r -bushing_a_to r -bushing_a_stiffness 1,1,1",
+       "option -bushing_a_to r: both ends are the same node"},
       {"-load_tip_acceleration 1,0,0", "option -load_tip_acceleration: 'tip' is not a body"},
       {"-load_tip_hydraulic off", "option -load_tip_hydraulic needs -load_tip_pressure"},
       {"-load_beam_spin_axis 1,0,0", "option -load_beam_spin_axis needs -load_beam_spin"},
+      {"-load_beam_spin 1 -load_beam_spin_axis 0,0,0",
+       "option -load_beam_spin_axis: the axis has no length"},
+      {"-load_beam_spin 1 -motion_beam_velocity 0,1,0",
+       "option -load_beam_spin: the body translates (-motion_beam_velocity)"},
+      {"-motion_beam_speed 1 -motion_beam_axis 0,0,0",
+       "option -motion_beam_axis: the axis has no length"},
+      {"-motion_beam_origin 1,0,0",
+       "option -motion_beam_origin needs -motion_beam_speed or -motion_beam_rpm"},
+      {"-motion_beam_velocity 1,0,0 -motion_beam_axis 1,0,0",
+       "option -motion_beam_axis needs -motion_beam_speed or -motion_beam_rpm"},
+      {r + s +
+           "-spring_upper_from r -spring_upper_to s -spring_upper_stiffness 1 "
+           "-spring_uper_damping 1",
+       "option -spring_uper_damping needs -spring_uper_from; did you mean -spring_upper_damping?"},
+      {r + "-mass_r_total 1",
+       "body 'reference node r' can move rigidly with closed frictionless contact (translation"},
+      {r + "-mass_r_total 1",
+       "-constraint_<group>_clamped, -constraint_<name>_clamped_rotation, -ground_"},
   };
   for (const auto& [options, message] : faults) {
     const auto given = [&, &text = options] {

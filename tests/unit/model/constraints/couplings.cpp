@@ -194,7 +194,7 @@ TEST(Couplings, FaultsAreNamed) {
        "option -frame_f_x: the direction of an axis must not be zero"},
       {"-frame_f_x 1,0,0 -frame_f_axis 0,0,1", "frame 'f': give either -frame_f_x"},
       {"-frame_f_axis 1,0,0 -constraint_tip_clamped x -constraint_tip_frame f",
-       "option -constraint_tip_clamped: frame 'f': the point (1, "},
+       "option -constraint_tip_frame f: the point (1, "},
       {"-constraint_tip_clamped_rotation x", "'tip' is not a reference node"},
       {"-equation_a 'tip:x = 0'", "group 'tip' has 9 nodes; a term needs a group of one node"},
       {eccentric + "-coupling_c_nodes tip -equation_a 'r:x 0'", "must have one equals sign"},

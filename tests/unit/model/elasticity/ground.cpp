@@ -98,7 +98,7 @@ TEST(Ground, RefusesFramesThatDoNotSuit) {
   expect("-ground_tip_stiffness 1,1,1 -ground_tip_frame f",
          "option -ground_tip_frame f: no frame has this name");
   expect("-ground_tip_stiffness 1,1,1 -ground_tip_frame f -frame_f_axis 1,0,0",
-         "option -ground_tip_frame: frame 'f': the point (1, ");
+         "option -ground_tip_frame f: the point (1, ");
 }
 
 }  // namespace

@@ -256,6 +256,13 @@ TEST(Sections, RefusesWrongOptions) {
   expect("-material_body_sections left,right -material_body_density 1",
          {"option -material_left_young (or _engineering_constants",
           "neither the section nor its body 'body' has a law"});
+  // Axes without an anisotropic law, and a list that misspells a section.
+  expect(both + "-material_body_frame f -frame_f_x 1,1,0",
+         {"option -material_body_frame needs -material_body_engineering_constants"});
+  expect(test::material("body", "3", "0.3", "1") +
+             "-material_body_sections left,rigt -material_right_young 2",
+         {"option -material_right_poisson is missing",
+          "'right' is not in -material_body_sections left,rigt"});
   expect(both + "-material_left_density 1 -material_right_density 2",
          {"option -material_body_density: no section of 'body' uses it"});
   expect(both + test::material("left", "3", "0.3", "1") +

@@ -20,7 +20,9 @@ using mesh::Point;
 
 frame::Frame frameOf(const std::string& options, int dimension = 3) {
   test::setOptions(options);
-  return frame::named(frame::framesGiven(), "f", "-some_frame", dimension);
+  mesh::Mesh mesh;
+  mesh.dimension = dimension;
+  return frame::named(frame::framesGiven(), "f", "-some_frame", mesh);
 }
 
 void expectAxes(const mesh::Matrix3& found, const mesh::Matrix3& expected) {
@@ -112,6 +114,35 @@ TEST(Frame, RefusesWrongTurns) {
          3);
   expect("-frame_f_axis 0,0,1 -frame_f_turn 30 -frame_f_turn_about x",
          "option -frame_f_turn_about: in the plane must be z", 2);
+}
+
+// A cell whose centre lies on the axis of an orthotropic law has no radial direction, also if
+// round-off gives it one; a law that is symmetric about the axis needs none.
+TEST(Frame, AxisThroughACellIsRefused) {
+  const std::string beam =
+                        "-mesh_file meshes/beam.geo -mesh_set nx=2,ny=1,nz=1,Lx=2,Ly=1,Lz=1 "
+                        "-material_beam_density 1 -constraint_clamped_clamped xyz "
+                        "-material_beam_engineering_constants ",
+                    orthotropic = exact::orthotropic::constants,
+                    symmetric = "1,2,2,0.1,0.1,0.25,0.5,0.5,0.8";  // about axis 1
+  const auto message = [&](const std::string& options) {
+    return test::errorOf([&] {
+      test::setOptions(beam + options);
+      test::buildModel();
+    });
+  };
+  for (const std::string axes :
+       {"-material_beam_cylindrical 0,0,1e-16,1,0,0",
+        "-material_beam_frame f -frame_f_axis 1,0,0 -frame_f_origin 0,0,1e-11"})
+    EXPECT_TRUE(test::contains(message(orthotropic + " " + axes),
+                               "body 'beam': the axis of the cylindrical axes of its material "
+                               "passes through the centre of the cell at"))
+        << message(orthotropic + " " + axes);
+  // A turn by a right angle about y makes axis 1 of the law that of the cylinder.
+  EXPECT_EQ(message(symmetric + " -material_beam_frame f -frame_f_axis 1,0,0 -frame_f_origin "
+                                "0,0,0 -frame_f_turn 90 -frame_f_turn_about y"),
+            "");
+  EXPECT_EQ(message(orthotropic + " -material_beam_cylindrical 0,0,0.001,1,0,0"), "");
 }
 
 TEST(Frame, OfNoUseIsNamed) {

@@ -9,6 +9,7 @@
 #include "base/system/text.hpp"
 #include "problem/matrixfile/matrix_market.hpp"
 #include "support/eigen/spectrum.hpp"
+#include "support/model/model.hpp"
 #include "support/problem/matrix_files.hpp"
 #include "support/run/case.hpp"
 
@@ -87,6 +88,53 @@ TEST(Matrices, FrictionInsideTheStiffness) {
     EXPECT_LT(std::abs(point.eigenvalues[i].s - apart[i].s), 1e-14);
 }
 
+// A massless point between two springs k1 = 2 and k2 = 3 that carry a mass of 1.2 kg, with friction
+// f in the row of the mass: s² = −(k1 k2/(k1 + k2) − f)/m. The massless unknown has no mode.
+TEST(Matrices, UnknownsWithoutMassFollow) {
+  const Rows mass{{0, 0}, {0, 1.2}}, springs{{5, -3}, {-3, 3}}, friction{{0, 0}, {0, -1}};
+  const std::string options = problem("massless", mass, springs, friction);
+  for (const double f : {0.0, 0.3}) {
+    const auto analysis = runOptions(options + "-flutter_friction " + formatted("%.17g", f));
+    const auto found = eigenvaluesOf(analysis.flutter.segments.at(0).points.at(0));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_LT(std::abs(found[0] - Complex(0, std::sqrt((1.2 - f) / 1.2))), 1e-14) << f;
+  }
+  EXPECT_TRUE(contains(errorOf([&] { runOptions(options + "-modes_count 2"); }),
+                       "the problem has only 1 unknowns with mass"));
+}
+
+// Written matrices of a mesh are read again with the same eigenvalues, also if a reference node
+// between two bushings, and the layer nodes of open contact, have no mass.
+TEST(Matrices, ExportsWithMasslessNodesAreRead) {
+  const std::string bar =
+      "-mesh_file meshes/beam.geo -mesh_set nx=3,ny=1,nz=1 " +
+      material("beam", "2e11", "0.3", "8000") +
+      "-reference_end_centre_of tip -coupling_end_reference end -coupling_end_nodes tip "
+      "-reference_mid_position 2,0,0 -bushing_a_from end -bushing_a_to mid "
+      "-bushing_a_stiffness 1e7,1e7,1e7,1e7,1e7,1e7 -bushing_b_from mid "
+      "-bushing_b_stiffness 1e7,1e7,1e7,1e7,1e7,1e7 -flutter_friction 0 -modes_count 8 ";
+  const std::string lifted =
+      "-mesh_file meshes/layer.geo -mesh_set nx=4,ny=2 " + material("layer", "1", "0.3", "1") +
+      "-constraint_bottom_clamped xy -contact_plate_pad top "
+      "-contact_plate_obstacle_velocity 1,0,0 -contact_plate_stiffness 10 "
+      "-contact_plate_obstacle_displacement 0,-0.001,0 -load_left_pressure 0.1 "
+      "-flutter_friction 0.2 -flutter_friction_damping off -modes_count 8 ";
+  int number = 0;
+  for (const std::string& options : {bar, lifted}) {
+    const std::string folder = SQUEAL_OUTPUT_DIR "/massless_" + std::to_string(number++);
+    const auto written = runOptions(options + "-report_matrices " + folder);
+    EXPECT_EQ(written.steady.solutions.at(0).openNodes > 0, options == lifted);
+    clearOptions();
+    insertFile(PETSC_COMM_WORLD, folder + "/options.txt");
+    insert(settingsOfText("-quiet"));
+    const auto read = analysis::analyse(PETSC_COMM_WORLD, analysis::Settings::given());
+    const auto one = eigenvaluesOf(written.flutter.segments.at(0).points.at(0)),
+               other = eigenvaluesOf(read.flutter.segments.at(0).points.at(0));
+    ASSERT_EQ(one.size(), other.size()) << options;
+    EXPECT_LT(worst(errors(one, other).relative), 1e-9) << options;  // tolerance of the corrections
+  }
+}
+
 TEST(Matrices, WhatIsNoVibrationIsSaid) {
   const Rows zero{{0, 0}, {0, 0}};
   const std::vector<std::tuple<std::string, Rows, Rows, std::string>> cases{
@@ -99,10 +147,14 @@ TEST(Matrices, WhatIsNoVibrationIsSaid) {
        {{1, 2}, {2, 1}},
        "the stiffness 'k' is not positive definite: 1 negative and 0 zero"},
       {"none", unit, zero, "the stiffness 'k' is zero"},
-      {"massless",
-       {{1, 0}, {0, 0}},
+      {"singular",
+       {{1, 1}, {1, 1}},
        belt,
        "the mass 'm' is not positive definite: 0 negative and 1 zero"},
+      {"massless_loose",
+       {{1, 0}, {0, 0}},
+       {{1, 0}, {0, 0}},
+       "the stiffness 'k' is not positive definite: 0 negative and 1 zero"},
       {"negative",
        {{1, 0}, {0, -1}},
        belt,

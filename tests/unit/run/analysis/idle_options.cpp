@@ -6,6 +6,7 @@
 
 #include "support/harness/messages.hpp"
 #include "support/model/model.hpp"
+#include "support/run/case.hpp"
 
 namespace squeal {
 namespace {
@@ -41,14 +42,35 @@ TEST(IdleOptions, AreNamed) {
        "option -mass_end_frame was not used: the mass has no inertia and no offset"},
       {"-constraint_end_clamped_rotation x -constraint_end_angle 0,0.01,0 ",
        "option -constraint_end_angle: the angle about y was not used, since "
-       "-constraint_end_clamped_rotation x does not hold it"}};
+       "-constraint_end_clamped_rotation x does not hold it"},
+      {"-motion_beam_velocity 1,0,0 ",
+       "option -motion_beam_velocity was not used: without contact and -motion_convective on a "
+       "translation has no effect"},
+      {"-motion_beam_speed 1 -load_centrifugal off ",
+       "option -motion_beam_speed was not used: without contact, -load_centrifugal and "
+       "-motion_convective a motion has no effect"},
+      {"-elasticity_plane stress ", "option -elasticity_plane was not used: the mesh is solid"}};
   for (const auto& [options, message] : idle) {
     const std::string found = warningsWith(options);
     EXPECT_TRUE(test::contains(found, message)) << options << "\n  " << found;
   }
 }
 
+// Nothing that a factor on the speed would scale.
+TEST(IdleOptions, SpeedOfNothingIsRefused) {
+  const std::string flutter = "-flutter_friction 0 -modes_count 2 -flutter_speed ",
+                    refusal = "option -flutter_speed scales the motion of bodies and obstacles";
+  const auto message = [&](const std::string& options) {
+    return test::errorOf([&] { test::runOptions(model + flutter + options); });
+  };
+  EXPECT_TRUE(test::contains(message("1,2"), refusal)) << message("1,2");
+  EXPECT_TRUE(test::contains(message("2 -motion_beam_velocity 1,0,0"), refusal));
+  EXPECT_EQ(message("1"), "");
+  EXPECT_EQ(message("1,2 -motion_beam_speed 1"), "");  // centrifugal forces
+}
+
 TEST(IdleOptions, UsedOnesAreNotNamed) {
+  EXPECT_EQ(warningsWith("-motion_beam_speed 1 "), "");
   EXPECT_EQ(warningsWith("-frame_f_axis 0,1,0 -frame_f_origin 0,5,5 -coupling_end_frame f "
                          "-coupling_end_components xy -bushing_b_from end "
                          "-bushing_b_stiffness 1,1,1,1,1,1 -mass_end_total 1 -mass_end_frame f "

@@ -2,6 +2,7 @@
 // The findings of the audit: one model for each kind, and clean models without any.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/system/text.hpp"
@@ -112,6 +113,58 @@ TEST(Units, Sections) {
                                             "-elasticity_incompatible_modes none "),
                       1, {"section 'lower' of body 'plate' is nearly incompressible"}),
             "");
+}
+
+// Two blocks 0.2 m apart are one body by name only.
+TEST(Sections, ThatNothingJoins) {
+  test::BlockWriter writer;
+  writer.add("one", {test::hex8, {1, 1, 1}, {0, 0, 0}, {0.1, 0.1, 0.1}, 0});
+  writer.add("two", {test::hex8, {1, 1, 1}, {0.3, 0, 0}, {0.4, 0.1, 0.1}, 0});
+  writer.add("three", {test::hex8, {1, 1, 1}, {0, 0.3, 0}, {0.1, 0.4, 0.1}, 0});
+  const std::string options = "-mesh_file " + test::writeFile("audit_apart.msh", writer.text()) +
+                              test::material("bar", "2e11", "0.3", "7800") +
+                              "-constraint_one_low_clamped xyz -constraint_two_low_clamped xyz "
+                              "-constraint_three_low_clamped xyz ";
+  EXPECT_EQ(missingIn(test::audited(options + "-material_bar_sections one,two,three"), 1,
+                      {"detached sections (warning)",
+                       "the sections of body 'bar' form 3 pieces that share no node", "'one'",
+                       "'two'", "'three'", "merge the nodes of the sections"}),
+            "");
+  // A coupling joins two of them.
+  EXPECT_EQ(missingIn(test::audited(options +
+                                    "-material_bar_sections one,two,three -reference_r_position "
+                                    "0.2,0,0 -coupling_r_reference r "
+                                    "-coupling_r_nodes one_high,two_high"),
+                      1, {"form 2 pieces"}),
+            "");
+  const auto laminate = test::audited(
+      "-mesh_file meshes/laminate.geo -material_plate_sections lower,upper "
+      "-material_plate_young 2e11 -material_plate_poisson 0.3 "
+      "-material_plate_density 7800 -constraint_bottom_clamped xyz "
+      "-reference_r_centre_of top -coupling_r_reference r -coupling_r_nodes top "
+      "-coupling_r_kind distributed");
+  EXPECT_EQ(test::linesOf(laminate), "");
+}
+
+// The numbers of nodes of couplings: the body has those of the group, and so has the reference node
+// that they follow; a reference node that follows them is one node.
+TEST(Supports, CountTheNodesOfCouplings) {
+  test::BlockWriter writer;
+  writer.add("box", {test::hex8, {2, 2, 2}, {0, 0, 0}, {0.1, 0.05, 0.01}, 0});
+  const std::string options = "-mesh_file " + test::writeFile("audit_coupled.msh", writer.text()) +
+                              test::material("box", "2.1e11", "0.3", "7850") +
+                              "-constraint_box_low_clamped xyz -reference_r_centre_of box_high "
+                              "-coupling_c_reference r -coupling_c_nodes box_high "
+                              "-coupling_c_kind ";
+  for (const std::string kind : {"rigid", "distributed"}) {
+    const auto found = test::audited(options + kind);
+    for (const auto& part : found.parts) {
+      const auto support = std::ranges::find(part.supports, "coupling 'c'", &audit::Support::by);
+      ASSERT_NE(support, part.supports.end()) << part.part;
+      const bool isReference = part.part == "reference node r";
+      EXPECT_EQ(support->nodes, isReference && kind == "distributed" ? 1 : 9) << part.part << kind;
+    }
+  }
 }
 
 TEST(Units, Pressure) {
