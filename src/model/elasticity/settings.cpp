@@ -190,7 +190,6 @@ std::vector<mesh::GroupRequest> loadedSurfaces(const Settings& settings) {
 
 std::string groundFrameName(const std::string& group) { return groundFrameOption.dashed(group); }
 std::string accelerationName(const std::string& body) { return accelerationOption.dashed(body); }
-std::string axisName(const std::string& body) { return axisOption.dashed(body); }
 std::string pressureName(const std::string& surface) { return pressureOption.dashed(surface); }
 
 std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings) {

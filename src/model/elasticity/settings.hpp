@@ -17,13 +17,13 @@ enum class MassKind { consistent, higherOrder };
 
 /// The base motion of one body.
 struct MotionSettings {
-  std::string option;         ///< an option that gives it, with its dash, for messages
-  bool moves = false;         ///< a velocity or a speed is given
-  VectorValue velocity = {};  ///< of a translation, m/s
-  double speed = 0;           ///< of a rotation, rad/s
-  VectorValue axis = {};      ///< direction of the rotation axis
-  VectorValue origin = {};    ///< a point of the rotation axis, m
-  std::string axisOption;     ///< the option of the axis, with its dash, for messages
+  std::string option;           ///< an option that gives it, with its dash, for messages
+  bool moves = false;           ///< a velocity or a speed is given
+  VectorValue velocity = {};    ///< of a translation, m/s
+  double speed = 0;             ///< of a rotation, rad/s
+  VectorValue axis = {};        ///< direction of the rotation axis
+  VectorValue origin = {};      ///< a point of the rotation axis, m
+  std::string axisOption = {};  ///< the option of the axis, with its dash, for messages
 };
 
 /// Springs and dashpots from the nodes of one group to the ground, totals of the group.
@@ -67,7 +67,6 @@ std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings);
 /// Return names of options with their dash, for messages.
 std::string groundFrameName(const std::string& group);
 std::string accelerationName(const std::string& body);
-std::string axisName(const std::string& body);
 std::string pressureName(const std::string& surface);
 /// Returns the options that give a motion, for messages.
 inline const char* motionOptions() { return "-motion_<body>_*"; }

@@ -23,7 +23,7 @@ constexpr double density = 7800;
 std::vector<BodyMass> massesOf(const std::string& options) {
   const auto built = test::buildBodies(options);
   const contact::Contact none;
-  return audit::bodyMasses({built.mesh, built.bodies, none, {}});
+  return audit::bodyMasses({built.mesh, built.bodies, none, {}, {}});
 }
 
 /// Returns the mass of a box with these sides; of a rectangle in the plane if the last is zero.
