@@ -117,6 +117,14 @@ class Motion(unittest.TestCase):
         held = one.options["constraint"]["PIN_BACK"]
         self.assertEqual(numbers(held["displacement"]), [0, 0, -0.01])
 
+    def test_an_uneven_push_beside_a_turn(self):
+        """A corner of the back of the pin is pressed further: no rigid motion, and none needed."""
+        text = turn(0.02, (5.0, 1.0)).replace(
+            "*END STEP\n", "PIN_BACK, 3, 3, -0.01\n1003, 3, 3, -0.02\n*END STEP\n", 1
+        )
+        one = Imported(text, dialect="calculix")
+        self.assertEqual(list(one.options["motion"]), ["PLATE"])
+
     def test_displacements_that_are_no_turn(self):
         text = turn(0.02, (5.0, 1.0)).replace("*END STEP\n", "1, 1, 1, 0.5\n*END STEP\n", 1)
         self.assertIn(

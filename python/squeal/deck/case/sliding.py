@@ -181,26 +181,23 @@ def _add_given(motion, bodies, contact_nodes, moving, journal):
 
 def _turned(model, bodies, rubbing, journal, faces):
     """Fits the motion of a rigid body to prescribed displacements of each part that rubs. A part
-    that they press onto its contacts does not move."""
-    moving = {}
+    that they press onto its contacts does not move. Refuses those of a part that fit no rigid
+    motion, unless another part moves."""
+    moving, unfit = {}, []
     joined = bodies.joined()
     for at in sorted(rubbing):
         group = joined[at]
-        if at in moving or not any(model.state.supports):
+        if at in moving:
             continue
         nodes = np.unique(np.concatenate([bodies.nodes[one] for one in group]))
-        places = [
-            (place, value)
-            for place, value in _held(model, nodes, group, bodies)
-            if place in model.state.supports
-        ]
+        places = list(_held(model, nodes, group, bodies))
         if not any(value.value for _, value in places):
             continue
         source = next(value.source for _, value in places if value.value)
         try:
             motion = _fit(model, places, source)
         except Fault as fault:
-            journal.refuse_fault(source, fault)
+            unfit.append((source, fault))
             continue
         if not _slides(motion, model, group, bodies, faces):
             continue
@@ -214,6 +211,8 @@ def _turned(model, bodies, rubbing, journal, faces):
             " is a steady motion; the nodes are held where they are"
         )
         moving.update({one: Moving(motion, False) for one in group})
+    for source, fault in unfit if not moving else ():
+        journal.refuse_fault(source, fault)
     return moving
 
 
