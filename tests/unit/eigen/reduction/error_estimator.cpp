@@ -112,8 +112,8 @@ TEST(ErrorEstimator, ExactEnough) {
   EXPECT_FALSE(is(0, 1.1e-4 * w, pencil::Symmetry::even));
 }
 
-// The larger of the backward error over 1e-9 and the error of the basis over 1e-8; nothing below
-// 1e-14, where only round-off is left, and nothing if all is accepted.
+// The larger of the backward error over 1e-9 and the error of the basis over 1e-8, however small
+// the backward error is; nothing if only round-off is left, and nothing if all is accepted.
 TEST(ErrorEstimator, RatiosToTheTolerances) {
   Fixture f;
   ASSERT_EQ(f.settings.criteria.accuracy, 1e-9);
@@ -123,7 +123,8 @@ TEST(ErrorEstimator, RatiosToTheTolerances) {
   EXPECT_DOUBLE_EQ(ratio({.backward = 2e-9, .right = 1e-5, .left = 1e-3}), 2);
   EXPECT_DOUBLE_EQ(ratio({.backward = 2e-9, .right = 1e-5, .left = 3e-3}), 3);
   EXPECT_DOUBLE_EQ(ratio({.backward = 2e-9, .right = 7e-8, .left = INFINITY}), 7);
-  EXPECT_EQ(ratio({.backward = 9e-15, .right = 1}), 0);
+  EXPECT_DOUBLE_EQ(ratio({.backward = 9e-15, .right = 7e-8, .left = INFINITY}), 7);
+  EXPECT_EQ(ratio({.backward = 2e-9, .right = 1, .left = 1, .isRoundOff = true}), 0);
   EXPECT_TRUE(f.estimator.isAccurate(solution({0, 1}, {.backward = 0.99e-9})));
   EXPECT_FALSE(f.estimator.isAccurate(solution({0, 1}, {.backward = 1.01e-9})));
   f.estimator.acceptAll();
