@@ -81,7 +81,7 @@ def main():
             print(f"ccx, penalty {penalty:g}: {seconds:.1f} s", *_words(theirs))
             top = theirs[-1][0] * (1 + FREQUENCY)  # the two lists may end at different modes
             expected = [one for one in ours if one[0] <= top][: len(theirs)]
-            assert len(theirs) == len(expected) >= 2, (theirs, ours)
+            assert len(theirs) == len(expected) >= 1, (theirs, ours)
             errors.append(0.0)
             for (hertz, growth), (exact, rate) in zip(theirs, expected):
                 assert abs(hertz - exact) <= FREQUENCY * exact, (hertz, exact)
