@@ -88,6 +88,11 @@ class Motion(unittest.TestCase):
         self.assertEqual(one.options["flutter"]["friction_damping"], False)
         self.assertIn("only its direction counts", one.account)
 
+    def test_a_turn_beside_a_face_that_does_not_exist(self):
+        text = turn(0.02, (5.0, 1.0)).replace("PLATE, S2", "1, S2\n99999, S1", 1)
+        (row,) = refused(text, dialect="calculix")
+        self.assertIn("*CONTACT PAIR: element 99999 is not a solid element", row)
+
     def test_the_sense_of_a_turn(self):
         moved = Imported(turn(-0.02, (5.0, 1.0)), dialect="calculix").options["motion"]["PLATE"]
         np.testing.assert_allclose(numbers(moved["axis"]), [0, 0, -1], atol=1e-9)

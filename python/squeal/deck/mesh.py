@@ -140,6 +140,11 @@ class Surface:
     elements: np.ndarray = None
     faces: np.ndarray = None
 
+    @property
+    def rows(self):
+        """The faces as rows (element, face)."""
+        return np.column_stack([self.elements, self.faces])
+
 
 @dataclass(frozen=True)
 class Instance:

@@ -338,3 +338,12 @@ class Model:
         at = np.minimum(np.searchsorted(known, numbers), len(known) - 1)
         found = known[at] == numbers
         return np.where(found, blocks[at], -1), np.where(found, rows[at], -1)
+
+    def nodes_of_elements(self, elements, kind=None):
+        """Returns the nodes of elements, of one kind only if it is given, in ascending order."""
+        found = [EMPTY]
+        blocks, rows = self.find_elements(elements)
+        for number, block in enumerate(self.blocks):
+            if kind is None or block.kind == kind:
+                found.append(block.nodes[rows[blocks == number]].ravel())
+        return np.unique(np.concatenate(found))

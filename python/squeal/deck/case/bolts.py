@@ -21,8 +21,7 @@ def _bolt(bolt, model, case, journal, faces):
             f"no *CLOAD gives the tension at component 1 of node {model.node_label(bolt.node)}"
         )
     surface = model.surfaces[bolt.surface]
-    rows = np.column_stack([surface.elements, surface.faces])
-    nodes = faces.nodes(rows)
+    nodes = faces.nodes(surface.rows)
     if not nodes:
         raise Fault(f"the surface '{surface.name}' has no faces")
     outwards = _normal(model.nodes.at(nodes[0]))
@@ -32,7 +31,7 @@ def _bolt(bolt, model, case, journal, faces):
     if force < 0:
         raise Fault("the force of a bolt presses its two sides together")
     path = ("bolt", clean(surface.name))
-    case.set((*path, "section"), case.group(FACES, rows, surface.name), bolt.source)
+    case.set((*path, "section"), case.group(FACES, surface.rows, surface.name), bolt.source)
     case.set((*path, "force"), force, bolt.force.source)
     case.set((*path, "axis"), normal, bolt.source)
     journal.mark(bolt.force.source, TRANSLATED)

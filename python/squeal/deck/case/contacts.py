@@ -26,10 +26,11 @@ def add_contacts(model, case, journal, faces):
         for source in (one.source, one.behavior, *(law.source for law in one.frictions)):
             if source is not None and key not in used:
                 journal.mark(source, UNUSED, "no contact pair has this interaction")
-    bodies = Bodies(model, case)
-    moving = moving_bodies(model, bodies, case, journal, faces)
+    bodies = Bodies(model, case, faces)
+    contacts = _sound(model, journal, faces)
+    moving = moving_bodies(model, contacts, bodies, case, journal)
     taken, sides = {}, []
-    for contact in model.contacts:
+    for contact in contacts:
         try:
             sides.append(_sides(contact, model, bodies, moving))
         except Fault as fault:
@@ -47,6 +48,26 @@ def add_contacts(model, case, journal, faces):
     return frictions, [one for one in moving.values() if not one.known]
 
 
+def _sound(model, journal, faces):
+    """Returns the contacts with an interaction and two surfaces of outer faces; refuses others."""
+    found = []
+    for contact in model.contacts:
+        try:
+            if contact.interaction not in model.interactions:
+                raise Fault(f"there is no interaction '{contact.interaction}'")
+            for key in (contact.slave, contact.master):
+                surface = model.surfaces[key]
+                if surface.nodes is not None:
+                    raise Fault(
+                        f"the surface '{surface.name}' of a contact has nodes in place of faces"
+                    )
+                faces.require_outer([tuple(row) for row in surface.rows.tolist()])
+            found.append(contact)
+        except Fault as fault:
+            journal.refuse_fault(contact.source, fault)
+    return found
+
+
 @dataclass
 class Sides:
     """Keys of the two surfaces of a contact; `disc` is the one that moves, if one does."""
@@ -59,22 +80,16 @@ class Sides:
 
 
 def _sides(contact, model, bodies, moving):
-    interaction = model.interactions.get(contact.interaction)
-    if interaction is None:
-        raise Fault(f"there is no interaction '{contact.interaction}'")
     motions = []
     for name in (contact.slave, contact.master):
-        surface = model.surfaces[name]
-        if surface.nodes is not None:
-            raise Fault(f"the surface '{surface.name}' of a contact has nodes in place of faces")
-        owners = bodies.of_elements(surface.elements)
+        owners = bodies.of_elements(model.surfaces[name].elements)
         motions.append({id(moving[at].motion) for at in owners if at in moving})
     if motions[0] == motions[1]:
         return Sides(contact, contact.slave, contact.master, False, False)
     if all(motions) or max(map(len, motions)) > 1:
         raise Fault("both sides of a contact move, in different ways")
     pad, disc = (contact.master, contact.slave) if motions[0] else (contact.slave, contact.master)
-    laws = interaction.frictions
+    laws = model.interactions[contact.interaction].frictions
     if any(not law.coefficients for law in laws):
         raise Fault("a contact that slides has ROUGH friction")
     return Sides(contact, pad, disc, True, bool(laws))
@@ -91,11 +106,9 @@ def _add(sides, path, model, case, journal, faces):
     interaction = model.interactions[contact.interaction]
     for key, name in (("pad", sides.pad), ("disc", sides.disc)):
         surface = model.surfaces[name]
-        rows = np.column_stack([surface.elements, surface.faces])
-        faces.require_outer([tuple(row) for row in rows.tolist()])
-        case.set((*path, key), case.group(FACES, rows, surface.name), contact.source)
+        case.set((*path, key), case.group(FACES, surface.rows, surface.name), contact.source)
         if name == contact.slave:
-            _set_stiffness(interaction, model, case, journal, path, rows, faces)
+            _set_stiffness(interaction, model, case, journal, path, surface.rows, faces)
     case.set((*path, "slave"), "pad" if sides.pad == contact.slave else "disc", contact.source)
     case.set((*path, "gap"), _gap(contact, model, faces), contact.source)
     if not interaction.separation:
@@ -109,12 +122,9 @@ def _gap(contact, model, faces):
     """ADJUST moves the slave nodes within a distance onto the master: all of them, or none."""
     if contact.adjust is None:
         return "measured"
-    slave, master = (
-        faces.nodes(np.column_stack([one.elements, one.faces]))
-        for one in (model.surfaces[contact.slave], model.surfaces[contact.master])
-    )
-    surface = Surface([model.nodes.at(one) for one in master])
-    numbers = np.unique(np.concatenate(slave))
+    slave, master = model.surfaces[contact.slave], model.surfaces[contact.master]
+    surface = Surface([model.nodes.at(one) for one in faces.nodes(master.rows)])
+    numbers = faces.nodes_of(slave)
     found = [surface.face_of(point, surface.size) for point in model.nodes.at(numbers)]
     near = [one is not None and one[1] <= contact.adjust + 1e-6 * surface.size for one in found]
     if all(near):

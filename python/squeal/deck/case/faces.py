@@ -3,6 +3,7 @@
 import numpy as np
 
 from squeal.deck.journal import Fault, Missing
+from squeal.deck.mesh import EMPTY
 from squeal.deck.topology import corners_of, hashes
 
 
@@ -42,6 +43,14 @@ class Faces:
             for place, nodes in zip(places.tolist(), table):
                 found[place] = nodes
         return found
+
+    def nodes_of(self, surface):
+        """Returns the nodes of a surface of nodes or of faces, in ascending order for faces. Raises
+        Fault."""
+        if surface.nodes is not None:
+            return surface.nodes
+        tables = [table.ravel() for _, table in self.tables(surface.rows)]
+        return np.unique(np.concatenate([EMPTY, *tables]))
 
     def require_outer(self, rows):
         """Raises Fault if a face lies between two cells."""

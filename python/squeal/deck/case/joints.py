@@ -132,13 +132,10 @@ def _coupled_nodes(rigid, model, faces):
         sets = model.node_sets if rigid.label in model.node_sets else model.element_sets
         return rigid.nodes.tolist(), sets.spelled.get(rigid.label, rigid.label)
     surface = model.surfaces[rigid.surface]
-    if surface.nodes is not None:
-        return _within(surface.nodes, rigid, model), surface.name
-    rows = np.column_stack([surface.elements, surface.faces])
-    tables = [table.ravel() for _, table in faces.tables(rows)]
-    if not tables:
+    nodes = faces.nodes_of(surface)
+    if surface.nodes is None and not len(nodes):
         raise Fault(f"the surface '{surface.name}' has no faces")
-    return _within(np.unique(np.concatenate(tables)), rigid, model), surface.name
+    return _within(nodes, rigid, model), surface.name
 
 
 def _within(nodes, rigid, model):

@@ -41,7 +41,7 @@ def bodies_of(pieces, model):
 
 
 def _connected(pieces, model):
-    tables = [_nodes(piece, model) for piece in pieces]
+    tables = [model.nodes_of_elements(piece.cells) for piece in pieces]
     owners = np.repeat(np.arange(len(pieces)), [len(table) for table in tables])
     nodes = np.concatenate([EMPTY, *tables])
     order = np.argsort(nodes, kind="stable")
@@ -55,11 +55,3 @@ def _connected(pieces, model):
     for piece, number in zip(pieces, body.tolist()):
         found.setdefault(number, []).append(piece)
     return found.values()
-
-
-def _nodes(piece, model):
-    blocks, rows = model.find_elements(piece.cells)
-    found = [
-        model.blocks[block].nodes[rows[blocks == block]].ravel() for block in np.unique(blocks)
-    ]
-    return np.unique(np.concatenate([EMPTY, *found]))

@@ -26,21 +26,13 @@ class Moving:
 
 
 class Bodies:
-    """Bodies of a case with their nodes."""
+    """Bodies of a case with their nodes. `faces`: the object that looks faces of elements up."""
 
-    def __init__(self, model, case):
-        self.model = model
+    def __init__(self, model, case, faces):
+        self.model, self.faces = model, faces
         self.names = list(case.bodies)
         self.cells = list(case.bodies.values())
-        self.nodes = [self._nodes_of(cells) for cells in self.cells]
-
-    def _nodes_of(self, cells):
-        blocks, rows = self.model.find_elements(cells)
-        parts = [
-            block.nodes[rows[blocks == number]].ravel()
-            for number, block in enumerate(self.model.blocks)
-        ]
-        return np.unique(np.concatenate([EMPTY, *parts]))
+        self.nodes = [model.nodes_of_elements(cells) for cells in self.cells]
 
     def of_elements(self, elements):
         """Returns the numbers of the bodies that have some of these elements."""
@@ -81,54 +73,47 @@ class Bodies:
                 )
             yield group
         for rigid in self.model.rigid:
-            yield self.of_nodes(rigid_nodes(rigid, self.model))
+            yield self.of_rigid(rigid)
+
+    def of_rigid(self, rigid):
+        """Returns the bodies of a rigid body or of a coupling; none if its faces do not exist, for
+        which the coupling is refused."""
+        if rigid.surface is None:
+            return self.of_nodes(rigid.nodes)
+        try:
+            return self.of_nodes(self.faces.nodes_of(self.model.surfaces[rigid.surface]))
+        except Fault:
+            return set()
 
 
-def rigid_nodes(rigid, model):
-    """Returns the nodes of a rigid body or of a coupling."""
-    if rigid.surface is None:
-        return np.asarray(rigid.nodes, np.int64)
-    surface = model.surfaces[rigid.surface]
-    if surface.nodes is not None:
-        return surface.nodes
-    return _surface_nodes(model, rigid.surface)
-
-
-def moving_bodies(model, bodies, case, journal, faces):
+def moving_bodies(model, contacts, bodies, case, journal):
     """Returns number of body -> Moving, and sets the options of the motions. Removes prescribed
-    displacements that stand for a motion from the supports of the model. `faces`: the object that
-    looks faces of elements up."""
-    rubbing = _rubbing(model, bodies)
-    moving = _given(model, bodies, journal) if model.motions else {}
-    if not model.motions and model.squeal:
-        moving = _turned(model, bodies, rubbing, journal, faces)
+    displacements that stand for a motion from the supports of the model. `contacts`: those whose
+    interaction and faces exist."""
+    if model.motions:
+        moving = _given(model, contacts, bodies, journal)
+    else:
+        moving = _turned(model, contacts, bodies, journal) if model.squeal else {}
     for at, one in moving.items():
         _set_motion(case, bodies.names[at], one, model, journal)
     return moving
 
 
-def _rubbing(model, bodies):
+def _rubbing(model, contacts, bodies):
     """Returns the bodies with a contact that has friction."""
     found = set()
-    for contact in model.contacts:
-        one = model.interactions.get(contact.interaction)
-        if one and one.frictions:
+    for contact in contacts:
+        if model.interactions[contact.interaction].frictions:
             for key in (contact.slave, contact.master):
-                found |= bodies.of_elements(_elements(model, key))
+                found |= bodies.of_elements(model.surfaces[key].elements)
     return found
 
 
-def _elements(model, key):
-    surface = model.surfaces[key]
-    return EMPTY if surface.elements is None else surface.elements
-
-
-def _given(model, bodies, journal):
+def _given(model, contacts, bodies, journal):
     moving = {}
+    surfaces = [model.surfaces[key] for one in contacts for key in (one.slave, one.master)]
     contact_nodes = [
-        (bodies.of_elements(_elements(model, key)), _surface_nodes(model, key))
-        for contact in model.contacts
-        for key in (contact.slave, contact.master)
+        (bodies.of_elements(one.elements), bodies.faces.nodes_of(one)) for one in surfaces
     ]
     for motion in model.motions:
         try:
@@ -137,20 +122,6 @@ def _given(model, bodies, journal):
         except Fault as fault:
             journal.refuse_fault(motion.source, fault)
     return moving
-
-
-def _surface_nodes(model, key):
-    surface = model.surfaces[key]
-    if surface.nodes is not None:
-        return surface.nodes
-    blocks, rows = model.find_elements(surface.elements)
-    found = [EMPTY]
-    for number, block in enumerate(model.blocks):
-        for face in np.unique(surface.faces[blocks == number]):
-            on = (blocks == number) & (surface.faces == face)
-            if block.shape and face < len(block.shape.faces):
-                found.append(block.nodes[rows[on]][:, list(block.shape.faces[face])].ravel())
-    return np.unique(np.concatenate(found))
 
 
 def _add_given(motion, bodies, contact_nodes, moving, journal):
@@ -179,13 +150,13 @@ def _add_given(motion, bodies, contact_nodes, moving, journal):
         moving[at] = Moving(motion, motion.known)
 
 
-def _turned(model, bodies, rubbing, journal, faces):
+def _turned(model, contacts, bodies, journal):
     """Fits the motion of a rigid body to prescribed displacements of each part that rubs. A part
     that they press onto its contacts does not move. Refuses those of a part that fit no rigid
     motion, unless another part moves."""
     moving, unfit = {}, []
     joined = bodies.joined()
-    for at in sorted(rubbing):
+    for at in sorted(_rubbing(model, contacts, bodies)):
         group = joined[at]
         if at in moving:
             continue
@@ -199,7 +170,7 @@ def _turned(model, bodies, rubbing, journal, faces):
         except Fault as fault:
             unfit.append((source, fault))
             continue
-        if not _slides(motion, model, group, bodies, faces):
+        if not _slides(motion, model, contacts, group, bodies):
             continue
         moved = [place for place, value in places if value.value]
         for place in moved:
@@ -216,15 +187,15 @@ def _turned(model, bodies, rubbing, journal, faces):
     return moving
 
 
-def _slides(motion, model, group, bodies, faces):
+def _slides(motion, model, contacts, group, bodies):
     """Returns whether a motion is along the contact faces of a part rather than across them."""
     along = across = 0.0
-    for contact in model.contacts:
+    for contact in contacts:
         for key in (contact.slave, contact.master):
             surface = model.surfaces[key]
-            if surface.nodes is not None or not bodies.of_elements(surface.elements) & group:
+            if not bodies.of_elements(surface.elements) & group:
                 continue
-            for _, table in faces.tables(np.column_stack([surface.elements, surface.faces])):
+            for _, table in bodies.faces.tables(surface.rows):
                 corners = [model.nodes.at(table[:, at]) for at in range(3)]
                 normals = np.cross(corners[1] - corners[0], corners[2] - corners[0])
                 velocities = np.broadcast_to(motion.amount, normals.shape)
@@ -240,7 +211,7 @@ def _held(model, nodes, group, bodies):
     its couplings."""
     references = {}
     for rigid in model.rigid:
-        if bodies.of_nodes(rigid_nodes(rigid, model)) & group:
+        if bodies.of_rigid(rigid) & group:
             references[rigid.reference] = rigid
             if rigid.rotation is not None:
                 references[rigid.rotation] = rigid

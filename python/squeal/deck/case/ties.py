@@ -40,9 +40,8 @@ def add_ties(model, roles, case, journal, faces):
 def _tie_of_faces(tie, slave, master, model, case, journal, faces):
     path = ("tie", clean(tie.name))
     for key, surface in (("slave", slave), ("master", master)):
-        rows = np.column_stack([surface.elements, surface.faces])
-        faces.tables(rows)
-        case.set((*path, key), case.group(FACES, rows, surface.name), tie.source)
+        faces.tables(surface.rows)
+        case.set((*path, key), case.group(FACES, surface.rows, surface.name), tie.source)
     if tie.tolerance is not None:
         case.set((*path, "tolerance"), tie.tolerance, tie.source)
     if not tie.adjust:
@@ -57,7 +56,7 @@ def _tie_of_faces(tie, slave, master, model, case, journal, faces):
 
 
 def _tie_of_nodes(tie, slave, master, model, roles, case, faces):
-    nodes = faces.nodes(np.column_stack([master.elements, master.faces]))
+    nodes = faces.nodes(master.rows)
     if not nodes:
         raise Fault("the master surface has no faces")
     surface = Surface([model.nodes.at(one) for one in nodes])

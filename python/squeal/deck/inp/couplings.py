@@ -29,7 +29,7 @@ def rigid_body(card, reader):
     for name in given:
         if name == "ELSET":
             key = reader.key(card, name, reader.model.element_sets)
-            parts.append(reader.nodes_of_elements(reader.model.element_sets.members(key)))
+            parts.append(reader.model.nodes_of_elements(reader.model.element_sets.members(key)))
         else:
             key = reader.key(card, name, sets)
             parts.append(sets.members(key))
@@ -64,17 +64,22 @@ def coupling(card, reader):
     surface = reader.key(card, "SURFACE", reader.model.surfaces)
     if surface not in reader.model.surfaces:
         raise Fault(f"there is no surface '{surface}'")
-    frame = None
-    if "ORIENTATION" in card.parameters:
-        key = reader.key(card, "ORIENTATION", reader.model.orientations)
-        frame = reader.model.orientations.get(key)
-        if frame is None:
-            raise Fault(f"there is no orientation '{key}' before this card")
+    frame = _frame_of(card, reader)
     reference = reader.node_of(card, "REF NODE")
     one = Rigid(surface, None, reference, card.source, None, name, surface, (), frame)
     if card.key("INFLUENCE RADIUS", "WORLD") != "WORLD":
         one.radius = real(card.require("INFLUENCE RADIUS"))
     reader.model.rigid.append(one)
+
+
+def _frame_of(card, reader):
+    """Returns the axes of ORIENTATION, or None without it. Raises Fault."""
+    if "ORIENTATION" not in card.parameters:
+        return None
+    key = reader.key(card, "ORIENTATION", reader.model.orientations)
+    if key not in reader.model.orientations:
+        raise Fault(f"no card before this one defines the orientation '{key}'")
+    return reader.model.orientations[key]
 
 
 def _open_coupling(reader):
@@ -146,7 +151,7 @@ def distributing_coupling(card, reader):
         raise Fault("DCOUP3D of Abaqus is not supported; use *COUPLING and *DISTRIBUTING")
     sets = reader.model.element_sets
     elements = sets.members(reader.key(card, "ELSET", sets))
-    references = reader.nodes_of_elements(elements, "DCOUP3D")
+    references = reader.model.nodes_of_elements(elements, "DCOUP3D")
     if len(references) != 1:
         raise Fault("ELSET= must contain one element of type DCOUP3D")
     nodes, weights = [], []
@@ -167,12 +172,7 @@ def kinematic_coupling(card, reader):
     """The old form: lines `node or set, first, last`; nodes with equal components are one
     coupling."""
     reference = reader.node_of(card, "REF NODE")
-    frame = None
-    if "ORIENTATION" in card.parameters:
-        key = reader.key(card, "ORIENTATION", reader.model.orientations)
-        frame = reader.model.orientations.get(key)
-        if frame is None:
-            raise Fault(f"there is no orientation '{key}' before this card")
+    frame = _frame_of(card, reader)
     parts = {}
     for line, fields in card.rows():
         first = integer(fields[1], line) if len(fields) > 1 and fields[1] else 1

@@ -120,12 +120,18 @@ def _joined_components(rows, count):
     return components
 
 
-@handles("MASS", used=("ELSET",), lines=1)
-def mass(card, reader):
+def _points(card, reader, kind):
+    """Returns the key of ELSET, whose elements have to be of a kind. Raises Fault."""
     sets = reader.model.element_sets
     label = reader.key(card, "ELSET", sets)
-    if reader.kinds_of(sets.members(label)) != {"MASS"}:
-        raise Fault(f"the elements of '{label}' are not of type MASS")
+    if reader.kinds_of(sets.members(label)) != {kind}:
+        raise Fault(f"the elements of '{label}' are not of type {kind}")
+    return label
+
+
+@handles("MASS", used=("ELSET",), lines=1)
+def mass(card, reader):
+    label = _points(card, reader, "MASS")
     line, fields = next(card.rows(), (None, [""]))
     reader.model.masses.append(PointMass(label, real(fields[0], line), card.source))
 
@@ -133,10 +139,7 @@ def mass(card, reader):
 @handles("ROTARY INERTIA", used=("ELSET",), lines=1)
 def rotary_inertia(card, reader):
     """Inertia about the node, in the axes of the part."""
-    sets = reader.model.element_sets
-    label = reader.key(card, "ELSET", sets)
-    if reader.kinds_of(sets.members(label)) != {"ROTARYI"}:
-        raise Fault(f"the elements of '{label}' are not of type ROTARYI")
+    label = _points(card, reader, "ROTARYI")
     line, fields = next(card.rows(), (None, []))
     numbers = [real(field, line) if field else 0.0 for field in fields]
     if not 1 <= len(numbers) <= 6:

@@ -111,17 +111,8 @@ class Names:
         blocks, _ = self.model.find_elements(elements)
         return {self.model.blocks[block].kind for block in np.unique(blocks[blocks >= 0])}
 
-    def nodes_of_elements(self, elements, kind=None):
-        """Returns the nodes of elements, of one kind only if it is given, in ascending order."""
-        found = [EMPTY]
-        blocks, rows = self.model.find_elements(elements)
-        for number, block in enumerate(self.model.blocks):
-            if kind is None or block.kind == kind:
-                found.append(block.nodes[rows[blocks == number]].ravel())
-        return np.unique(np.concatenate(found))
-
     def nodes_of_element_set(self, key):
-        """As above for a set, also while elements are still read."""
+        """Returns the nodes of the elements of a set, also while elements are still read."""
         members = self.model.element_sets.members(key)
         found = [
             block.nodes[np.isin(block.numbers, members)].ravel() for block in self.model.blocks
