@@ -168,6 +168,15 @@ class Solved(unittest.TestCase):
             exact = [3 - 2, 3 + 2] if speed == 1 else np.sqrt(6) + np.array([-1, 1])
             np.testing.assert_allclose(found.angular_frequency_rad_per_s, exact, rtol=1e-10)
 
+    def test_an_unknown_without_mass(self):
+        """A mass on the ground spring 3, and by the springs 2 and 1 in series, which meet in a node
+        without mass: s^2 = -(3 + 2 / 3)."""
+        self.write("k.mtx", files.abaqus(np.array([[5.0, -2], [-2, 3]])))
+        self.write("m.mtx", files.abaqus(np.array([[1.0]])))
+        self.assertIn("1 rows have no mass", self.call("--stiffness", "k.mtx", "--mass", "m.mtx"))
+        (found,) = self.solve("k").angular_frequency_rad_per_s
+        self.assertAlmostEqual(found, np.sqrt(3 + 2 / 3), delta=1e-12)
+
     @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed")
     def test_cantilever_of_calculix(self):
         self.write("bar.inp", cantilever(", SOLVER=MATRIXSTORAGE"))

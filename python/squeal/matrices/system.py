@@ -214,7 +214,7 @@ def _remove(system, gone, reason):
 
 
 def _report_zeros(system, record):
-    """Reports rows that the program will refuse."""
+    """Reports rows without stiffness, which the program refuses, and rows without mass."""
     zero = ~np.any([part.sparse.touched() for part in system.base], axis=0)
     if np.any(zero):
         record.choose(
@@ -225,6 +225,6 @@ def _report_zeros(system, record):
     massless = ~np.any(masses, axis=0) if masses else np.zeros(system.rows.size, bool)
     if np.any(massless):
         record.choose(
-            f"{int(np.sum(massless))} rows have no mass, which the program refuses:"
-            f" {system.rows.words(massless)}"
+            f"{int(np.sum(massless))} rows have no mass: they follow the others"
+            f" ({system.rows.words(massless)})"
         )
