@@ -91,7 +91,7 @@ class Systems(unittest.TestCase):
             ("CORD2R,3,4,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n", "there is no coordinate system 4"),
             ("CORD2R,3,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\n", "lie on a line"),
             ("CORD1R,3,1,5,2\n", "depends on itself"),
-            ("CORD1R,3,1,99,2\n", "there is no grid 99"),
+            ("CORD1R,3,1,99,2\n", "grid 99 does not exist"),
         ):
             text = cube(force() + cards).replace("GRID,5,,", "GRID,5,3,")
             rows = refusals(text)
@@ -324,7 +324,7 @@ class State(unittest.TestCase):
             ("PLOAD4,20,1,3.,,,,5,7\n,0,1.,0.,0.\n", "PLOAD4, N1: a load along a direction"),
             ("PLOAD4,20,1,3.,,,,5,6\n", "name no face of element 1"),
             ("PLOAD4,20,1,3.,,,,THRU,6\n", "THRU is for shells"),
-            ("PLOAD4,20,9,3.,,,,5,7\n", "there is no solid element 9"),
+            ("PLOAD4,20,9,3.,,,,5,7\n", "9 is not the number of a solid element"),
         ):
             (row,) = refusals(cube(text))
             self.assertIn(reason, row)

@@ -260,7 +260,7 @@ class Control(unittest.TestCase):
     def test_sets_that_are_not_there(self):
         rows = refusals(cube(force(), control=CONTROL.replace("= 10", "= 12").replace("20", "22")))
         self.assertIn("there is no set 12 of SPC or SPC1", rows[0])
-        self.assertIn("there is no load of set 22", rows[1])
+        self.assertIn("no load has the set 22", rows[1])
 
     def test_subcases(self):
         control = "SOL 101\nCEND\nTITLE = two, of them,\nSPC = 10\nSUBCASE 1\n LOAD = 20\n"
@@ -272,7 +272,7 @@ class Control(unittest.TestCase):
         one = imported(cube(cards, control=control), subcase=2)
         self.assertEqual(one.options["load"], {"node_6": {"force": "9.0,0.0,0.0"}})
         (row,) = refusals(cube(cards, control=control), subcase=3)
-        self.assertIn("there is no subcase 3", row)
+        self.assertIn("subcase 3 does not exist", row)
 
     def test_modes_of_a_preloaded_state(self):
         control = "SOL 103\nCEND\nSPC = 10\nSUBCASE 1\n LOAD = 20\nSUBCASE 2\n METHOD = 5\n"

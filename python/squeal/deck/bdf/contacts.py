@@ -3,6 +3,7 @@
 BCONECT, BCONPRG, BCONPRP (MSC Nastran)."""
 from squeal.deck.bdf.handlers import handles
 from squeal.deck.bdf.regions import surfaces_of
+from squeal.deck.bdf.supports import selected
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
 from squeal.deck.model import Contact, Friction, Interaction, Tie
 from squeal.deck.numbers import real
@@ -108,20 +109,10 @@ def physical_parameters(card, reader):
     reader.journal.mark(card.source, USED)
 
 
-def _selected(card, reader, chosen):
-    number = card.integer(1, 0)
-    if chosen is None or number in chosen:
-        reader.journal.mark(card.source, TRANSLATED)
-        return number
-    reader.journal.mark(card.source, UNUSED, f"set {number} is not selected")
-    card.read.update(range(1, len(card.fields) + 1))
-    return None
-
-
 @handles("BCTSET", phase=4)
 def bctset(card, reader):
     """Pairs: source, target, friction, and the least and the largest distance."""
-    if _selected(card, reader, reader.contact_sets) is None:
+    if selected(card, reader, reader.contact_sets, card.integer(1, 0)) is None:
         return
     for first in range(2, len(card.fields), 8):
         if not card.word(first):
@@ -139,7 +130,7 @@ def bctset(card, reader):
 @handles("BGSET", phase=4)
 def bgset(card, reader):
     """Glued pairs: source, target, and the search distance."""
-    number = _selected(card, reader, reader.glue_sets)
+    number = selected(card, reader, reader.glue_sets, card.integer(1, 0))
     if number is None:
         return
     for first in range(2, len(card.fields), 8):
@@ -188,7 +179,7 @@ def _glue(card, reader, pair, distance):
 @handles("BCTABL1", phase=3)
 def bctabl1(card, reader):
     """The pairs (BCONECT) of a table."""
-    if _selected(card, reader, reader.contact_sets) is None:
+    if selected(card, reader, reader.contact_sets, card.integer(1, 0)) is None:
         return
     chosen = set() if reader.connections is None else reader.connections
     for first, last in card.numbers(2):
@@ -252,7 +243,7 @@ def _sides(card):
 @handles("BCTABLE", phase=4)
 def bctable(card, reader):
     """Groups of SECNDRY, with friction and glue, and the PRIMARY bodies that it touches."""
-    if _selected(card, reader, reader.contact_sets) is None:
+    if selected(card, reader, reader.contact_sets, card.integer(1, 0)) is None:
         return
     short = [card.integer(at, 0) for at in (2, 3)]
     for at in (4, 5, 6):

@@ -227,7 +227,7 @@ def select(control, wanted, journal):
     if chosen.preload is not None:
         preload = next((one for one in ones if one.number == chosen.preload), None)
         if preload is None:
-            journal.refuse(chosen.preload_source, f"there is no subcase {chosen.preload}")
+            journal.refuse(chosen.preload_source, f"subcase {chosen.preload} does not exist")
     found = Selection(complex=control.solution in ("complex", "nonlinear"))
     found.prestress = preload is not None
     modal = control.solution in ("modes", "complex")
@@ -246,7 +246,7 @@ def _chosen(control, ones, wanted, journal):
         found = next((one for one in ones if one.number == wanted), None)
         if found is not None:
             return found
-        journal.refuse_model(f"there is no subcase {wanted}")
+        journal.refuse_model(f"subcase {wanted} does not exist")
     modal = control.solution in ("modes", "complex")
     likely = [one for one in ones if "METHOD" in one.sets or "CMETHOD" in one.sets]
     chosen = (likely if modal and likely else ones)[0]

@@ -120,7 +120,7 @@ class Grids:
     def at(self, number):
         """Returns the system and the coordinates of a grid. Raises Fault."""
         if not self.has(np.array([number]))[0]:
-            raise Fault(f"there is no grid {number}")
+            raise Fault(f"grid {number} does not exist")
         last = np.searchsorted(self.numbers, number, side="right", sorter=self._order) - 1
         row = self._order[last]
         return int(self.systems[row]), self.coordinates[row]

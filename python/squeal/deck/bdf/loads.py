@@ -3,7 +3,7 @@
 import numpy as np
 
 from squeal.deck.bdf.handlers import LOADS, handles
-from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
+from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault, Missing
 from squeal.deck.model import BodyLoad, Value
 
 SIMPLE = ("FORCE", "MOMENT", "FORCE1", "MOMENT1", "PLOAD4", "GRAV", "RFORCE", "SPCD", *LOADS)
@@ -65,7 +65,7 @@ def _expand(reader, combined, number, factor, factors, above):
             _expand(reader, combined, part, factor * own, factors, (*above, number))
     else:
         if number not in _simple(reader):
-            reader.journal.refuse(reader.load_source(), f"there is no load of set {number}")
+            reader.journal.refuse(reader.load_source(), f"no load has the set {number}")
         factors[number] = factors.get(number, 0.0) + factor
 
 
@@ -180,27 +180,26 @@ def pressure(card, reader):
 def _face(card, reader, element):
     """Returns the number of the face from 0 that contains the grid G1, and the opposite corner G3
     of a quadrilateral, or that lies opposite to the corner G4 of a tetrahedron."""
-    (block,), (row,) = reader.model.find_elements(np.array([element]))
-    if block < 0:
+    try:
+        shape, nodes = reader.solid(element, card.line)
+    except Missing:
         if reader.journal.incomplete:
             return None
-        raise Fault(f"there is no solid element {element}", line=card.line)
-    one = reader.model.blocks[block]
-    nodes = one.nodes[row].tolist()
+        raise
     first, other = card.identifier(7), card.identifier(8, None)
     fitting = []
-    for number, corners in enumerate(one.shape.corners):
+    for number, corners in enumerate(shape.corners):
         on = [nodes[at] for at in corners]
         if first not in on:
             continue
-        if one.shape.name in ("tet4", "tet10"):
+        if shape.name in ("tet4", "tet10"):
             fits = other is not None and other in nodes[:4] and other not in on
         elif other is None:
             fits = len(on) == 3
         elif len(on) == 4:
             fits = other in on and abs(on.index(first) - on.index(other)) == 2
         else:
-            fits = one.shape.name[:7] == "pyramid" and other in on and other != first
+            fits = shape.name[:7] == "pyramid" and other in on and other != first
         if fits:
             fitting.append(number)
     if len(fitting) != 1:

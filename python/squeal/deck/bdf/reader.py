@@ -13,7 +13,7 @@ from squeal.deck.bdf.handlers import BLOCKS, LOADS, PROPERTIES, REASONS, TABLE, 
 from squeal.deck.bdf.lines import read_sections
 from squeal.deck.bdf.solids import KINDS, Solids
 from squeal.deck.bdf.systems import Systems
-from squeal.deck.journal import UNUSED, USED, Fault
+from squeal.deck.journal import UNUSED, USED, Fault, Missing
 from squeal.deck.mesh import EMPTY
 from squeal.deck.model import Model
 
@@ -45,6 +45,14 @@ class Reader:
         self._cells = EMPTY
         methods.read_parameters(self)
         self.mass_factor = self.parameters.get("WTMASS", 1.0)
+
+    def solid(self, element, line):
+        """Returns shape and grids of a solid element. Raises Missing."""
+        (block,), (row,) = self.model.find_elements(np.array([element]))
+        if block < 0:
+            raise Missing(f"{element} is not the number of a solid element", line=line)
+        one = self.model.blocks[block]
+        return one.shape, one.nodes[row].tolist()
 
     def read(self):
         model, journal, deck = self.model, self.journal, self.deck
@@ -147,7 +155,7 @@ class Reader:
                     journal.choose(f"{selection.frequency}: {methods.MANY} free modes")
                 else:
                     journal.refuse(
-                        selection.frequency, f"there is no EIGRL or EIGR {selection.method}"
+                        selection.frequency, f"no EIGRL or EIGR has the number {selection.method}"
                     )
         model.prestress = selection.prestress
         solids = {block.kind for block in model.blocks}
@@ -168,7 +176,7 @@ class Reader:
         for first, last in ranges:
             low, high = np.searchsorted(known, [first, last + 1])
             if first == last and low == high:
-                raise Fault(f"there is no grid {first}", line=card.line)
+                raise Fault(f"grid {first} does not exist", line=card.line)
             if low == high:
                 raise Fault(f"there are no grids {first} THRU {last}", line=card.line)
             if high - low < last - first + 1:

@@ -49,12 +49,8 @@ def _add(card, reader, number, region):
 
 def _face(card, reader, element, corners):
     """Returns the number of the face of an element that has three corners."""
-    (block,), (row,) = reader.model.find_elements(np.array([element]))
-    if block < 0:
-        raise Fault(f"there is no solid element {element}", line=card.line)
-    one = reader.model.blocks[block]
-    nodes = one.nodes[row].tolist()
-    for number, face in enumerate(one.shape.corners):
+    shape, nodes = reader.solid(element, card.line)
+    for number, face in enumerate(shape.corners):
         if len(corners) == 3 and corners <= {nodes[at] for at in face}:
             return number
     grids = ", ".join(map(str, sorted(corners)))

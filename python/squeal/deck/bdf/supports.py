@@ -55,9 +55,11 @@ def _numbers(reader, name):
             yield int(fields[0])
 
 
-def selected(card, reader, chosen):
-    """Returns the number of the set of a card, or None if it is not selected."""
-    number = card.identifier(1)
+def selected(card, reader, chosen, number=None):
+    """Returns the number of the set of a card, or None if it is not selected. `number`: that of the
+    set, if it may be 0."""
+    if number is None:
+        number = card.identifier(1)
     if chosen is None or number in chosen:
         reader.journal.mark(card.source, TRANSLATED)
         return number
@@ -72,7 +74,7 @@ def _hold(reader, card, label, numbers, components, value):
     there = reader.model.nodes.has(numbers)
     if not np.all(there):
         missing = numbers[~there]
-        raise Fault(f"there is no grid {missing[0]}", line=card.line)
+        raise Fault(f"grid {missing[0]} does not exist", line=card.line)
     inside = reader.without_rotations(numbers)
     if np.any(inside) and max(components) > 2:
         if value:
