@@ -9,20 +9,16 @@ import os
 import random
 import re
 import sys
-import tempfile
-import time
 import unittest
 from pathlib import Path
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
+sys.path[:0] = [str(repository / one) for one in ("python", "tests/support/deck", "tests/support")]
 sys.dont_write_bytecode = True
+from damage import damaged, translated
 from small_bdf import cube
 from small_decks import read_mesh
 from write_bdf import large, small
-
-from squeal.deck.importer import import_deck
-from squeal.deck.journal import DeckError
 
 COUNT = 20000 if os.environ.get("SQUEAL_LONG") else 600
 WORDS = (
@@ -59,33 +55,6 @@ CARDS = (
 SEED = cube(CARDS.replace("FORCE,20", "FORCE,21"), control=CONTROL)
 
 
-def damaged(rng):
-    lines = SEED.split("\n")
-    for _ in range(rng.choice([1, 1, 1, 2, 3, 6])):
-        at = rng.randrange(len(lines))
-        kind = rng.randrange(7)
-        if kind == 0 and len(lines) > 1:
-            del lines[at]
-        elif kind == 1:
-            lines.insert(at, rng.choice(lines))
-        elif kind == 2:
-            words = lines[at].split(",")
-            words[rng.randrange(len(words))] = rng.choice(WORDS)
-            lines[at] = ",".join(words)
-        elif kind == 3:
-            lines.insert(at, rng.choice(WORDS))
-        elif kind == 4 and lines[at]:
-            place = rng.randrange(len(lines[at]))
-            letter = rng.choice("0123456789.,-*+= eEdD'\tAZ$")
-            lines[at] = lines[at][:place] + letter + lines[at][place + 1 :]
-        elif kind == 5 and lines[at]:
-            place = rng.randrange(len(lines[at]))
-            lines[at] = lines[at][:place] + rng.choice(" ,8") + lines[at][place:]
-        else:
-            lines[at] = lines[at][: rng.randrange(len(lines[at]) + 1)]
-    return "\n".join(lines)
-
-
 def bulk(text):
     """Returns the first words of the lines of bulk data."""
     found, started = [], False
@@ -103,31 +72,14 @@ def bulk(text):
 
 class Damaged(unittest.TestCase):
     def test_the_seed_is_translated(self):
-        with tempfile.TemporaryDirectory() as folder:
-            deck, case = Path(folder) / "deck.bdf", Path(folder) / "case"
-            deck.write_text(SEED)
-            self.complete(SEED, import_deck(deck, case), case)
+        self.assertEqual(translated(self, "deck.bdf", [SEED], self.complete), 1)
 
     def test_no_deck_is_lost_without_a_word(self):
         rng = random.Random(21)
-        translated = 0
-        with tempfile.TemporaryDirectory() as folder:
-            deck, case = Path(folder) / "deck.bdf", Path(folder) / "case"
-            for number in range(COUNT):
-                text = damaged(rng)
-                deck.write_text(text, encoding="utf-8")
-                started = time.monotonic()
-                with self.subTest(number=number, text=text):
-                    try:
-                        journal = import_deck(deck, case)
-                    except DeckError as error:
-                        self.assertGreater(len(str(error)), 20)
-                    else:
-                        translated += 1
-                        self.complete(text, journal, case)
-                    self.assertLess(time.monotonic() - started, 10)
+        letters, times = "0123456789.,-*+= eEdD'\tAZ$", [1, 1, 1, 2, 3, 6]
+        decks = (damaged(SEED, rng, times, WORDS, letters, inserted=" ,8") for _ in range(COUNT))
         # Enough of them must get as far as the mesh for the test to mean something.
-        self.assertGreater(translated, COUNT // 20)
+        self.assertGreater(translated(self, "deck.bdf", decks, self.complete), COUNT // 20)
 
     def complete(self, text, journal, case):
         """Compares mesh and account with a count of the lines of the deck."""

@@ -20,9 +20,11 @@ from pathlib import Path
 import numpy as np
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/matrices")]
+folders = ("python", "tests/support/matrices", "tests/support")
+sys.path[:0] = [str(repository / one) for one in folders]
 sys.dont_write_bytecode = True
 import matrix_files as files
+from damage import damaged
 
 from squeal.deck.journal import DeckError
 from squeal.matrices.importer import import_matrices
@@ -79,27 +81,8 @@ def seeds():
 
 
 def damaged_text(text, rng):
-    lines = text.split("\n")
-    for _ in range(rng.choice([1, 1, 1, 2, 4])):
-        at = rng.randrange(len(lines))
-        kind = rng.randrange(6)
-        if kind == 0 and len(lines) > 1:
-            del lines[at]
-        elif kind == 1:
-            lines.insert(at, rng.choice(lines))
-        elif kind == 2:
-            words = re.split(r"([ ,]+)", lines[at])
-            words[rng.randrange(len(words))] = rng.choice(WORDS)
-            lines[at] = "".join(words)
-        elif kind == 3:
-            lines.insert(at, rng.choice(WORDS))
-        elif kind == 4 and lines[at]:
-            place = rng.randrange(len(lines[at]))
-            letter = rng.choice("0123456789.,-*+= eEdD$\tAZ")
-            lines[at] = lines[at][:place] + letter + lines[at][place + 1 :]
-        else:
-            lines[at] = lines[at][: rng.randrange(len(lines[at]) + 1)]
-    return "\n".join(lines).encode()
+    letters, times = "0123456789.,-*+= eEdD$\tAZ", [1, 1, 1, 2, 4]
+    return damaged(text, rng, times, WORDS, letters, r"([ ,]+)").encode()
 
 
 def damaged_bytes(data, rng):
