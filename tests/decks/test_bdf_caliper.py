@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """A floating caliper as bulk data, against the case that it was made from: test_bdf_caliper.py
 PROGRAM [MPIEXEC]. All eigenvalues agree, on one rank and on two."""
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -12,45 +10,21 @@ repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / one) for one in ("python", "tests/support/deck", "tests/decks")]
 sys.dont_write_bytecode = True
 import numpy as np
-import pandas as pd
 import yaml
 from bdf_caliper import Caliper
-from caliper import Mesh, mesh_geometry
+from caliper_case import CaliperCase
 from small_decks import read_mesh
 
 from squeal.deck.importer import import_deck
 
-PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
-MPIEXEC = sys.argv.pop(1) if len(sys.argv) > 1 else "mpirun -n"
-COARSE = {"order": 1, "size": 1.5, "vanes": 12, "bolts": 0}
-OPTIONS = repository / "options/floating_caliper.yaml"
-WORDS = "-flutter_friction 0.3,0.6 -modes_count 80 -flutter_tolerance 1e-10 -report_fields off"
 
-
-class FloatingCaliper(unittest.TestCase):
+class FloatingCaliper(CaliperCase):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = Path(temporary.name)
-        geometry = repository / "meshes/floating_caliper.geo"
-        cls.options = yaml.safe_load(OPTIONS.read_text())
-        mesh_geometry(geometry, cls.folder / "mesh.msh", **COARSE)
-        cls.mesh = Mesh(cls.folder / "mesh.msh")
+        super().setUpClass()
         (cls.folder / "brake.bdf").write_text(Caliper(cls.options, cls.mesh).deck(0.6))
         cls.journal = import_deck(cls.folder / "brake.bdf", cls.folder / "case", speed=5.0)
         cls.case = yaml.safe_load((cls.folder / "case/case.yaml").read_text())
-
-    def eigenvalues(self, words, ranks):
-        folder = self.folder / f"results_{ranks}"
-        command = [*(MPIEXEC.split() + [str(ranks)] if ranks > 1 else []), PROGRAM]
-        command += ["-options_file", *words, *WORDS.split(), "-checkpoint", "off"]
-        command += ["-report_dir", folder]
-        run = subprocess.run(command, capture_output=True, text=True, check=False)
-        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
-        table = pd.read_csv(folder / "eigenvalues.csv")
-        values = table.growth_rate_1_per_s + 1j * table.angular_frequency_rad_per_s
-        return values.to_numpy(), int(table.unstable.sum())
 
     def test_bodies_and_surfaces_are_complete(self):
         groups, nodes, coordinates = read_mesh(self.folder / "case/mesh.msh")
@@ -77,14 +51,7 @@ class FloatingCaliper(unittest.TestCase):
         self.assertEqual(self.case["flutter"]["friction"], 0.6)
 
     def test_all_eigenvalues_agree(self):
-        wanted, unstable = self.eigenvalues([OPTIONS, "-mesh_file", self.folder / "mesh.msh"], 1)
-        self.assertGreater(unstable, 0)
-        for ranks in (1, 2):
-            found, count = self.eigenvalues([self.folder / "case/case.yaml"], ranks)
-            self.assertEqual((len(found), count), (len(wanted), unstable))
-            difference = np.max(np.abs(found - wanted) / np.abs(wanted))
-            print(f"{len(found)} eigenvalues, {ranks} ranks: difference {difference:.1e}")
-            self.assertLess(difference, 1e-9)
+        self.agree([("case", 1), ("case", 2)])
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@ closed form, and a cantilever of CalculiX against CalculiX's own frequencies."""
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -19,6 +18,7 @@ sys.dont_write_bytecode = True
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 import ccx
 import matrix_files as files
+from imported import InFolder
 
 COUNT = 12
 
@@ -52,17 +52,7 @@ def cantilever(solver=""):
     return "\n".join(lines) + "\n"
 
 
-class Solved(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def write(self, name, content):
-        path = self.folder / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
+class Solved(InFolder):
     def call(self, *words, status=0):
         """Runs squeal-import and returns its output."""
         command = [repository / "scripts/squeal-import", *map(str, words)]

@@ -10,8 +10,9 @@ import numpy as np
 repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
-from bdf_cards import COMPLEX, EIGRL, ORIGIN, TURN, card, frame_of, numbers, terms
+from bdf_cards import COMPLEX, EIGRL, ORIGIN, TURN, card, frame_of, numbers
 from small_bdf import CONTROL, POINTS, cube, force, imported, refusals
+from small_decks import terms
 
 
 class Joints(unittest.TestCase):

@@ -12,26 +12,12 @@ import numpy as np
 repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
-from small_decks import CUBE, HELD, STATIC, STEEL, Imported, cube, refused
+from small_decks import CUBE, HELD, STATIC, STEEL, Imported, cube, numbers, refused, terms
 
 from squeal.deck.importer import import_deck
 from squeal.deck.journal import DeckError
 
 ORTHO = "500000.,157200.,400000.,157200.,157200.,300000.,126200.,126200.,\n126200.,294."
-
-
-def numbers(text):
-    return [float(word) for word in text.split(",")]
-
-
-def terms(equation):
-    """Returns the coefficients of an equation by place."""
-    left, right = equation.split(" = ")
-    assert right == "0"
-    found = {}
-    for sign, factor, place in re.findall(r"(^|[+-] )(?:([\d.e+-]+)\*)?(\S+:\w+)", left):
-        found[place] = (-1 if sign == "- " else 1) * float(factor or 1)
-    return found
 
 
 class Materials(unittest.TestCase):

@@ -8,7 +8,7 @@ from pathlib import Path
 repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
-from small_decks import CUBE, Imported, cube, refused
+from small_decks import CUBE, Imported, cube, numbers, refused
 
 LOOSE = "*NODE\n20, 0.5, 0.5, 3.\n21, 6., 0., 0.\n*NSET, NSET=R\n20\n"
 UP = "*SURFACE, NAME=UP\nCUBE, S2\n"
@@ -17,10 +17,6 @@ DCOUP = "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n9, 20\n*DISTRIBUTING COUPLING, ELSET=D
 DAMPING = "*MATERIAL, NAME=OTHER\n*DAMPING, ALPHA=2., BETA=1.E-6\n"
 FREQUENCY = "*STEP, PERTURBATION\n*FREQUENCY\n4\n*END STEP\n"
 DIFFERENT = "Abaqus and CalculiX read it differently"
-
-
-def numbers(text):
-    return [float(word) for word in text.split(",")]
 
 
 class Detection(unittest.TestCase):

@@ -12,7 +12,7 @@ repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
 from pin_on_plate import deck, motion, turn
-from small_decks import Imported, refused
+from small_decks import Imported, numbers, refused
 
 STATIC = "*STEP, UNSYMM=YES\n*STATIC\n{}*END STEP\n"
 MODES = "*STEP\n*FREQUENCY\n12\n*END STEP\n"
@@ -28,10 +28,6 @@ def abaqus(friction="*FRICTION\n0.3,\n", steps=None, move=None, **words):
         STATIC.format(PRESS + move) + MODES + COMPLEX.format("", "10") if steps is None else steps
     )
     return Imported(deck(friction, steps), dialect="abaqus", **words)
-
-
-def numbers(text):
-    return [float(word) for word in str(text).split(",")]
 
 
 class Motion(unittest.TestCase):

@@ -1,25 +1,14 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Cards and comparisons that tests of Nastran decks share."""
-import re
-
 import numpy as np
+import small_decks
 
 COMPLEX = "SOL 110\nCEND\nSPC = 10\nMETHOD = 5\nBEGIN BULK\n"
 EIGRL = "EIGRL,5,,,3\n"
 
 
 def numbers(text):
-    return np.array([float(word) for word in str(text).split(",")])
-
-
-def terms(equation):
-    """Returns the coefficients of an equation by place."""
-    left, right = equation.split(" = ")
-    assert right == "0"
-    found = {}
-    for sign, factor, place in re.findall(r"(^|[+-] )(?:([\d.e+-]+)\*)?(\S+:\w+)", left):
-        found[place] = (-1 if sign == "- " else 1) * float(factor or 1)
-    return found
+    return np.array(small_decks.numbers(text))
 
 
 def turned(axis, degrees):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Small decks for tests, their import, and a reader of the meshes that it writes."""
+import re
 import struct
 import tempfile
 from pathlib import Path
@@ -80,6 +81,21 @@ def refused(text, files=(), **words):
     except DeckError as error:
         return [line.strip() for line in str(error).splitlines()[1:]]
     raise AssertionError("the deck is not refused")
+
+
+def numbers(text):
+    """Returns the numbers of a list of an option."""
+    return [float(word) for word in str(text).split(",")]
+
+
+def terms(equation):
+    """Returns the coefficients of an equation by place."""
+    left, right = equation.split(" = ")
+    assert right == "0"
+    found = {}
+    for sign, factor, place in re.findall(r"(^|[+-] )(?:([\d.e+-]+)\*)?(\S+:\w+)", left):
+        found[place] = (-1 if sign == "- " else 1) * float(factor or 1)
+    return found
 
 
 def model_of(text):

@@ -10,7 +10,9 @@ from squeal.deck.journal import DeckError
 from squeal.matrices.importer import import_matrices
 
 
-class Imported(unittest.TestCase):
+class InFolder(unittest.TestCase):
+    """A test with a folder of its own."""
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -21,6 +23,8 @@ class Imported(unittest.TestCase):
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
         return path
 
+
+class Imported(InFolder):
     def case(self, stiffness, mass, *others, **words):
         """Imports matrices and returns those of the case by name."""
         out = self.folder / "case"
