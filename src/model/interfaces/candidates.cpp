@@ -55,9 +55,7 @@ std::string earlierOwners(const mesh::Mesh& mesh, const coupling::NodeExchange& 
   for (const auto& tied : all.tied)
     if (std::ranges::binary_search(nodes, tied.connection.node)) owns[tied.interface] = 1;
   mpi::reduce<int>(mesh.comm, owns, MPI_MAX);
-  std::vector<std::string> labels;
-  for (std::size_t i = 0; i < owns.size(); ++i)
-    if (owns[i]) labels.push_back(all.options[i].label());
+  const auto labels = all.labels(owns);
   return labels.empty() ? "interfaces that come first" : joined(labels, " and ");
 }
 

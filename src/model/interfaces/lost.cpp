@@ -124,14 +124,6 @@ struct Loss {
   std::vector<std::string> ties;  // the labels of these ties
 };
 
-/// Returns the labels of the marked interfaces.
-std::vector<std::string> labelsOf(const Interfaces& all, const std::vector<int>& marks) {
-  std::vector<std::string> labels;
-  for (std::size_t i = 0; i < marks.size(); ++i)
-    if (marks[i]) labels.push_back(all.options[i].label());
-  return labels;
-}
-
 /// Collective.
 Loss lossOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, const Interfaces& all,
             int interface, const Owners& owners) {
@@ -155,12 +147,12 @@ Loss lossOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, cons
   mpi::reduce<int>(mesh.comm, owns, MPI_MAX);
   mpi::reduce<int>(mesh.comm, ties, MPI_MAX);
   loss.bonded = mpi::sum(mesh.comm, loss.bonded);
-  loss.ties = labelsOf(all, ties);
+  loss.ties = all.labels(ties);
   loss.report.nodes = places.size();
   if (places.empty()) return loss;
   loss.report.first = *std::min_element(places.begin(), places.end());
   loss.areas = areasOf(mesh, exchange, all.slaves[interface].surface, marks);
-  loss.report.owners = labelsOf(all, owns);
+  loss.report.owners = all.labels(owns);
   return loss;
 }
 

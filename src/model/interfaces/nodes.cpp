@@ -192,6 +192,13 @@ const SlaveSide* Interfaces::slaveOf(const std::string& surface) const {
   return nullptr;
 }
 
+std::vector<std::string> Interfaces::labels(const std::vector<int>& marks) const {
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i]) found.push_back(options[i].label());
+  return found;
+}
+
 std::string describe(const Interfaces& all, int interface) {
   const InterfaceSettings& options = all.options[interface];
   const InterfaceReport& report = all.reports[interface];

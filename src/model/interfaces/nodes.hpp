@@ -150,6 +150,8 @@ struct Interfaces {
   /// Returns the slave side of a contact interface with this surface, borrowed; null if there is
   /// none.
   const SlaveSide* slaveOf(const std::string& surface) const;
+  /// Returns the labels of the interfaces with a mark other than zero, [interface].
+  std::vector<std::string> labels(const std::vector<int>& marks) const;
 };
 
 /// Returns a line for the log on the nodes of an interface and the coupling of its sides.

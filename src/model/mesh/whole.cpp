@@ -2,10 +2,10 @@
 #include "model/mesh/whole.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 #include "base/petsc/check.hpp"
+#include "base/system/disjoint_sets.hpp"
 #include "base/system/text.hpp"
 #include "model/element/shape.hpp"
 #include "model/mesh/bodies.hpp"
@@ -317,28 +317,17 @@ double diagonalOf(const std::vector<Point>& points) {
   return length(minus(high, low));
 }
 
-/// Finds the connected parts of the mesh by union-find over the nodes of each cell.
+/// Finds the connected parts of the mesh: the nodes of a cell are connected.
 void findParts(WholeMesh& mesh) {
-  std::vector<PetscInt> parent(mesh.points.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](PetscInt node) {
-    while (parent[node] != node) {
-      auto& up = parent[node];
-      up = parent[up];
-      node = up;
-    }
-    return node;
-  };
+  DisjointSets<PetscInt> parts(mesh.points.size());
   for (auto cell : references(mesh))
-    for (PetscInt node : cell.nodes().subspan(1)) {
-      const PetscInt a = root(cell.nodes()[0]), b = root(node);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  for (const auto& reference : mesh.references) parent[reference.rotation] = reference.displacement;
+    for (PetscInt node : cell.nodes().subspan(1)) parts.join(cell.nodes()[0], node);
+  for (const auto& reference : mesh.references)
+    parts.join(reference.displacement, reference.rotation);
   std::map<PetscInt, int> number;
   mesh.part.resize(mesh.points.size());
   for (PetscInt node = 0; node < mesh.nodeCount(); ++node)
-    mesh.part[node] = number.emplace(root(node), number.size()).first->second;
+    mesh.part[node] = number.emplace(parts.smallest(node), number.size()).first->second;
   std::vector<std::set<std::string>> names(number.size());
   for (auto cell : references(mesh))
     names[mesh.part[cell.nodes()[0]]].insert(mesh.bodies[cell.label()]);

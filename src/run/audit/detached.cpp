@@ -1,40 +1,22 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "run/audit/detached.hpp"
 
-#include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "base/system/concatenation.hpp"
+#include "base/system/disjoint_sets.hpp"
 #include "base/system/text.hpp"
 
 namespace squeal::audit {
 namespace {
 
-/// The connected parts of the mesh, joined by the conditions between them.
-class Pieces {
- public:
-  explicit Pieces(int parts) : parent_(parts) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int of(int part) const {
-    while (parent_[part] != part) part = parent_[part];
-    return part;
-  }
-  void join(int one, int other) {
-    const int a = of(one), b = of(other);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 struct Joint {
   int one, other;  // parts
 };
 
-/// Collective. Returns the pieces that ties, couplings and bolts join.
-Pieces piecesOf(const Subject& model) {
+/// Collective. Returns the sets of connected parts that ties, couplings and bolts join.
+DisjointSets<int> piecesOf(const Subject& model) {
   const auto& mesh = model.mesh;
   std::set<std::pair<int, int>> own;
   const auto add = [&](PetscInt node, int part) { own.insert({mesh.nodePart[node], part}); };
@@ -44,7 +26,7 @@ Pieces piecesOf(const Subject& model) {
     for (const auto& master : coupled.masters) add(coupled.node, master.part);
   std::vector<Joint> joints;
   for (const auto& [one, other] : own) joints.push_back({one, other});
-  Pieces pieces(mesh.parts);
+  DisjointSets<int> pieces(mesh.parts);
   for (const auto& [one, other] : concatenated(mesh.comm, joints)) pieces.join(one, other);
   return pieces;
 }
@@ -71,7 +53,7 @@ std::vector<std::set<int>> partsOfGroups(const mesh::Mesh& mesh) {
 Findings detachedFindings(const Subject& model) {
   const auto& mesh = model.mesh;
   if (!mesh.hasSections()) return {};
-  const Pieces pieces = piecesOf(model);
+  DisjointSets<int> pieces = piecesOf(model);
   const auto parts = partsOfGroups(mesh);
   Findings findings;
   for (int body = 0; body < std::ssize(mesh.bodies); ++body) {
@@ -80,7 +62,7 @@ Findings detachedFindings(const Subject& model) {
       const auto& [name, owner, isSection] = mesh.materialGroups[group];
       if (owner != body || !isSection) continue;
       std::set<int> found;
-      for (const int part : parts[group]) found.insert(pieces.of(part));
+      for (const int part : parts[group]) found.insert(pieces.smallest(part));
       for (const int piece : found) sections[piece].push_back("'" + name + "'");
     }
     if (sections.size() < 2) continue;
