@@ -16,8 +16,9 @@ _squeal() {
     -checkpoint | -resume | -quiet | -dry_run | -audit | -elasticity_prestress | \
     -bolt_under_pressure | -load_centrifugal | -motion_convective | -steady_full \
     | -steady_uniqueness | -modes_sturm | -flutter_direct_confirm | \
-    -flutter_sensitivities | -flutter_track | -flutter_critical | \
-    -flutter_friction_damping | -regime_cycle | -report_fields)
+    -flutter_shapes_stable | -flutter_sensitivities | -flutter_track | \
+    -flutter_critical | -flutter_friction_damping | -regime_cycle | \
+    -report_fields)
       _squeal_words "on off"
       return
       ;;
@@ -78,9 +79,9 @@ _squeal() {
     -modes_tolerance -modes_sturm -flutter_direct_count -flutter_direct_band
     -flutter_direct_limit -flutter_direct_confirm -flutter_method
     -flutter_modal_damping -flutter_band -flutter_band_damping -flutter_accuracy
-    -flutter_unstable_tolerance -flutter_shapes -flutter_shapes_below
-    -flutter_basis -flutter_tolerance -flutter_rounds -flutter_growth
-    -flutter_sensitivities -flutter_track -flutter_critical
+    -flutter_unstable_tolerance -flutter_shapes -flutter_shapes_stable
+    -flutter_shapes_below -flutter_basis -flutter_tolerance -flutter_rounds
+    -flutter_growth -flutter_sensitivities -flutter_track -flutter_critical
     -flutter_critical_tolerance -flutter_track_halvings -flutter_friction
     -flutter_speed -flutter_pressure -flutter_damping -flutter_friction_damping
     -flutter_released -regime_friction -regime_time -regime_step

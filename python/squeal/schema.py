@@ -125,6 +125,7 @@ TABLES = {
             flag("certified", read=False),
             word("verdict", *VERDICTS),
             flag("unstable"),
+            word("name", empty=True),
         ),
         counted=("friction", "speed", "pressure", "damping", "mode"),
     ),
@@ -181,6 +182,46 @@ TABLES = {
             number("friction_work_1_per_s", "1/s"),
         )
     ),
+    "components": Table(
+        (
+            *POINT,
+            *MODE,
+            *numbers("frequency_hz"),
+            word("kind"),
+            word("component"),
+            *numbers("strain_share kinetic_share", open=True),
+            word("motion", empty=True),
+            number("motion_share", least=0, empty=True),
+            *numbers(
+                "damping_1_per_s follower_1_per_s friction_damping_1_per_s law_slope_1_per_s"
+                " convective_1_per_s gyroscopic_1_per_s"
+            ),
+        )
+    ),
+    "mode_components": Table(
+        (
+            whole("active_set", 1),
+            whole("mode", 1),
+            *numbers("frequency_hz", **SIZE),
+            word("kind"),
+            word("component"),
+            *numbers("strain_share kinetic_share", open=True),
+            word("motion", empty=True),
+            number("motion_share", least=0, empty=True),
+        )
+    ),
+    "participation": Table(
+        (
+            *POINT,
+            *MODE,
+            *numbers("frequency_hz"),
+            whole("free_mode"),
+            *numbers("free_frequency_hz", empty=True, **SIZE),
+            *numbers("energy_share mac", open=True),
+            *numbers("amplitude phase_deg", empty=True),
+        ),
+        together=(("free_frequency_hz", "amplitude", "phase_deg"),),
+    ),
     "sensitivities": Table(
         (
             *POINT,
@@ -200,6 +241,7 @@ TABLES = {
             whole("mode", 1),
             *numbers("angular_frequency_rad_per_s frequency_hz", **SIZE),
             number("relative_residual", least=0, open=True, read=False),
+            word("name", empty=True),
         ),
         counted=("mode",),
     ),

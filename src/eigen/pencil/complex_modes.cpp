@@ -123,13 +123,29 @@ void setVerdicts(ComplexModes& point, Symmetry symmetry, const Criteria& criteri
 std::vector<std::size_t> shapesToStore(const ComplexModes& point, const Criteria& criteria) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
-    if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < criteria.shapesBelow)
+    if ((point.eigenvalues[i].unstable || criteria.stableShapes) &&
+        point.eigenvalues[i].s.imag() < criteria.shapesBelow)
       order.push_back(i);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real();
   });
   order.resize(std::min<std::size_t>(order.size(), criteria.shapes));
   return order;
+}
+
+std::string modeName(const std::vector<Component>& components) {
+  std::vector<const Component*> bodies;
+  for (const auto& one : components)
+    if (one.kind == "body" && one.kinetic >= 0.15) bodies.push_back(&one);
+  std::ranges::stable_sort(bodies, [](auto* a, auto* b) { return a->kinetic > b->kinetic; });
+  if (bodies.size() > 3) bodies.resize(3);
+  if (std::ranges::all_of(bodies, [](auto* body) { return body->motion.empty(); })) return {};
+  std::string name;
+  for (const auto* body : bodies) {
+    name += (name.empty() ? "" : " + ") + body->name;
+    if (!body->motion.empty()) name += " " + body->motion;
+  }
+  return name;
 }
 
 void storeShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,

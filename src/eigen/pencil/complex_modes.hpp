@@ -55,6 +55,43 @@ struct Eigenvalue {
   double errorEstimate() const { return mayBeZero() ? 1 : error / std::abs(s); }
 };
 
+/// Contributions to the growth rate of a mode by cause, 1/s. Those of all components of the model
+/// add up to Re s.
+struct GrowthParts {
+  double damping = 0;     ///< of materials, dashpots and free modes; it never feeds the mode
+  double follower = 0;    ///< friction follows the change of the normal force
+  double turning = 0;     ///< friction turns with the relative velocity (friction damping)
+  double slope = 0;       ///< friction changes with the slip speed by the friction law
+  double convective = 0;  ///< the strained disc carries the relative velocity with it
+  double gyroscopic = 0;  ///< zero up to round-off, since G is skew
+  double sum() const { return damping + follower + turning + slope + convective + gyroscopic; }
+};
+
+/// The share of one component of the model in a mode.
+struct Component {
+  std::string
+      kind;  ///< body, spring, bushing, mass, ground, interface, and terms of the whole model
+  std::string name;
+  double strain = 0;        ///< share of the strain energy; all shares add up to 1
+  double kinetic = 0;       ///< share of the kinetic energy; all shares add up to 1
+  std::string motion = {};  ///< what a body does, such as "(0,4) out of plane"; empty if unclear
+  double motionShare = 0;   ///< share of the kinetic energy of the body that this explains
+  GrowthParts growth = {};
+};
+
+/// The part of a free mode in a complex mode [M.88].
+struct Participation {
+  std::size_t mode;   ///< index of the free mode
+  Complex amplitude;  ///< mass-weighted, relative to the norm of the complex mode
+  double energy = 0;  ///< share of the energy of the complex mode
+  double mac = 0;     ///< mass-weighted modal assurance criterion
+};
+
+/// Returns the name of a mode from the motions of the bodies that have at least 0.15 of its kinetic
+/// energy, at most three, largest first: "disc (0,4) out of plane + pad rigid about x". A body
+/// whose motion is unclear is named without one; empty if that is so for all.
+std::string modeName(const std::vector<Component>& components);
+
 /// A complex mode d = real + i imaginary in nodal displacements, N entries. Its scaling makes the
 /// largest real or imaginary part of an entry 1.
 struct Shape {
@@ -63,6 +100,8 @@ struct Shape {
   linalg::ComplexVector unknowns;    ///< the same d in the unknowns x
   std::vector<double> frictionWork;  ///< [owned contact node] contribution of friction there to the
                                      ///< growth rate, 1/s [M.52]; empty without contact
+  std::vector<Component> components;  ///< the same on all ranks; empty for matrices from files
+  std::vector<Participation> participations;  ///< [free mode]; not in checkpoints
 };
 
 /// The derivative of an eigenvalue with respect to one parameter θ.
@@ -89,7 +128,7 @@ struct Sensitivity {
 struct ComplexModes {
   sweep::Parameters at;
   std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
-  std::vector<Shape> shapes;               ///< the fastest growing modes: storeShapes()
+  std::vector<Shape> shapes;               ///< those of shapesToStore(): the fastest growing
   std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless requested
   /// Top of the band, rad/s: eigenvalues with |s| up to this value are listed and corrected. 0:
   /// none are corrected (direct method); infinite: the basis spans the whole space.
@@ -125,8 +164,8 @@ struct ComplexModes {
 /// Sets `verdict` and `unstable` of each eigenvalue of the point by [M.24].
 void setVerdicts(ComplexModes& point, Symmetry symmetry, const Criteria& criteria);
 
-/// Returns the indices of the unstable eigenvalues whose shapes are stored, in order of descending
-/// growth rate: at most `shapes`, all below `shapesBelow`.
+/// Returns the indices of the eigenvalues whose shapes are stored, in order of descending growth
+/// rate: at most `shapes`, all below `shapesBelow`, and only unstable ones unless `stableShapes`.
 std::vector<std::size_t> shapesToStore(const ComplexModes& point, const Criteria& criteria);
 /// Collective. Appends the shapes of the eigenvalues with these indices to the point. Takes
 /// `modes`, their vectors in the unknowns x, of any length; `trial` is T.

@@ -8,6 +8,7 @@ namespace squeal::pencil {
 /// The streams find both by argument-dependent lookup.
 void fields(Stream& stream, Derivative& derivative);
 void fields(Stream& stream, Sensitivity& found);
+void fields(Stream& stream, Component& component);
 
 // These list all members: a new one does not compile until it is added here.
 
@@ -21,6 +22,11 @@ void fields(Stream& stream, Sensitivity& found) {
   stream(condition, separation, leftBackwardError, derivatives);
 }
 
+void fields(Stream& stream, Component& component) {
+  auto& [kind, name, strain, kinetic, motion, motionShare, growth] = component;
+  stream(kind, name, strain, kinetic, motion, motionShare, growth);
+}
+
 void serialise(checkpoint::Archive& archive, ComplexModes& point) {
   auto& [at, eigenvalues, shapes, sensitivities, bandTop, freeModesInBand, damped, accuracy,
          tolerance, directBandTop, coveredTo] = point;
@@ -29,12 +35,15 @@ void serialise(checkpoint::Archive& archive, ComplexModes& point) {
   std::size_t count = shapes.size();
   archive.common(count);
   shapes.resize(count);
-  for (auto& [index, real, imaginary, unknowns, frictionWork] : shapes) {
+  for (auto& [index, real, imaginary, unknowns, frictionWork, components, participations] :
+       shapes) {
     archive.common(index);
     archive.vector(real);
     archive.vector(imaginary);
     linalg::serialise(archive, unknowns);
     archive.own(frictionWork);
+    archive.common(components);
+    participations.clear();  // from the free modes, once all points are solved
   }
 }
 

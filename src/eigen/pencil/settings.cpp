@@ -35,6 +35,10 @@ const RealOption toleranceOption(
 const IntegerOption shapesOption(
     "flutter", "flutter_shapes", 3, 0, 100'000,
     "largest number of complex modes stored per point, in order of descending growth rate");
+const FlagOption stableShapesOption(
+    "flutter", "flutter_shapes_stable", false,
+    "count stable complex modes among those that are stored, so that -flutter_shapes can take in "
+    "all modes of the band");
 const RealOption shapesBelowOption("flutter", "flutter_shapes_below", 20000, "Hz", positive,
                                    "upper frequency limit of stored complex modes (audible range)");
 
@@ -50,6 +54,7 @@ Settings Settings::given() {
   settings.criteria = {.accuracy = accuracyOption.get(),
                        .unstable = toleranceOption.get(),
                        .shapes = shapesOption.get(),
+                       .stableShapes = stableShapesOption.get(),
                        .shapesBelow = 2 * M_PI * shapesBelowOption.get()};
   settings.modalDamping = modalOption.get();
   if (settings.method == Method::reduced)

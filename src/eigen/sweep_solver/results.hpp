@@ -20,6 +20,9 @@ struct ModalSegment {
   /// The first Request::reportedModes modes in nodal displacements, N entries each, with a largest
   /// entry of magnitude 1.
   std::vector<OwnedVec> shapes;
+  /// The shares of the components in the free modes of the band, [mode]; empty for matrices from
+  /// files.
+  std::vector<std::vector<pencil::Component>> components;
   std::vector<pencil::ComplexModes> points;  ///< for each damping factor all steady points
   /// One entry for each speed, pressure and damping whose first point is one of `points`, if
   /// eigenvalues are tracked.

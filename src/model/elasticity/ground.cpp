@@ -80,7 +80,14 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, const Blocks& blocks) {
 
 std::vector<Matrix3> groundSprings(const mesh::Mesh& mesh, const Settings& settings,
                                    const std::string& group) {
-  return shares(mesh, settings, group, settings.ground.at(group).stiffness);
+  const auto& given = settings.ground.at(group);
+  return given.springs ? shares(mesh, settings, group, given.stiffness) : std::vector<Matrix3>();
+}
+
+std::vector<Matrix3> groundDashpots(const mesh::Mesh& mesh, const Settings& settings,
+                                    const std::string& group) {
+  const auto& given = settings.ground.at(group);
+  return given.dashpots ? shares(mesh, settings, group, given.damping) : std::vector<Matrix3>();
 }
 
 Ground groundOf(const mesh::Mesh& mesh, const Settings& settings) {
@@ -89,7 +96,7 @@ Ground groundOf(const mesh::Mesh& mesh, const Settings& settings) {
   for (const auto& [group, given] : settings.ground) {
     if (given.springs) add(mesh, group, groundSprings(mesh, settings, group), springs);
     if (!given.dashpots) continue;
-    add(mesh, group, shares(mesh, settings, group, given.damping), dashpots);
+    add(mesh, group, groundDashpots(mesh, settings, group), dashpots);
     if (!given.frame.empty()) ground.turnedDashpots = true;
   }
   ground.springs = toMatrix(mesh, springs);

@@ -23,9 +23,12 @@ struct Ground {
 /// node on the axis of a cylindrical frame.
 Ground groundOf(const mesh::Mesh& mesh, const Settings& settings);
 
-/// Collective. Returns the stiffness of the springs of a group at each of its nodes, in the order
-/// of Mesh::nodeGroups, N/m. Throws Error as groundOf() does.
+/// Collective. Return the stiffness of the springs of a group, N/m, and the damping of its
+/// dashpots, N·s/m, at each of its nodes, in the order of Mesh::nodeGroups; empty if the group has
+/// none. Throw Error as groundOf() does.
 std::vector<mesh::Matrix3> groundSprings(const mesh::Mesh& mesh, const Settings& settings,
                                          const std::string& group);
+std::vector<mesh::Matrix3> groundDashpots(const mesh::Mesh& mesh, const Settings& settings,
+                                          const std::string& group);
 
 }  // namespace squeal::elasticity

@@ -55,7 +55,13 @@ FrictionState frictionState(const contact::Contact& contact, const sweep::Parame
                             std::vector<contact::Slip> slip,
                             const std::vector<double>& responseForce) {
   OwnedMat response = contact::distributedResponse(contact, slip, responseForce, at.friction);
-  return {at, std::move(slip), std::move(response)};
+  OwnedMat turning = response.share();
+  if (!contact.law.constant()) {
+    auto turned = slip;
+    for (auto& one : turned) one.slope = 0;
+    turning = contact::distributedResponse(contact, turned, responseForce, at.friction);
+  }
+  return {at, std::move(slip), std::move(response), std::move(turning)};
 }
 
 FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution,
@@ -87,16 +93,34 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
   return forms;
 }
 
-std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
-                                 const std::vector<unsigned char>& closed,
-                                 const FrictionState& friction, const Motion& mode) {
-  const MotionForces forces = motionForces(bodies, mode);
-  const ContactMotion motion = contactMotion(contact, closed, mode.u, forces.forces);
-  std::vector<double> work;
-  for (const auto& form :
-       frictionForms(contact, friction, mode.s, atPadNodes(contact, motion.jump), motion))
-    work.push_back(-(std::conj(mode.s) * (form.pressing + form.turning)).real() / forces.energy);
-  return work;
+std::vector<pencil::GrowthParts> frictionGrowth(const contact::Contact& contact,
+                                                const std::vector<unsigned char>& closed,
+                                                const FrictionState& friction, const Motion& mode,
+                                                const MotionForces& force) {
+  const ContactMotion motion = contactMotion(contact, closed, mode.u, force.forces);
+  const auto jumps = atPadNodes(contact, motion.jump);
+  linalg::ComplexVector rate = linalg::ComplexVector::like(mode.u.real);
+  add(rate, mode.s, motion.jump);
+  const auto turned = atPadNodes(contact, product(friction.turning, rate)),
+             answered = atPadNodes(contact, product(friction.response, rate));
+  std::vector<pencil::GrowthParts> growth;
+  std::size_t k = 0;
+  for (const auto& form : frictionForms(contact, friction, mode.s, jumps, motion)) {
+    const auto part = [&](Complex value) {
+      return -(std::conj(mode.s) * value).real() / force.energy;
+    };
+    Complex turning = 0, jump = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      turning += std::conj(jumps[k][d]) * turned[k][d];
+      jump += std::conj(jumps[k][d]) * answered[k][d];
+    }
+    growth.push_back({.follower = part(form.pressing),
+                      .turning = part(turning),
+                      .slope = part(jump - turning),
+                      .convective = part(form.turning - jump)});
+    ++k;
+  }
+  return growth;
 }
 
 }  // namespace squeal::terms

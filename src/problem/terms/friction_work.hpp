@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algebra/linalg/complexvector.hpp"
+#include "eigen/pencil/complex_modes.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "model/contact/contact.hpp"
 #include "model/elasticity/elasticity.hpp"
@@ -58,6 +59,7 @@ struct FrictionState {
   sweep::Parameters at;  ///< its friction applies to the part with the change of the normal force
   std::vector<contact::Slip> slip;  ///< [owned contact node]
   OwnedMat response;                ///< B at this state, N×N
+  OwnedMat turning;                 ///< the part of B without the slope of the friction law, N×N
 };
 /// Collective. Returns the data of friction, with B of the normal forces `responseForce`, from
 /// responseForces().
@@ -81,9 +83,9 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
                                         const ContactMotion& motion);
 
 /// Collective. Returns the contribution of friction at each contact node to the growth rate of the
-/// mode, 1/s, [owned contact node]; closed[k] is set for the closed gaps. If it is positive,
-/// friction destabilises the mode. At open nodes it is zero, except on tri6 and quad8 faces that
-/// are partly closed.
+/// mode by cause, [owned contact node]; closed[k] is set for the closed gaps. At open nodes it is
+/// zero, except on tri6 and quad8 faces that are partly closed. `force` holds the forces and the
+/// energy of the mode.
 ///
 /// The mode u = T x satisfies Tᵀ r* = (J T)ᵀ R_T*. The real part of its product with (s x)ᴴ is,
 /// with σ = Re s and E of MotionForces [M.51],
@@ -92,8 +94,9 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
 ///   Re((s [u]_k)ᴴ R_T*,k) / E.
 /// All values add up to σ + |s|² c uᴴ C u / E. The mean energy is E/4, and the work over a cycle is
 /// (π / Im s) E times the value.
-std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
-                                 const std::vector<unsigned char>& closed,
-                                 const FrictionState& friction, const Motion& mode);
+std::vector<pencil::GrowthParts> frictionGrowth(const contact::Contact& contact,
+                                                const std::vector<unsigned char>& closed,
+                                                const FrictionState& friction, const Motion& mode,
+                                                const MotionForces& force);
 
 }  // namespace squeal::terms

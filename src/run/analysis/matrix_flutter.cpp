@@ -13,6 +13,7 @@
 #include "problem/matrices/associated.hpp"
 #include "problem/matrices/write.hpp"
 #include "run/analysis/checks.hpp"
+#include "run/analysis/mode_components.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -95,6 +96,7 @@ Flutter matrixFlutter(MPI_Comm comm, const Settings& settings, const sweep::Swee
   MatrixSweep problem(symmetric.system, pencil, points, settings.solver.sensitivity.wanted);
   auto solved = sweep_solver::solveSweep(problem, request, checkpoint, "matrices");
   found.segments = std::move(solved.segments);
+  for (auto& segment : found.segments) addParticipations(symmetric.system, segment);
   for (const auto& failure : solved.failures) found.addFailure(comm, "flutter: " + failure);
   found.complete = solved.complete;
   return found;

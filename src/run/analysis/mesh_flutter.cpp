@@ -89,6 +89,7 @@ Flutter solveGroup(const SlidingBrake& brake, MeshSweep& problem,
   auto solved =
       sweep_solver::solveSweep(problem, request, checkpoint, "sets_" + std::to_string(before + 1));
   Flutter found{.segments = std::move(solved.segments), .complete = solved.complete};
+  for (auto& segment : found.segments) problem.addComponents(segment);
   for (auto& segment : found.segments)
     for (auto& tracked : segment.trackedLines)
       for (int& activeSet : tracked.activeSet)
@@ -133,13 +134,14 @@ Flutter meshFlutter(const SlidingBrake& brake, const sweep_solver::Request& requ
                     checkpoint::Checkpoint& checkpoint, CurrentSystem& current) {
   const auto& [mesh, bodies, contact] = brake.model;
   terms::Influences influences(*mesh, bodies, contact, brake.mesh().terms);
+  const energies::Components components(*mesh, bodies, contact);
   Flutter all;
   std::vector<std::string> lost;  // groups without results
   std::string firstReason;
   for (const PointGroup& group : groupsOf(brake)) {
     const auto solve = [&] {
       stopIfRequested(brake.comm());
-      MeshSweep problem(brake, group, current, influences);
+      MeshSweep problem(brake, group, current, influences, components);
       exportPencil(brake, problem);
       Flutter found = solveGroup(brake, problem, request, checkpoint, std::ssize(all.segments));
       if (found.complete) followAfterFlutter(brake, problem, current, found);

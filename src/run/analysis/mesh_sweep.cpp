@@ -7,8 +7,10 @@
 #include "base/system/concatenation.hpp"
 #include "base/system/text.hpp"
 #include "model/elasticity/elasticity.hpp"
+#include "problem/energies/shares.hpp"
 #include "problem/terms/friction_work.hpp"
 #include "problem/terms/terms.hpp"
+#include "run/analysis/mode_components.hpp"
 #include "steady/steady/prestress.hpp"
 
 namespace squeal::analysis {
@@ -68,8 +70,12 @@ std::vector<PointGroup> groupsOf(const SlidingBrake& brake) {
 }
 
 MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, CurrentSystem& current,
-                     terms::Influences& influences)
-    : brake_(brake), group_(group), current_(current), influences_(influences) {
+                     terms::Influences& influences, const energies::Components& components)
+    : brake_(brake),
+      group_(group),
+      current_(current),
+      influences_(influences),
+      components_(components) {
   const auto& [mesh, bodies, contact] = brake.model;
   for (std::size_t i = group.first; i < group.last; ++i)
     steadyPoints.push_back(brake.states.solutions[i].at);
@@ -238,18 +244,37 @@ std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Paramet
   return ifShared(problem_->solve(steady, current_.of(anywhere_)));
 }
 
+void MeshSweep::addComponents(sweep_solver::ModalSegment& segment) const {
+  analysis::addComponents(components_, trial, prestress_, segment);
+  addParticipations(*all_, segment);
+}
+
+/// Collective. Adds to a shape of a point its friction work and the shares of the components.
+void MeshSweep::addEnergies(const Energies& at, const pencil::ComplexModes& point,
+                            pencil::Shape& shape) const {
+  const auto& [mesh, bodies, contact] = brake_.model;
+  const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
+  const terms::Motion motion{point.at, point.eigenvalues[shape.index].s, u, at.prestress};
+  const auto force = terms::motionForces(bodies, motion);
+  const auto friction =
+      terms::frictionGrowth(contact, at.solution.closed, at.friction, motion, force);
+  shape.frictionWork.clear();
+  for (const auto& growth : friction) shape.frictionWork.push_back(growth.sum());
+  double modal = 0;
+  if (brake_.settings.pencil.isModallyDamped())
+    modal = energies::modalGrowth(at.pencil, shape.unknowns, bodies, motion, force.energy);
+  shape.components =
+      energies::sharesOfComplexMode(components_, bodies, contact, {motion, force, friction, modal});
+}
+
 void MeshSweep::examine(std::size_t i, const pencil::Pencil& ofPoint,
                         const sensitivity::StartSpace& start, pencil::ComplexModes& point) {
   if (point.shapes.empty()) return;
   const steady::Solution& solution = steadyAt(i);
   const OwnedMat prestress = steady::prestressOf(*brake_.model.mesh, brake_.model.bodies, solution);
   const auto friction = terms::frictionState(brake_.model.contact, solution, brake_.mesh().terms);
-  for (auto& shape : point.shapes) {
-    const auto u = linalg::ComplexVector::copied(shape.real, shape.imaginary);
-    shape.frictionWork =
-        terms::frictionWork(brake_.model.contact, brake_.model.bodies, solution.closed, friction,
-                            {point.at, point.eigenvalues[shape.index].s, u, prestress});
-  }
+  for (auto& shape : point.shapes)
+    addEnergies({solution, friction, prestress, ofPoint}, point, shape);
   if (!brake_.settings.solver.sensitivity.wanted) return;
   Stage stage(brake_.model.mesh->comm, "flutter");
   influences_.derive(point, ofPoint, {point.at, *interior_, solution, prestress}, start);

@@ -8,6 +8,7 @@
 
 #include "eigen/sweep_solver/sweep_solver.hpp"
 #include "model/contact/coupled.hpp"
+#include "problem/energies/components.hpp"
 #include "problem/terms/influence.hpp"
 #include "run/analysis/sliding_brake.hpp"
 
@@ -28,13 +29,16 @@ class MeshSweep : public sweep_solver::SweepProblem {
  public:
   /// Collective. Borrows all arguments during the life of the object.
   MeshSweep(const SlidingBrake& brake, const PointGroup& group, CurrentSystem& current,
-            terms::Influences& influences);
+            terms::Influences& influences, const energies::Components& components);
   const PointGroup& group() const { return group_; }
   std::vector<pencil::Term> termsOf(std::size_t i) const override;
   std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& at,
                                                    std::size_t like) override;
   void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override;
+  /// Collective. Adds to the modes of a segment the shares of the components, and to its complex
+  /// modes the parts of the free modes in them.
+  void addComponents(sweep_solver::ModalSegment& segment) const;
 
  private:
   /// An active set of the points [first, last) of the group, or one between points.
@@ -45,6 +49,15 @@ class MeshSweep : public sweep_solver::SweepProblem {
   const steady::Solution& steadyAt(std::size_t i) const {
     return brake_.states.solutions[group_.first + i];
   }
+  /// The data of a point that its modes share, all borrowed.
+  struct Energies {
+    const steady::Solution& solution;
+    const terms::FrictionState& friction;
+    Mat prestress;
+    const pencil::Pencil& pencil;
+  };
+  void addEnergies(const Energies& at, const pencil::ComplexModes& point,
+                   pencil::Shape& shape) const;
   void findSets();
   std::vector<sweep_solver::PointRange> pointRanges() const;
   std::optional<double> frictionOfPointBefore() const;
@@ -55,6 +68,7 @@ class MeshSweep : public sweep_solver::SweepProblem {
   PointGroup group_;
   CurrentSystem& current_;
   terms::Influences& influences_;
+  const energies::Components& components_;
   std::vector<SetOnPath> sets_;  // [range]
   contact::ActiveSet anywhere_;  // of all sets
   OwnedMat prestress_;           // of the first point, which K0 contains

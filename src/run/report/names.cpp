@@ -11,15 +11,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::set<std::string> fixedNames{
-    "eigenvalues.csv",   "branches.csv",      "critical.csv",
-    "contact_path.csv",  "onset.csv",         "regime.csv",
-    "regime_nodes.csv",  "regime_cycles.csv", "regime_spectrum.csv",
-    "regime_points.csv", "periodic.csv",      "periodic_branch.csv",
-    "floquet.csv",       "modes.csv",         "sensitivities.csv",
-    "friction_work.csv", "stability_map.csv", "summary.json",
-    "options.txt",       "results.h5",        "vtk",
-    "audit.md",          "reactions.csv",     output::Manifest::name};
+const std::set<std::string> fixedNames{"eigenvalues.csv",
+                                       "branches.csv",
+                                       "critical.csv",
+                                       "contact_path.csv",
+                                       "onset.csv",
+                                       "regime.csv",
+                                       "regime_nodes.csv",
+                                       "regime_cycles.csv",
+                                       "regime_spectrum.csv",
+                                       "regime_points.csv",
+                                       "periodic.csv",
+                                       "periodic_branch.csv",
+                                       "floquet.csv",
+                                       "modes.csv",
+                                       "sensitivities.csv",
+                                       "friction_work.csv",
+                                       "stability_map.csv",
+                                       "summary.json",
+                                       "options.txt",
+                                       "results.h5",
+                                       "vtk",
+                                       "audit.md",
+                                       "reactions.csv",
+                                       "components.csv",
+                                       "mode_components.csv",
+                                       "participation.csv",
+                                       output::Manifest::name};
 
 /// Returns the text between `begin` and `end`; none if the text does not begin and end with them.
 std::optional<std::string> between(const std::string& text, const std::string& begin,

@@ -11,13 +11,6 @@
 namespace squeal::report {
 namespace {
 
-/// Returns the beginning of a row: parameters, number, growth rate and frequency of the mode.
-std::string modeHead(const pencil::ComplexModes& point, const pencil::Shape& shape) {
-  const auto s = point.eigenvalues[shape.index].s;
-  return sweep::parameterValues(point.at) +
-         formatted(",%zu,%.15e,%.15e,", shape.index + 1, s.real(), s.imag() / (2 * M_PI));
-}
-
 /// Collective. Returns the sums over the nodes of each interface, [interface].
 std::vector<double> byInterface(const analysis::Analysis& analysis,
                                 const std::vector<double>& nodes) {
@@ -29,6 +22,12 @@ std::vector<double> byInterface(const analysis::Analysis& analysis,
 }
 
 }  // namespace
+
+std::string modeHead(const pencil::ComplexModes& point, const pencil::Shape& shape) {
+  const auto s = point.eigenvalues[shape.index].s;
+  return sweep::parameterValues(point.at) +
+         formatted(",%zu,%.15e,%.15e,", shape.index + 1, s.real(), s.imag() / (2 * M_PI));
+}
 
 std::string sensitivityTable(const analysis::Analysis& analysis) {
   std::string table =

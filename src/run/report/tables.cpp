@@ -16,6 +16,7 @@
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/report/branches.hpp"
+#include "run/report/components.hpp"
 #include "run/report/names.hpp"
 #include "run/report/reactions.hpp"
 #include "run/report/regimes.hpp"
@@ -26,20 +27,27 @@
 namespace squeal::report {
 namespace {
 
+/// Returns a cell with the name of a mode, which may contain commas; empty without a name.
+std::string inQuotes(const std::string& name) { return name.empty() ? "" : "\"" + name + "\""; }
+
 std::string eigenvalueTable(const analysis::Analysis& analysis) {
   std::string table = sweep::parameterColumns() +
                       ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_"
-                      "ratio,backward_error,error_estimate,certified,verdict,unstable\n";
+                      "ratio,backward_error,error_estimate,certified,verdict,unstable,name\n";
   for (const auto& segment : analysis.flutter.segments)
-    for (const auto& point : segment.points)
+    for (const auto& point : segment.points) {
+      std::vector<std::string> names(point.eigenvalues.size());
+      for (const auto& shape : point.shapes) names[shape.index] = modeName(shape.components);
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
         table +=
             sweep::parameterValues(point.at) + "," + std::to_string(i + 1) +
-            formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d,%s,%d\n", e.s.real(), e.s.imag(),
+            formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d,%s,%d,", e.s.real(), e.s.imag(),
                       e.s.imag() / (2 * M_PI), e.dampingRatio(), e.backwardError, e.errorEstimate(),
-                      e.certified ? 1 : 0, text(e.verdict), e.unstable ? 1 : 0);
+                      e.certified ? 1 : 0, text(e.verdict), e.unstable ? 1 : 0) +
+            inQuotes(names[i]) + "\n";
       }
+    }
   return table;
 }
 
@@ -68,11 +76,14 @@ std::string stabilityMap(const analysis::Analysis& analysis) {
   return table;
 }
 
-std::string modeTable(const modes::Modes& modes) {
-  std::string table = "mode,angular_frequency_rad_per_s,frequency_hz,relative_residual\n";
+std::string modeTable(const sweep_solver::ModalSegment& segment) {
+  const modes::Modes& modes = segment.modes;
+  std::string table = "mode,angular_frequency_rad_per_s,frequency_hz,relative_residual,name\n";
   for (std::size_t i = 0; i < modes.angularFrequency.size(); ++i)
-    table += formatted("%zu,%.15e,%.15e,%.3e\n", i + 1, modes.angularFrequency[i],
-                       modes.angularFrequency[i] / (2 * M_PI), modes.relativeResidual[i]);
+    table += formatted("%zu,%.15e,%.15e,%.3e,", i + 1, modes.angularFrequency[i],
+                       modes.angularFrequency[i] / (2 * M_PI), modes.relativeResidual[i]) +
+             (i < segment.components.size() ? inQuotes(modeName(segment.components[i])) : "") +
+             "\n";
   return table;
 }
 
@@ -132,8 +143,11 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
   }
   if (analysis.model.mesh) {
     writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
+    writeText(comm, folder / "components.csv", componentTable(analysis));
+    writeText(comm, folder / "mode_components.csv", modeComponentTable(analysis));
     writeText(comm, folder / "reactions.csv", reactionTable(analysis));
   }
+  writeText(comm, folder / "participation.csv", participationTable(analysis));
   writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));
   if (std::any_of(analysis.flutter.segments.begin(), analysis.flutter.segments.end(),
                   [](const auto& segment) { return !segment.trackedLines.empty(); })) {
@@ -146,7 +160,7 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
     const std::string name =
         s == 0 ? "modes.csv"
                : "modes_" + pointName(analysis.flutter.segments[s].points.at(0).at) + ".csv";
-    writeText(comm, folder / name, modeTable(analysis.flutter.segments[s].modes));
+    writeText(comm, folder / name, modeTable(analysis.flutter.segments[s]));
   }
   writeRegimes(analysis, folder);
   if (analysis.steady.events > 0)

@@ -102,6 +102,13 @@ inline void expectBalance(const analysis::Analysis& analysis, const pencil::Comp
         sums[0], wanted, sums[1]);
     EXPECT_NEAR(sums[0], wanted, 1e-8 * std::abs(s));
     EXPECT_GT(sums[0], 0);
+    // All contributions to the growth rate add up to it [M.87], the shares to 1.
+    double growth = 0, strain = 0, kinetic = 0;
+    for (const auto& one : shape.components)
+      growth += one.growth.sum(), strain += one.strain, kinetic += one.kinetic;
+    EXPECT_NEAR(growth, s.real(), 1e-8 * std::abs(s));
+    EXPECT_NEAR(strain, 1, 1e-12);
+    EXPECT_NEAR(kinetic, 1, 1e-12);
   }
 }
 

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "problem/energies/body_motions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <list>
+
+#include "algebra/linalg/symmetric.hpp"
+#include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
+
+namespace squeal::energies {
+namespace {
+
+constexpr double surelyRigid = 0.9, clear = 0.6;  // shares of the kinetic energy
+
+/// Returns the motions along x, y, z and about them at a point, [motion].
+std::array<Point, 6> rigidMotions(const Point& fromCentre) {
+  std::array<Point, 6> motions{};
+  for (int d = 0; d < 3; ++d) {
+    motions[d] = mesh::axis(d);
+    motions[3 + d] = mesh::cross(mesh::axis(d), fromCentre);
+  }
+  return motions;
+}
+
+/// Collective. Returns the mass and the centre of a body.
+std::pair<double, Point> massOf(const mesh::Mesh& mesh, const LumpedBody& body) {
+  std::array<double, 4> sums{};
+  for (std::size_t k = 0; k < body.nodes.size(); ++k) {
+    const Point& x = mesh.coordinates[body.nodes[k]];
+    for (std::size_t d = 0; d < 3; ++d) sums[d] += body.mass[k] * x[d];
+    sums[3] += body.mass[k];
+  }
+  mpi::sumAlike(mesh.comm, sums);
+  return {sums[3], {sums[0] / sums[3], sums[1] / sums[3], sums[2] / sums[3]}};
+}
+
+/// Collective. Returns Σ m r rᵀ about the centre.
+linalg::DenseMatrix spread(const mesh::Mesh& mesh, const LumpedBody& body, const Point& centre) {
+  linalg::DenseMatrix sums(3, 3);
+  for (std::size_t k = 0; k < body.nodes.size(); ++k) {
+    const Point x = mesh::minus(mesh.coordinates[body.nodes[k]], centre);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) sums(i, j) += body.mass[k] * x[i] * x[j];
+  }
+  mpi::sumAlike(mesh.comm, {sums.data(), 9});
+  return sums;
+}
+
+/// Collective. Returns the axis of a body of revolution; none of another body.
+std::optional<Axis> axisOf(const mesh::Mesh& mesh, const LumpedBody& body, const Point& centre,
+                           const elasticity::Motion& motion) {
+  std::vector<Axis> candidates;
+  if (motion.speed != 0) {
+    candidates.push_back({motion.origin, motion.axis});
+  } else {
+    linalg::DenseMatrix vectors = spread(mesh, body, centre);
+    const auto values = linalg::symmetricEigen(vectors);
+    // The two axes across are equal, so the axis is the first or the last.
+    const bool last = values[1] - values[0] < values[2] - values[1];
+    for (const std::size_t k : {last ? 2ul : 0ul, last ? 0ul : 2ul})
+      candidates.push_back({centre, {vectors(0, k), vectors(1, k), vectors(2, k)}});
+  }
+  for (const auto& axis : candidates)
+    if (isRevolved(mesh, body, axis)) return axis;
+  return {};
+}
+
+}  // namespace
+
+BodyMotions::BodyMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                         const std::vector<std::vector<PetscInt>>& nodes)
+    : mesh_(mesh) {
+  if (mesh.dimension != 3) return;
+  OwnedVec diagonal;
+  check(MatCreateVecs(bodies.mass, diagonal.out(), nullptr));
+  check(MatGetDiagonal(bodies.mass, diagonal));
+  const ReadArray values(diagonal);
+  for (std::size_t body = 0; body < nodes.size(); ++body) {
+    LumpedBody lumped{nodes[body], {}};
+    for (const PetscInt node : nodes[body])
+      lumped.mass.push_back((values[3 * node] + values[3 * node + 1] + values[3 * node + 2]) / 3);
+    list_.push_back(bodyOf(lumped, bodies.motions[body]));
+  }
+}
+
+BodyMotions::Body BodyMotions::bodyOf(const LumpedBody& lumped,
+                                      const elasticity::Motion& motion) const {
+  Body body{.lumped = lumped};
+  body.centre = massOf(mesh_, lumped).second;
+  linalg::DenseMatrix gram(6, 6);
+  for (std::size_t k = 0; k < lumped.nodes.size(); ++k) {
+    const auto motions = rigidMotions(mesh::minus(mesh_.coordinates[lumped.nodes[k]], body.centre));
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j)
+        gram(i, j) += lumped.mass[k] * mesh::dot(motions[i], motions[j]);
+  }
+  mpi::sumAlike(mesh_.comm, {gram.data(), 36});
+  // Lengths of rotations are made those of displacements, so that small bodies keep them.
+  const double arm = std::sqrt((gram(3, 3) + gram(4, 4) + gram(5, 5)) / (3 * gram(0, 0)));
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j) gram(i, j) /= (i < 3 ? 1 : arm) * (j < 3 ? 1 : arm);
+  body.arm = arm;
+  body.rigid = WeightedFit(std::move(gram));
+  if (const auto axis = axisOf(mesh_, lumped, body.centre, motion))
+    body.revolution = std::make_unique<Revolution>(mesh_, lumped, *axis);
+  return body;
+}
+
+/// Collective. Returns the rigid motion in a motion, with its share.
+NamedMotion BodyMotions::rigidName(const Body& body,
+                                   const std::vector<const double*>& parts) const {
+  std::array<double, 6> shares{};
+  double total = 0;
+  for (const double* values : parts) {
+    std::array<double, 7> sums{};
+    for (std::size_t k = 0; k < body.lumped.nodes.size(); ++k) {
+      const PetscInt node = body.lumped.nodes[k];
+      const Point u{values[3 * node], values[3 * node + 1], values[3 * node + 2]};
+      const auto motions = rigidMotions(mesh::minus(mesh_.coordinates[node], body.centre));
+      for (std::size_t i = 0; i < 6; ++i)
+        sums[i] += body.lumped.mass[k] * mesh::dot(u, motions[i]) / (i < 3 ? 1 : body.arm);
+      sums[6] += body.lumped.mass[k] * mesh::dot(u, u);
+    }
+    mpi::sumAlike(mesh_.comm, sums);
+    const std::span<const double> b(sums.data(), 6);
+    const auto c = body.rigid.coefficients(b);
+    for (std::size_t i = 0; i < 6; ++i) shares[i] += c[i] * b[i];
+    total += sums[6];
+  }
+  if (!(total > 0)) return {};
+  double sum = 0;
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    sum += shares[i] / total;
+    if (shares[i] > shares[largest]) largest = i;
+  }
+  if (shares[largest] / total < 0.5 * sum) return {"rigid", sum};
+  return {std::string(largest < 3 ? "rigid along " : "rigid about ") + "xyz"[largest % 3], sum};
+}
+
+std::vector<NamedMotion> BodyMotions::names(const std::vector<Vec>& parts) const {
+  std::vector<NamedMotion> names(mesh_.bodies.size());
+  if (list_.empty()) return names;
+  std::list<ReadArray> arrays;
+  std::vector<const double*> values;
+  for (const Vec part : parts) values.push_back(arrays.emplace_back(part).data());
+  for (std::size_t body = 0; body < list_.size(); ++body) {
+    names[body] = rigidName(list_[body], values);
+    if (names[body].share >= surelyRigid) continue;
+    NamedMotion shape;
+    if (list_[body].revolution) shape = list_[body].revolution->name(values);
+    if (!shape.name.empty())
+      names[body] = shape;
+    else if (names[body].share < clear)
+      names[body] = {};
+  }
+  return names;
+}
+
+}  // namespace squeal::energies

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "problem/energies/components.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
+#include "model/elasticity/attached_parts.hpp"
+#include "model/elasticity/ground.hpp"
+
+namespace squeal::energies {
+namespace {
+
+using attachments::Form;
+
+constexpr int none = -1, several = -2;
+
+/// Collective. Returns X u; null if X is.
+OwnedVec product(Mat x, Vec u) {
+  OwnedVec y;
+  if (!x) return y;
+  check(VecDuplicate(u, y.out()));
+  check(MatMult(x, u, y));
+  return y;
+}
+
+/// Collective. Returns X u − Σ Y u for the matrices Y that are not null; null if X is.
+OwnedVec productWithout(Mat x, const std::vector<Mat>& others, Vec u) {
+  OwnedVec y = product(x, u);
+  if (!y) return y;
+  for (const Mat other : others)
+    if (const OwnedVec part = product(other, u); part) check(VecAXPY(y, -1, part));
+  return y;
+}
+
+/// Collective. Returns these rows of a matrix, with all columns; null if it is.
+OwnedMat rowsOf(Mat matrix, IS rows) {
+  OwnedMat part;
+  if (matrix) check(MatCreateSubMatrix(matrix, rows, nullptr, MAT_INITIAL_MATRIX, part.out()));
+  return part;
+}
+
+/// Collective. Adds factor · X to a sum, which is created if it is null.
+void addScaled(OwnedMat& sum, double factor, Mat x) {
+  if (factor == 0) return;
+  if (!sum) {
+    check(MatDuplicate(x, MAT_COPY_VALUES, sum.out()));
+    check(MatScale(sum, factor));
+  } else {
+    check(MatAXPY(sum, factor, x, DIFFERENT_NONZERO_PATTERN));
+  }
+}
+
+}  // namespace
+
+Components::Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                       const contact::Contact& contact)
+    : mesh_(mesh), bodies_(bodies), contact_(contact) {
+  const auto& settings = bodies.settings;
+  for (const auto& body : mesh.bodies) list_.push_back({.kind = "body", .name = body});
+  firstGround_ = list_.size();
+  for (const auto& [group, given] : settings.ground) {
+    list_.push_back({.kind = "ground", .name = group});
+    ground_.push_back({group, elasticity::groundSprings(mesh, settings, group),
+                       elasticity::groundDashpots(mesh, settings, group)});
+  }
+  firstForm_ = list_.size();
+  attached_ = bodies.links;
+  const auto masses = attachments::massesOf(mesh, settings.attachments);
+  attached_.insert(attached_.end(), masses.begin(), masses.end());
+  for (const auto& form : attached_) {
+    const auto same = [&](const auto& one) {
+      return one.kind == form.kind && one.name == form.name;
+    };
+    const auto known = std::find_if(list_.begin() + firstForm_, list_.end(), same);
+    ofForm_.push_back(known - list_.begin());
+    if (known == list_.end()) list_.push_back({.kind = form.kind, .name = form.name});
+  }
+  firstInterface_ = list_.size();
+  const auto& interfaces = contact.interfaces;
+  for (std::size_t i = 0; i < interfaces.names.size(); ++i)  // contact first, then ties
+    if (interfaces.options[i].role != contact::Role::tied)
+      list_.push_back({.kind = "interface", .name = interfaces.names[i]});
+  interfaces_ = list_.size() - firstInterface_;
+  groundDashpots_ = elasticity::groundOf(mesh, settings).dashpots;
+  linkDamping_ = elasticity::formMatrix(mesh, bodies.links, &Form::damping);
+  pointMass_ = elasticity::formMatrix(mesh, masses, &Form::mass);
+  findBodies();
+  if (mpi::any(mesh.comm, !sharedNodes_.empty())) keepSharedRows();
+  motions_.emplace(mesh, bodies, nodesOf_);
+}
+
+/// Collective. Finds the owned nodes of each body, whose cells may be on any rank.
+void Components::findBodies() {
+  const PetscInt count = mesh_.bodies.size();
+  OwnedVec cells;  // [owned node][body] ranks with cells of the body at the node
+  check(VecCreateMPI(mesh_.comm, count * mesh_.ownedNodes, PETSC_DETERMINE, cells.out()));
+  std::set<std::pair<PetscInt, int>> found;  // local node, body
+  for (const auto& block : mesh_.cells)
+    for (std::size_t e = 0; e < block.tag.size(); ++e)
+      for (const PetscInt node : block.nodesOf(e)) found.emplace(node, block.body[e]);
+  for (const auto& [node, body] : found)
+    check(VecSetValue(cells, count * mesh_.globalNode[node] + body, 1, ADD_VALUES));
+  check(VecAssemblyBegin(cells));
+  check(VecAssemblyEnd(cells));
+  const ReadArray values(cells);
+  nodesOf_.resize(count);
+  for (PetscInt node = 0; node < mesh_.ownedNodes; ++node) {
+    int bodies = 0;
+    bodyOf_.push_back(none);
+    for (PetscInt body = 0; body < count; ++body) {
+      if (values[count * node + body] == 0) continue;
+      nodesOf_[body].push_back(node);
+      bodyOf_.back() = ++bodies > 1 ? several : int(body);
+    }
+    if (bodies > 1) sharedNodes_.push_back(node);
+  }
+}
+
+void Components::keepSharedRows() {
+  std::vector<PetscInt> rows;
+  for (const PetscInt node : sharedNodes_)
+    for (int d = 0; d < mesh_.dimension; ++d)
+      rows.push_back(mesh_.dimension * (mesh_.firstNode + node) + d);
+  OwnedIS own;
+  check(ISCreateGeneral(mesh_.comm, rows.size(), rows.data(), PETSC_COPY_VALUES, own.out()));
+  shared_.resize(mesh_.bodies.size());
+  for (int group = 0; group < std::ssize(mesh_.materialGroups); ++group) {
+    auto& sum = shared_[mesh_.materialGroups[group].body];
+    const auto part = elasticity::materialPart(mesh_, bodies_, group);
+    const OwnedMat stiffness = rowsOf(part.stiffness, own), mass = rowsOf(part.mass, own);
+    addScaled(sum.stiffness, 1, stiffness);
+    addScaled(sum.mass, 1, mass);
+    addScaled(sum.damping, part.massDamping, mass);
+    addScaled(sum.damping, part.stiffnessDamping, stiffness);
+  }
+}
+
+std::vector<Forms> Components::forms(Vec u) const {
+  std::vector<Forms> forms(list_.size());
+  addBodies(u, forms);
+  addShared(u, forms);
+  addGround(u, forms);
+  addLayers(u, forms);
+  std::vector<double> sums;
+  for (const auto& one : forms) sums.insert(sums.end(), {one.stiffness, one.mass, one.damping});
+  mpi::sumAlike(mesh_.comm, sums);
+  for (std::size_t i = 0; i < forms.size(); ++i)
+    forms[i] = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
+  addForms(u, forms);
+  return forms;
+}
+
+/// Collective. Adds this rank's sums over the nodes of one body.
+void Components::addBodies(Vec u, std::vector<Forms>& forms) const {
+  const auto add = [&](const OwnedVec& product, double Forms::*form) {
+    if (!product) return;
+    const ReadArray x(u), y(product);
+    for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
+      for (int d = 0; d < mesh_.dimension && bodyOf_[node] >= 0; ++d) {
+        const PetscInt row = mesh_.dimension * node + d;
+        forms[bodyOf_[node]].*form += x[row] * y[row];
+      }
+  };
+  add(productWithout(bodies_.stiffness,
+                     {bodies_.linkStiffness, bodies_.layerStiffness, bodies_.springs}, u),
+      &Forms::stiffness);
+  add(productWithout(bodies_.mass, {pointMass_}, u), &Forms::mass);
+  add(productWithout(bodies_.damping, {linkDamping_, groundDashpots_}, u), &Forms::damping);
+}
+
+/// Collective. Adds this rank's sums over the nodes that bodies share.
+void Components::addShared(Vec u, std::vector<Forms>& forms) const {
+  for (std::size_t body = 0; body < shared_.size(); ++body) {
+    const auto add = [&](Mat matrix, double Forms::*form) {
+      if (!matrix) return;
+      OwnedVec product;
+      check(MatCreateVecs(matrix, nullptr, product.out()));
+      check(MatMult(matrix, u, product));
+      const ReadArray x(u), y(product);
+      PetscInt row = 0;
+      for (const PetscInt node : sharedNodes_)
+        for (int d = 0; d < mesh_.dimension; ++d)
+          forms[body].*form += x[mesh_.dimension * node + d] * y[row++];
+    };
+    add(shared_[body].stiffness, &Forms::stiffness);
+    add(shared_[body].mass, &Forms::mass);
+    add(shared_[body].damping, &Forms::damping);
+  }
+}
+
+/// Adds this rank's sums over springs and dashpots to the ground.
+void Components::addGround(Vec u, std::vector<Forms>& forms) const {
+  const ReadArray x(u);
+  const int dimension = mesh_.dimension;
+  for (std::size_t g = 0; g < ground_.size(); ++g) {
+    const auto& nodes = mesh_.nodeGroups.at(ground_[g].name);
+    const auto sum = [&](const std::vector<mesh::Matrix3>& blocks) {
+      double form = 0;
+      for (std::size_t n = 0; n < blocks.size(); ++n)
+        for (int i = 0; i < dimension; ++i)
+          for (int j = 0; j < dimension; ++j)
+            form += x[dimension * nodes[n] + i] * blocks[n][i][j] * x[dimension * nodes[n] + j];
+      return form;
+    };
+    forms[firstGround_ + g].stiffness += sum(ground_[g].springs);
+    forms[firstGround_ + g].damping += sum(ground_[g].dashpots);
+  }
+}
+
+/// Collective. Adds this rank's sums over compliant layers. With K = Gᵀ W G, G u the difference
+/// u_L − u_P of a layer node and its node on the face, (K u)_L = W G u, so that the energy of an
+/// interface is Σ (u_L − u_P)·(K u)_L over its nodes.
+void Components::addLayers(Vec u, std::vector<Forms>& forms) const {
+  const OwnedVec force = product(bodies_.layerStiffness, u);
+  if (!force) return;
+  const ReadArray x(u), y(force);
+  const int dimension = mesh_.dimension;
+  for (const auto& node : contact_.interfaces.nodes) {
+    if (!node.hasLayer()) continue;
+    for (int d = 0; d < dimension; ++d)
+      forms[firstInterface_ + node.interface].stiffness +=
+          (x[dimension * node.node + d] - x[dimension * node.surfaceNode + d]) *
+          y[dimension * node.node + d];
+  }
+}
+
+/// Collective. Adds springs, bushings and point masses.
+void Components::addForms(Vec u, std::vector<Forms>& forms) const {
+  std::vector<double> delta(attached_.size(), 0.0);
+  const ReadArray x(u);
+  for (std::size_t f = 0; f < attached_.size(); ++f)
+    for (const auto& term : attached_[f].terms)
+      if (const PetscInt node = mesh_.ownedNode(term.node); node >= 0)
+        for (int d = 0; d < mesh_.dimension; ++d)
+          delta[f] += term.direction[d] * x[mesh_.dimension * node + d];
+  mpi::sumAlike(mesh_.comm, delta);
+  for (std::size_t f = 0; f < attached_.size(); ++f) {
+    const double square = delta[f] * delta[f];
+    forms[ofForm_[f]].stiffness += attached_[f].stiffness * square;
+    forms[ofForm_[f]].mass += attached_[f].mass * square;
+    forms[ofForm_[f]].damping += attached_[f].damping * square;
+  }
+}
+
+}  // namespace squeal::energies

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The components of a model, and their shares in the energies of a motion.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "eigen/pencil/complex_modes.hpp"
+#include "model/attachments/forms.hpp"
+#include "model/contact/contact.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/mesh/mesh.hpp"
+#include "model/mesh/vector.hpp"
+#include "problem/energies/body_motions.hpp"
+
+namespace squeal::energies {
+
+/// The forms uᵀ X u of the matrices of one component.
+struct Forms {
+  double stiffness = 0;  ///< uᵀ K u, twice the strain energy, J for u in m
+  double mass = 0;       ///< uᵀ M u
+  double damping = 0;    ///< uᵀ C u
+};
+
+/// What stores or dissipates energy: bodies, springs, bushings, point masses, the springs and
+/// dashpots of groups to the ground, and the compliant layers of interfaces. Ties, couplings and
+/// equations are constraints and store none.
+class Components {
+ public:
+  /// Collective. Borrows all arguments during the lifetime of the object. Where bodies share nodes,
+  /// it assembles the matrices of each of them once and keeps the rows of these nodes.
+  Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+             const contact::Contact& contact);
+  /// Returns the components, without shares: bodies in the order of the mesh, then the others.
+  const std::vector<pencil::Component>& list() const { return list_; }
+  /// Collective. Returns the forms of a nodal vector, [component]. Their sums are the forms of the
+  /// matrices of `bodies`.
+  std::vector<Forms> forms(Vec u) const;
+  /// Collective. Returns the names of the motions of the bodies, [body], in the mode with these
+  /// parts: real, or real and imaginary nodal vectors.
+  std::vector<NamedMotion> motions(const std::vector<Vec>& parts) const {
+    return motions_->names(parts);
+  }
+  /// Returns the index of a contact interface in the list.
+  std::size_t ofInterface(int interface) const { return firstInterface_ + interface; }
+  /// Returns the number of contact interfaces, which precede the ties in Interfaces.
+  std::size_t interfaces() const { return interfaces_; }
+
+ private:
+  /// The rows of the nodes that several bodies share, of the matrices of one body.
+  struct SharedRows {
+    OwnedMat stiffness, mass, damping;
+  };
+  /// The springs and dashpots of a group at its nodes, in the order of Mesh::nodeGroups.
+  struct GroundGroup {
+    std::string name;
+    std::vector<mesh::Matrix3> springs, dashpots;
+  };
+  void findBodies();
+  void keepSharedRows();
+  void addBodies(Vec u, std::vector<Forms>& forms) const;
+  void addShared(Vec u, std::vector<Forms>& forms) const;
+  void addGround(Vec u, std::vector<Forms>& forms) const;
+  void addLayers(Vec u, std::vector<Forms>& forms) const;
+  void addForms(Vec u, std::vector<Forms>& forms) const;
+
+  const mesh::Mesh& mesh_;
+  const elasticity::Bodies& bodies_;
+  const contact::Contact& contact_;
+  std::vector<pencil::Component> list_;
+  std::size_t firstGround_ = 0, firstForm_ = 0, firstInterface_ = 0, interfaces_ = 0;
+  std::vector<int> bodyOf_;  // [owned node] body; `none` in no cell, `several` where bodies meet
+  std::vector<std::vector<PetscInt>> nodesOf_;  // [body] owned nodes
+  std::optional<BodyMotions> motions_;          // always set
+  std::vector<PetscInt> sharedNodes_;           // owned nodes of several bodies
+  std::vector<SharedRows> shared_;              // [body]; empty unless nodes are shared
+  std::vector<GroundGroup> ground_;
+  std::vector<attachments::Form> attached_;  // springs, bushings and masses
+  std::vector<std::size_t> ofForm_;          // [form] component
+  OwnedMat groundDashpots_, linkDamping_, pointMass_;
+};
+
+}  // namespace squeal::energies

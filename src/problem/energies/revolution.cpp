@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "problem/energies/revolution.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "base/system/mpi.hpp"
+#include "base/system/text.hpp"
+
+namespace squeal::energies {
+namespace {
+
+constexpr int mostDiameters = 12;
+constexpr std::size_t functions = 12, degrees = 6;  // of ρ and ζ together; of ρ
+constexpr int rings = 24;
+constexpr double clear = 0.6;  // share from which a name is given
+
+/// Returns the vectors across the axis, and the one along it.
+std::array<Point, 3> axesOf(const Axis& axis) {
+  const Point x = mesh::across(axis.direction);
+  return {x, mesh::cross(axis.direction, x), axis.direction};
+}
+
+/// Returns the Legendre polynomials of degrees 0 … 5.
+std::array<double, degrees> legendre(double x) {
+  std::array<double, degrees> p{1, x};
+  for (std::size_t k = 2; k < degrees; ++k)
+    p[k] = ((2.0 * k - 1) * x * p[k - 1] - (k - 1.0) * p[k - 2]) / k;
+  return p;
+}
+
+/// Returns the number of functions for n nodal diameters: with cos nθ, and with sin nθ.
+std::size_t sizeOf(int n) { return n == 0 ? functions : 2 * functions; }
+
+/// Returns the place of the moments of a component for n nodal diameters in their list.
+std::size_t placeOf(int n, std::size_t component) {
+  const std::size_t before = n == 0 ? 0 : 3 * (functions + 2 * functions * (n - 1));
+  return before + component * sizeOf(n);
+}
+
+/// Calls `action(n, cos nθ, sin nθ)`.
+template <class Action>
+void forEachHarmonic(double cosine, double sine, const Action& action) {
+  double c = 1, s = 0;
+  for (int n = 0; n <= mostDiameters; ++n) {
+    action(n, c, s);
+    const double next = c * cosine - s * sine;
+    s = s * cosine + c * sine;
+    c = next;
+  }
+}
+
+/// Returns the name of a motion of a bar; empty if it has none.
+std::string barName(int diameters, bool along, bool circumferential) {
+  if (diameters == 0) return along ? "axial" : circumferential ? "torsion" : "";
+  return diameters == 1 && !along ? "bending" : "";
+}
+
+}  // namespace
+
+bool isRevolved(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis) {
+  const auto axes = axesOf(axis);
+  std::array<double, 14> sums{};  // real and imaginary parts for n = 0 … 6
+  for (std::size_t k = 0; k < body.nodes.size(); ++k) {
+    const Point x = mesh::minus(mesh.coordinates[body.nodes[k]], axis.origin);
+    const std::complex<double> arm(mesh::dot(x, axes[0]), mesh::dot(x, axes[1]));
+    const double radius = std::abs(arm);
+    if (radius == 0) continue;
+    std::complex<double> turn = body.mass[k] * radius * radius;
+    for (int n = 0; n < 7; ++n, turn *= arm / radius)
+      sums[2 * n] += turn.real(), sums[2 * n + 1] += turn.imag();
+  }
+  mpi::sumAlike(mesh.comm, sums);
+  for (int n = 1; n < 7; ++n)
+    if (!(std::hypot(sums[2 * n], sums[2 * n + 1]) <= 0.1 * sums[0])) return false;
+  return true;
+}
+
+Revolution::Revolution(const mesh::Mesh& mesh, LumpedBody body, const Axis& axis)
+    : mesh_(mesh), body_(std::move(body)), axes_(axesOf(axis)) {
+  std::vector<std::pair<double, double>> meridian;  // radius, position along the axis
+  // −smallest radius, largest radius, −smallest position, largest position
+  std::array<double, 4> limits{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+  for (const PetscInt node : body_.nodes) {
+    const Point x = mesh::minus(mesh.coordinates[node], axis.origin);
+    const double a = mesh::dot(x, axes_[0]), b = mesh::dot(x, axes_[1]), z = mesh::dot(x, axes_[2]);
+    const double r = std::hypot(a, b);
+    meridian.emplace_back(r, z);
+    places_.push_back({.cosine = r > 0 ? a / r : 1, .sine = r > 0 ? b / r : 0});
+    limits = {std::max(limits[0], -r), std::max(limits[1], r), std::max(limits[2], -z),
+              std::max(limits[3], z)};
+  }
+  mpi::reduce<double>(mesh.comm, limits, MPI_MAX);
+  const double inner = -limits[0], outer = limits[1], bottom = -limits[2], top = limits[3];
+  isBar_ = top - bottom > 3 * outer;
+  const auto scaled = [](double x, double from, double to) {
+    return to > from ? (2 * x - from - to) / (to - from) : 0.0;
+  };
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const double rho = scaled(meridian[k].first, inner, outer),
+                 zeta = scaled(meridian[k].second, bottom, top);
+    const auto p = legendre(rho);
+    for (std::size_t i = 0; i < degrees; ++i)
+      places_[k].p[i] = p[i], places_[k].p[degrees + i] = p[i] * zeta;
+    places_[k].ring = std::min(rings - 1, int((rho + 1) / 2 * rings));
+  }
+  std::vector<linalg::DenseMatrix> grams;
+  for (int n = 0; n <= mostDiameters; ++n) grams.emplace_back(sizeOf(n), sizeOf(n));
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    forEachHarmonic(places_[k].cosine, places_[k].sine, [&](int n, double c, double s) {
+      const auto f = [&](std::size_t i) {
+        return i < functions ? places_[k].p[i] * c : places_[k].p[i - functions] * s;
+      };
+      for (std::size_t j = 0; j < sizeOf(n); ++j)
+        for (std::size_t i = j; i < sizeOf(n); ++i) grams[n](i, j) += body_.mass[k] * f(i) * f(j);
+    });
+  for (int n = 0; n <= mostDiameters; ++n) {
+    mpi::sumAlike(mesh.comm, {grams[n].data(), sizeOf(n) * sizeOf(n)});
+    fits_.emplace_back(std::move(grams[n]));
+  }
+}
+
+/// Collective. Returns Σ m f u of all functions f and cylindrical components u, and at the end
+/// Σ m |u|².
+std::vector<double> Revolution::moments(const double* values) const {
+  std::vector<double> sums(placeOf(mostDiameters + 1, 0) + 1, 0.0);
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const auto& [cosine, sine, p, ring] = places_[k];
+    const double* u = values + 3 * body_.nodes[k];
+    const Point motion{u[0], u[1], u[2]};
+    const double a = mesh::dot(motion, axes_[0]), b = mesh::dot(motion, axes_[1]);
+    const std::array<double, 3> along{cosine * a + sine * b, cosine * b - sine * a,
+                                      mesh::dot(motion, axes_[2])};
+    forEachHarmonic(cosine, sine, [&](int n, double c, double s) {
+      for (std::size_t component = 0; component < 3; ++component) {
+        double* sum = &sums[placeOf(n, component)];
+        const double weight = body_.mass[k] * along[component];
+        for (std::size_t i = 0; i < functions; ++i) sum[i] += weight * c * p[i];
+        if (n > 0)
+          for (std::size_t i = 0; i < functions; ++i) sum[functions + i] += weight * s * p[i];
+      }
+    });
+    sums.back() += body_.mass[k] * mesh::dot(motion, motion);
+  }
+  mpi::sumAlike(mesh_.comm, sums);
+  return sums;
+}
+
+/// Collective. Returns the number of nodal circles of the motion along the axis with n nodal
+/// diameters: the changes of sign of its mean over rings, where it is above 5 % of its largest.
+int Revolution::circles(int diameters, const std::vector<std::vector<double>>& moments) const {
+  std::vector<double> best;  // coefficients over the meridian at the angle with most motion
+  double largest = 0;
+  for (const auto& part : moments) {
+    const std::size_t first = placeOf(diameters, 2), size = sizeOf(diameters);
+    const auto c = fits_[diameters].coefficients(std::span(part).subspan(first, size));
+    for (std::size_t begin = 0; begin < size; begin += functions) {
+      double square = 0;
+      for (std::size_t i = 0; i < functions; ++i) square += c[begin + i] * c[begin + i];
+      if (square <= largest) continue;
+      largest = square;
+      best.assign(c.begin() + begin, c.begin() + begin + functions);
+    }
+  }
+  if (best.empty()) return 0;
+  std::array<double, 2 * rings> sums{};  // Σ m u, Σ m
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    double u = 0;
+    for (std::size_t i = 0; i < functions; ++i) u += best[i] * places_[k].p[i];
+    sums[places_[k].ring] += body_.mass[k] * u, sums[rings + places_[k].ring] += body_.mass[k];
+  }
+  mpi::sumAlike(mesh_.comm, sums);
+  double most = 0;
+  for (int ring = 0; ring < rings; ++ring)
+    if (sums[rings + ring] > 0) {
+      sums[ring] /= sums[rings + ring];
+      most = std::max(most, std::abs(sums[ring]));
+    }
+  int count = 0, sign = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    if (sums[rings + ring] <= 0 || std::abs(sums[ring]) < 0.05 * most) continue;
+    const int now = sums[ring] > 0 ? 1 : -1;
+    if (sign != 0 && now != sign) ++count;
+    sign = now;
+  }
+  return count;
+}
+
+NamedMotion Revolution::name(const std::vector<const double*>& parts) const {
+  std::vector<std::vector<double>> all;
+  double total = 0;
+  for (const double* part : parts) {
+    all.push_back(moments(part));
+    total += all.back().back();
+  }
+  if (!(total > 0)) return {};
+  double best = 0;
+  int diameters = 0;
+  bool outOfPlane = false;
+  std::array<double, 3> shares{};
+  for (int n = 0; n <= mostDiameters; ++n) {
+    std::array<double, 3> share{};
+    for (std::size_t component = 0; component < 3; ++component)
+      for (const auto& part : all)
+        share[component] +=
+            fits_[n].explained(std::span(part).subspan(placeOf(n, component), sizeOf(n))) / total;
+    const double inPlane = share[0] + share[1], larger = std::max(inPlane, share[2]);
+    // Few nodes around the axis do not tell n from larger numbers.
+    if (larger <= best + 1e-6) continue;
+    best = larger, diameters = n, outOfPlane = share[2] > inPlane, shares = share;
+  }
+  if (best < clear) return {};
+  if (isBar_) return {barName(diameters, outOfPlane, shares[1] > shares[0]), best};
+  if (outOfPlane)
+    return {formatted("(%d,%d) out of plane", circles(diameters, all), diameters), best};
+  return {formatted("in plane, %s, n = %d", shares[0] >= shares[1] ? "radial" : "circumferential",
+                    diameters),
+          best};
+}
+
+}  // namespace squeal::energies

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// What the modes of a segment are made of: the components of the model, and the free modes.
+#include "algebra/factor/associated_system.hpp"
+#include "eigen/sweep_solver/results.hpp"
+#include "problem/energies/components.hpp"
+
+namespace squeal::analysis {
+
+/// Collective. Adds to each stored complex mode of the segment the parts of the free modes in it.
+/// `system` has the unknowns of the modes. Without free modes it adds none.
+void addParticipations(const factor::AssociatedSystem& system, sweep_solver::ModalSegment& segment);
+
+/// Collective. Adds the shares of the components in the free modes up to the top of the band of the
+/// segment, or in all of them without a band. `trial` is T; `prestress` is K_σ, null: none.
+void addComponents(const energies::Components& components, Mat trial, Mat prestress,
+                   sweep_solver::ModalSegment& segment);
+
+}  // namespace squeal::analysis

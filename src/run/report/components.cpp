@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "run/report/components.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/system/text.hpp"
+#include "run/report/sensitivities.hpp"
+
+namespace squeal::report {
+namespace {
+
+constexpr double leastShare = 1e-4;  // of a participation that is listed
+
+/// Returns the participations that are listed, largest share of the energy first.
+std::vector<pencil::Participation> listed(const std::vector<pencil::Participation>& all) {
+  std::vector<pencil::Participation> found;
+  for (const auto& one : all)
+    if (std::max(one.energy, one.mac) >= leastShare) found.push_back(one);
+  std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.energy > b.energy; });
+  return found;
+}
+
+/// Returns the cells of the motion of a body, which are empty if it is unclear.
+std::string motionCells(const std::string& motion, double share) {
+  return motion.empty() ? "," : "\"" + motion + formatted("\",%.6f", share);
+}
+
+/// Returns the rows of one complex mode.
+std::string participationRows(const std::string& head, const pencil::Shape& shape,
+                              const std::vector<double>& frequencies) {
+  std::string rows;
+  double energy = 1, mac = 1;
+  for (const auto& one : listed(shape.participations)) {
+    rows += head + formatted("%zu,%.15e,%.9e,%.9e,%.9e,%.6f\n", one.mode + 1,
+                             frequencies[one.mode] / (2 * M_PI), one.energy, one.mac,
+                             std::abs(one.amplitude), std::arg(one.amplitude) * 180 / M_PI);
+    energy -= one.energy, mac -= one.mac;
+  }
+  return rows + head + formatted("0,,%.9e,%.9e,,\n", energy, mac);
+}
+
+}  // namespace
+
+std::string componentTable(const analysis::Analysis& analysis) {
+  std::string table =
+      sweep::parameterColumns() +
+      ",mode,growth_rate_1_per_s,frequency_hz,kind,component,strain_share,kinetic_share,motion,"
+      "motion_share,damping_1_"
+      "per_s,follower_1_per_s,friction_damping_1_per_s,law_slope_1_per_s,convective_1_per_s,"
+      "gyroscopic_1_per_s\n";
+  for (const auto& segment : analysis.flutter.segments)
+    for (const auto& point : segment.points)
+      for (const auto& shape : point.shapes)
+        for (const auto& [kind, name, strain, kinetic, motion, share, growth] : shape.components)
+          table += modeHead(point, shape) + kind + "," + name +
+                   formatted(",%.15e,%.15e,", strain, kinetic) + motionCells(motion, share) +
+                   formatted(",%.9e,%.9e,%.9e,%.9e,%.9e,%.9e\n", growth.damping, growth.follower,
+                             growth.turning, growth.slope, growth.convective, growth.gyroscopic);
+  return table;
+}
+
+std::string modeComponentTable(const analysis::Analysis& analysis) {
+  std::string table =
+      "active_set,mode,frequency_hz,kind,component,strain_share,kinetic_share,motion,motion_"
+      "share\n";
+  const auto& segments = analysis.flutter.segments;
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    for (std::size_t i = 0; i < segments[s].components.size(); ++i)
+      for (const auto& one : segments[s].components[i])
+        table += formatted("%zu,%zu,%.15e,", s + 1, i + 1,
+                           segments[s].modes.angularFrequency[i] / (2 * M_PI)) +
+                 one.kind + "," + one.name + formatted(",%.15e,%.15e,", one.strain, one.kinetic) +
+                 motionCells(one.motion, one.motionShare) + "\n";
+  return table;
+}
+
+std::string participationTable(const analysis::Analysis& analysis) {
+  std::string table = sweep::parameterColumns() +
+                      ",mode,growth_rate_1_per_s,frequency_hz,free_mode,free_frequency_hz,energy_"
+                      "share,mac,amplitude,phase_deg\n";
+  for (const auto& segment : analysis.flutter.segments)
+    for (const auto& point : segment.points)
+      for (const auto& shape : point.shapes)
+        if (!shape.participations.empty())
+          table += participationRows(modeHead(point, shape), shape, segment.modes.angularFrequency);
+  return table;
+}
+
+}  // namespace squeal::report

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Tables of what the modes are made of: the components of the model, and the free modes.
+#include <string>
+
+#include "run/analysis/analysis.hpp"
+
+namespace squeal::report {
+
+/// Returns components.csv: the shares of each component in the stored complex modes.
+std::string componentTable(const analysis::Analysis& analysis);
+/// Returns mode_components.csv: the shares of each component in the free modes of the band.
+std::string modeComponentTable(const analysis::Analysis& analysis);
+/// Returns participation.csv: the free modes that have at least 1e-4 of the energy or of the mass
+/// norm of a stored complex mode, largest share of the energy first, and a row `0` for the rest.
+std::string participationTable(const analysis::Analysis& analysis);
+
+}  // namespace squeal::report
