@@ -70,7 +70,7 @@ async function fillView(skin) {
   makeRenderer();
   makeScene();
   view.bodies = skin.bodies.map((body) => bodyOf(body, triangles, edges));
-  skin.bodies.forEach(makeBodyBox);
+  makeBodies();
   element("point").max = Math.max(0, skin.steady.length - 1);
   listenToControls();
   play(view.playing);
@@ -127,17 +127,6 @@ function bodyOf(body, triangles, edges) {
   mesh.frustumCulled = outline.frustumCulled = false;
   view.scene.add(mesh, outline);
   return {mesh, outline};
-}
-
-/** Makes the box that shows or hides a body. */
-function makeBodyBox(body, k) {
-  const label = make("label"), box = make("input", {type: "checkbox", checked: true});
-  box.addEventListener("change", () => {
-    view.bodies[k].mesh.visible = box.checked;
-    outlines();
-  });
-  label.append(box, ` ${body.name}`);
-  element("bodies").append(label, " ");
 }
 
 function listenToControls() {
@@ -212,11 +201,16 @@ function move() {
   render();
 }
 
+/** The stored shape of a mode; undefined if there is none. */
+function shapeOf(row) {
+  return data.shapes.find((one) => one.mode === eigen.mode[row] && isPointOf(one.at, row));
+}
+
 /** Fills the view with the shape of the selected mode, or reports that it was not kept. */
 async function showShape() {
   if (!view.bodies) return;
   const asked = ++view.asked, row = state.selected;
-  const shape = data.shapes.find((one) => one.mode === eigen.mode[row] && isPointOf(one.at, row));
+  const shape = shapeOf(row);
   const parts = shape ? new Int8Array(await bytes(shape.blob)) : null;
   const work = shape && shape.work ? new Float32Array(await bytes(shape.work)) : null;
   if (asked !== view.asked || !view.bodies) return;  // another mode has been chosen meanwhile
@@ -225,6 +219,6 @@ async function showShape() {
   if (!shape) element("chosen").textContent += " · its shape was not kept (-flutter_shapes)";
   listFields();
   colour();
-  outlines();
+  showBodies();
   move();
 }

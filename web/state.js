@@ -83,6 +83,12 @@ function errorOf(critical, i) {
   return `${words}, not solved for: between points of the sweep`;
 }
 
+/** A round step that divides a length into about n parts. */
+function roundStep(length, n) {
+  const raw = length / n, power = 10 ** Math.floor(Math.log10(raw));
+  return power * [1, 2, 5, 10].find((factor) => factor * power >= raw);
+}
+
 /** One of the 32 colours, for a share between 0 and 1. */
 function colourAt(share) {
   return data.colours[Math.min(31, Math.max(0, Math.floor(32 * share)))];

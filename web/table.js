@@ -92,10 +92,7 @@ function download() {
   const keys = Object.keys(eigen).filter((name) => name !== "grows");
   const body = listed.map((i) => keys.map((name) => eigen[name][i] ?? "").join(","));
   const text = [keys.join(","), ...body, ""].join("\n");
-  const link = make("a", {download: "eigenvalues.csv"});
-  link.href = URL.createObjectURL(new Blob([text], {type: "text/csv"}));
-  link.click();
-  URL.revokeObjectURL(link.href);
+  offer("eigenvalues.csv", new Blob([text], {type: "text/csv"}));
 }
 
 function makeTable() {
