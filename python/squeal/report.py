@@ -54,6 +54,7 @@ OWN_SCRIPTS = (
     "fields",
     "regime",
     "sections",
+    "print",
     "report",
 )
 

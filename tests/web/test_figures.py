@@ -1,11 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""The stability chart, the maps on the linings, and saved figures: test_figures.py PROGRAM
-RESULTS."""
+"""The stability chart, the maps on the linings, saved figures and the printed report:
+test_figures.py PROGRAM RESULTS."""
 import csv
 import math
 import re
+import subprocess
 import unittest
+import zlib
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -243,6 +246,47 @@ class Figures(Pages):
         Select(self.element("mapfield")).select_by_value("gap")
         self.assertIn("gap m", self.run_script("return element('maptable').textContent"))
         Select(self.element("mapfield")).select_by_value("pressure")
+
+    def test_print_cuts_no_chart(self):
+        """The PDF has one image of each canvas: one that is cut would be on two pages."""
+        path = Path(self.temporary.name) / "report.pdf"
+        words = "headless=new no-sandbox use-gl=angle use-angle=swiftshader ignore-gpu-blocklist"
+        words += " enable-unsafe-swiftshader force-prefers-reduced-motion no-pdf-header-footer"
+        words += f" virtual-time-budget=600000 print-to-pdf={path}"
+        subprocess.run(
+            ["chromium", *(f"--{word}" for word in words.split()), self.page.as_uri()],
+            check=True,
+            capture_output=True,
+            timeout=120,
+        )
+        content = path.read_bytes()
+        canvases = self.run_script(
+            "return [...document.querySelectorAll('canvas')].filter((one) =>"
+            " one.offsetParent).length"
+        )
+        self.assertGreaterEqual(canvases, 7)
+        images = list(images_of(content))
+        self.assertEqual(len(images), canvases)
+        # The view and the map are mostly white: a view that was not drawn would be black.
+        brightness = [pixels.mean() for pixels, opaque in images if opaque]
+        self.assertEqual(len(brightness), 2)
+        self.assertGreater(min(brightness), 100)
+        self.assertGreater(len(re.findall(rb"/Type /Page\b", content)), 2)
+
+
+def images_of(content):
+    """The colours of the large images in a PDF by Chromium, and whether they are opaque."""
+    form = rb"^\d+ 0 obj\s<<([^\0]*?)>> ?stream\r?\n"
+    for head in re.finditer(form, content, re.M):
+        number_of = {key: int(value) for key, value in re.findall(rb"/(\w+) (\d+)\n?", head[1])}
+        if (
+            b"/Subtype /Image" not in head[1]
+            or b"/DeviceGray" in head[1]
+            or number_of[b"Width"] < 300
+        ):
+            continue
+        packed = content[head.end() : head.end() + number_of[b"Length"]]
+        yield np.frombuffer(zlib.decompress(packed), np.uint8), b"/SMask" not in head[1]
 
 
 if __name__ == "__main__":
