@@ -9,6 +9,7 @@ const view = {
   parts: null,
   asked: 0,
   last: 0,
+  held: false,  // nothing is drawn for the time being
 };
 
 /** The bytes that the file holds under a name. */
@@ -153,6 +154,7 @@ function fit() {
 }
 
 function render() {
+  if (view.held) return;
   view.scene.background = new THREE.Color(css("--paper"));
   view.renderer.render(view.scene, view.camera);
 }
@@ -217,8 +219,10 @@ async function showShape() {
   Object.assign(view, {parts, work});
   element("canvas").dataset.mode = shape ? shape.blob : "";
   if (!shape) element("chosen").textContent += " · its shape was not kept (-flutter_shapes)";
+  view.held = true;  // one picture instead of three
   listFields();
   colour();
   showBodies();
+  view.held = false;
   move();
 }
