@@ -21,7 +21,9 @@ function rankedChanges() {
 
 function showChanges() {
   if (!sensitivityRows.size) return;
-  const s = data.sensitivities, order = rankedChanges(), shown = order.slice(0, mostChanges);
+  const s = data.sensitivities, order = rankedChanges();
+  const shown =
+      order.filter((k) => changesOf(k).some((value) => value !== 0)).slice(0, mostChanges);
   element("changesmode").textContent = element("chosen").textContent;
   element("changeframe").hidden = !order.length;
   element("nochanges").hidden = order.length > 0;

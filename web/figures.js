@@ -123,8 +123,9 @@ const svgBlob = (text) => new Blob([text], {type: "image/svg+xml"});
  */
 function addFigure(id, svg, canvas, ofMode = false) {
   const label = element(id).getAttribute("aria-label");
-  const mode = () => element("chosen").textContent.split(" · ").slice(0, 2).join(", ");
-  const title = () => (ofMode ? `${label}: ${mode()}` : label);
+  const mode = () =>
+      wordsOf(state.selected).split("\n").slice(0, nameOfShape(state.selected) ? 3 : 2);
+  const title = () => (ofMode ? `${label}: ${mode().join(", ")}` : label);
   figures[id] = {svg: () => svg(title()), canvas: () => canvas(title())};
   element(id).parentElement.append(saveButtons(
       id, label, {svg: () => svgBlob(figures[id].svg()), png: () => pngOf(figures[id].canvas())}));

@@ -12,7 +12,7 @@ const terms = {
   convective_1_per_s: "convective terms",
   gyroscopic_1_per_s: "gyroscopic terms",
 };
-const mostComponents = 9, mostModes = 12, mostContributions = 12;
+const mostComponents = 9, mostModes = 12, mostContributions = 12, mostFree = 10;
 const sum = (values) => values.reduce((a, b) => a + b, 0);
 
 /** The rows of a table by point and mode. */
@@ -38,23 +38,29 @@ function modesWithShares() {
       .sort((a, b) => growth(eigen, b) - growth(eigen, a));
 }
 
+/** The label of a component; an interface may have the name of a body. */
+function labelOfComponent(k) {
+  const {kind, component} = data.components, what = kind[k].replaceAll("_", " ");
+  if (kind[k] === "body") return component[k];
+  return component[k] && component[k] !== kind[k] ? `${component[k]} (${what})` : what;
+}
+
 /** The components by their largest share in one of the modes, the largest first. */
 function rankedComponents(modes) {
   const c = data.components, most = new Map();
-  for (const i of modes)
-    for (const k of componentRows.get(modeKey(eigen, i)))
-      most.set(
-          c.component[k],
-          Math.max(
-              most.get(c.component[k]) || 0, Math.abs(c.strain_share[k]),
-              Math.abs(c.kinetic_share[k])));
-  return [...most].sort((a, b) => b[1] - a[1]).map(([name]) => name);
+  for (const k of modes.flatMap((i) => componentRows.get(modeKey(eigen, i)))) {
+    const label = labelOfComponent(k);
+    const size = Math.max(Math.abs(c.strain_share[k]), Math.abs(c.kinetic_share[k]));
+    most.set(label, Math.max(most.get(label) || 0, size));
+  }
+  return [...most].sort((a, b) => b[1] - a[1]).map(([label]) => label);
 }
 
 /** The share of some components in a mode, per cent. */
-function shareOf(row, column, names) {
-  const c = data.components, list = componentRows.get(modeKey(eigen, row));
-  return 100 * sum(list.filter((k) => names.includes(c.component[k])).map((k) => c[column][k]));
+function shareOf(row, column, labels) {
+  const list = componentRows.get(modeKey(eigen, row));
+  const chosen = list.filter((k) => labels.includes(labelOfComponent(k)));
+  return 100 * sum(chosen.map((k) => data.components[column][k]));
 }
 
 const nameOfMode = (i) =>
@@ -64,15 +70,15 @@ function drawShares(modes, names) {
   const shown = names.slice(0, mostComponents), rest = names.slice(mostComponents);
   const groups = shown.map((name, k) => [name, [name], palette[k]]);
   if (rest.length) groups.push([`${rest.length} others`, rest, otherColour]);
-  for (const [id, column] of [["kinetic", "kinetic_share"], ["strain", "strain_share"]])
-    setBars(
-        id, modes.map(nameOfMode), groups.map(([label, members, backgroundColor]) => ({
-                                                label,
-                                                unit: "%",
-                                                backgroundColor,
-                                                data: modes.map((i) => shareOf(i, column, members))
-                                              })),
-        {min: 0, max: 100});
+  for (const [id, column] of [["kinetic", "kinetic_share"], ["strain", "strain_share"]]) {
+    const sets = groups.map(([label, members, backgroundColor]) => {
+      const values = modes.map((i) => shareOf(i, column, members));
+      return {label, unit: "%", backgroundColor, data: values};
+    });
+    // The rotation of the disc may take strain energy away.
+    const whole = sets.every((set) => set.data.every((value) => value > -0.05));
+    setBars(id, modes.map(nameOfMode), sets, whole ? {min: 0, max: 100} : {min: null, max: null});
+  }
 }
 
 /** The contributions of a component of the selected mode, by term. */
@@ -84,7 +90,7 @@ function drawContributions(list) {
   const c = data.components, size = (k) => sum(contributionsOf(k).map(Math.abs));
   const order = list.filter((k) => size(k) > 0).sort((a, b) => size(b) - size(a));
   const shown = order.slice(0, mostContributions), rest = order.slice(mostContributions);
-  const labels = shown.map((k) => c.component[k]);
+  const labels = shown.map(labelOfComponent);
   if (rest.length) labels.push(`${rest.length} others`);
   const values = (t) =>
       [...shown.map((k) => contributionsOf(k)[t]),
@@ -105,12 +111,14 @@ const nameOfFree = (k) => {
       `free mode ${p.free_mode[k]}: ${digits(p.free_frequency_hz[k], 5)} Hz`;
 };
 
+/** Draws the largest shares; the last bar has all others. */
 function drawParticipation(list) {
-  const p = data.participation;
-  setBars("participation", list.map(nameOfFree), [{
+  const p = data.participation, named = list.filter((k) => p.free_mode[k] > 0);
+  const shown = named.slice(0, mostFree), rest = list.filter((k) => !shown.includes(k));
+  setBars("participation", [...shown.map(nameOfFree), "all others"], [{
             unit: "%",
-            data: list.map((k) => 100 * p.energy_share[k]),
-            backgroundColor: list.map((k) => (p.free_mode[k] === 0 ? otherColour : palette[0]))
+            data: [...shown, rest].map((k) => 100 * sum([k].flat().map((i) => p.energy_share[i]))),
+            backgroundColor: [...shown.map(() => palette[0]), otherColour]
           }]);
 }
 
@@ -126,14 +134,12 @@ function tablesOfShares(modes, names, list, free) {
         ["component", ...head],
         names.map((name) => [name, ...modes.flatMap((i) => pair(i, name))])));
   }
-  if (list.length)
+  if (list.length) {
+    const head = Object.values(terms).map((term) => `${term} 1/s`);
+    const line = (k) => [...contributionsOf(k), sum(contributionsOf(k))].map((v) => digits(v, 5));
     tables.push(tableOf(
-        ["component", "kind", ...Object.values(terms).map((term) => `${term} 1/s`), "sum 1/s"],
-        list.map(
-            (k) =>
-                [c.component[k], c.kind[k], ...contributionsOf(k).map((v) => digits(v, 5)),
-                 digits(sum(contributionsOf(k)), 5)]),
-        2));
+        ["component", ...head, "sum 1/s"], list.map((k) => [labelOfComponent(k), ...line(k)])));
+  }
   if (free.length)
     tables.push(tableOf(
         ["free mode", "share of the energy %", "MAC"],

@@ -61,6 +61,9 @@ function isPointOf(values, row) {
   return data.parameters.every((name, k) => values[k] === eigen[name][row]);
 }
 
+/** The name of the shape of a mode, if it has one. */
+const nameOfShape = (i) => (eigen.name && eigen.name[i]) || "";
+
 /** An eigenvalue in words, one line for each property. */
 function wordsOf(i) {
   const damping = eigen.damping_ratio[i];
@@ -68,6 +71,7 @@ function wordsOf(i) {
   return [
     `mode ${eigen.mode[i]} at ${nameOfPoint(eigen, i)}`,
     `${digits(eigen.frequency_hz[i], 8)} Hz`,
+    ...(nameOfShape(i) ? [nameOfShape(i)] : []),
     `growth ${digits(eigen.growth_rate_1_per_s[i], 6)} 1/s`,
     `damping ${damping === null ? "unknown" : `${digits(100 * damping, 4)} %`}`,
     `error |δs|/|s| ${error === null ? "unknown" : error.toExponential(1)}`,

@@ -57,6 +57,8 @@ OWN_SCRIPTS = (
     "print",
     "report",
 )
+# Columns that are in the table of the eigenvalues.
+REPEATED = ("growth_rate_1_per_s", "frequency_hz")
 
 
 def build(results):
@@ -132,7 +134,7 @@ def _after_flutter(results):
     return "".join(f"<p>{html.escape(line)}</p>" for line in regime.sentences(results))
 
 
-def _columns(table):
+def _columns(table, without=()):
     """Returns a table as lists by column, without the numbers that JSON lacks."""
     if table is None:
         return None
@@ -142,7 +144,7 @@ def _columns(table):
             for value in column.tolist()
         ]
         for name, column in table.items()
-        if not np.iscomplexobj(column)
+        if name not in without and not np.iscomplexobj(column)
     }
 
 
@@ -165,8 +167,8 @@ def _data(results, with_shapes):
         "critical": _columns(results.critical),
         "frictionWork": _columns(results.friction_work),
         "sensitivities": _columns(results.sensitivities),
-        "components": _columns(results.table("components")),
-        "participation": _columns(results.table("participation")),
+        "components": _columns(results.table("components"), REPEATED),
+        "participation": _columns(results.table("participation"), REPEATED),
         "steady": _steady_forces(summary),
         "regimes": regime.diagrams(results),
         "stages": {

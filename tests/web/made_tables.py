@@ -2,6 +2,7 @@
 """Made tables of shares and participation for the stored modes of a run."""
 import numpy as np
 
+from changed_tables import reshape
 from squeal.keys import PARAMETERS
 from squeal.schema import MODE, POINT, Table, numbers, whole, word
 
@@ -35,7 +36,8 @@ SCHEMA = {
 
 
 def write(folder, results, names):
-    """Writes both tables: `names` lists (kind, component)."""
+    """Writes both tables, in place of those of the run: `names` lists (kind, component)."""
+    reshape(folder, without=SCHEMA)
     kept = results.kept_modes()
     random = np.random.default_rng(1)
     components, participation = [], []
@@ -46,11 +48,11 @@ def write(folder, results, names):
         parts = _contributions(random, names, row.growth_rate_1_per_s)
         for k, (kind, name) in enumerate(names):
             components.append([*head, kind, name, strain[k], kinetic[k], *parts[k]])
-        shares = np.sort(random.dirichlet([3, 2, 1, 0.5]))[::-1]
+        shares = np.sort(random.dirichlet(np.full(13, 0.5)))[::-1]
         for k, share in enumerate(shares):
-            free = 0 if k == 3 else int(row.mode) - k + 1
-            frequency = "" if k == 3 else row.frequency_hz + 10 * k
-            participation.append([*head, free, frequency, share, "" if k == 3 else share])
+            free = 0 if k == 12 else 20 + k
+            frequency = "" if k == 12 else row.frequency_hz + 10 * k
+            participation.append([*head, free, frequency, share, share**2])
     _save(
         folder / "components.csv",
         [*HEAD, "kind", "component", "strain_share", "kinetic_share", *COLUMNS],

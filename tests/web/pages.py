@@ -13,7 +13,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
-folders = ("python", "scripts/dev", "tests/support/run")
+folders = ("python", "scripts/dev", "tests/support/harness", "tests/support/run")
 sys.path[:0] = [str(repository / folder) for folder in folders]
 sys.dont_write_bytecode = True
 import coarse_brake
