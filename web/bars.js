@@ -38,7 +38,8 @@ function barChart(id, title, {legend = false, ofMode = true} = {}) {
 /** Fills a chart of bars; its height follows their number. */
 function setBars(id, labels, datasets, range = {}) {
   const one = barCharts[id];
-  one.canvas.parentElement.style.height = `${Math.max(8, 4.5 + 1.5 * labels.length)}rem`;
+  const around = one.options.plugins.legend.display ? 7.5 : 4.5;  // of the bars
+  one.canvas.parentElement.style.height = `${around + 1.5 * Math.max(2, labels.length)}rem`;
   one.data.labels = labels;
   one.data.datasets = datasets.map((set) => ({borderWidth: 0, maxBarThickness: 18, ...set}));
   Object.assign(one.options.scales.x, range);

@@ -6,6 +6,7 @@ from scipy.spatial import cKDTree
 from squeal.blobs import blob
 
 FLAT = 0.9  # a smaller mean of the unit normals belongs to a curved face, such as that of a pin
+SMALL = 1e-300
 SAME = 1e-8  # distance of equal places, relative to the size of the model
 
 
@@ -70,7 +71,7 @@ def _axes(places, triangles, rotation):
     corners = places[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(normals, axis=1).sum()
-    normal = normals.sum(axis=0) / max(area, 1e-300)
+    normal = normals.sum(axis=0) / max(area, SMALL)
     if np.linalg.norm(normal) < FLAT:
         return None
     normal /= np.linalg.norm(normal)
@@ -96,7 +97,7 @@ def _direction(rows, axes):
     names = ["friction_force_x_n", "friction_force_y_n", "friction_force_z_n"]
     flat = axes[:2] @ sum(row[names].to_numpy().sum(axis=0) for row in rows)
     size, normal = np.linalg.norm(flat), sum(row["normal_force_n"].sum() for row in rows)
-    return (flat / size).tolist() if size > 1e-9 * normal else None
+    return (flat / size).tolist() if size > 1e-9 * max(abs(normal), SMALL) else None
 
 
 __all__ = ["linings"]

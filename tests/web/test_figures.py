@@ -12,10 +12,12 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+import pandas as pd
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
 from pages import Pages
+from squeal import linings
 
 SVG = "{http://www.w3.org/2000/svg}"
 # How many pixels of an SVG and a PNG of one figure differ, and how many of the PNG are drawn: a
@@ -228,6 +230,16 @@ class Figures(Pages):
         self.assertGreater(face["friction"][0], 0.99)
         ends = np.reshape(face["places"], (-1, 2))
         self.assertGreater(ends[:, 1].min(), 0.05)  # above the axis, m
+
+    def test_an_interface_without_force_has_no_direction(self):
+        names = "normal_force_n friction_force_x_n friction_force_y_n friction_force_z_n".split()
+        for normal, friction, wanted in (
+            (-1e-13, 0.0, None),
+            (0.0, 0.0, None),
+            (10.0, 3.0, [1, 0]),
+        ):
+            rows = [pd.DataFrame([[normal, friction, 0.0, 0.0]], columns=names)]
+            self.assertEqual(linings._direction(rows, np.eye(3)), wanted)
 
     def test_maps_have_a_scale_with_units_and_a_table(self):
         Select(self.element("mapfield")).select_by_value("pressure")
