@@ -108,6 +108,7 @@ function unstableSet(points) {
 function selectedSet(points) {
   return {
     label: "selected",
+    unlisted: true,
     data: points,
     pointRadius: 9,
     pointHitRadius: 0,
@@ -201,18 +202,20 @@ function chart(id, x, y, xTitle, yTitle, shaded) {
   };
   const settings = {type: "scatter", data: {datasets: datasets(x, y)}, plugins: [shading], options};
   charts[id] = {x, y, chart: new Chart(element(id), settings)};
+  addChartFigure(charts[id].chart);
 }
 
 /** Gives the axes of a diagram the colours of the scheme. */
 function colourAxes(options) {
   for (const axis of Object.values(options.scales)) {
-    axis.grid = {color: css("--line")};
+    axis.grid = {color: css("--line"), drawOnChartArea: axis.grid.drawOnChartArea};
     axis.ticks = {...axis.ticks, color: css("--ink")};
     axis.title.color = css("--ink");
   }
 }
 
 function drawCharts() {
+  Chart.defaults.devicePixelRatio = Math.max(2, devicePixelRatio);  // for print
   Chart.defaults.color = css("--ink");
   Chart.defaults.borderColor = css("--line");
   for (const one of Object.values(charts)) {

@@ -33,11 +33,13 @@ function regimeChart(id, xTitle, yTitle, logarithmic) {
       scales: {x: axis(xTitle), y},
     },
   });
+  addChartFigure(regime.charts[id]);
 }
 
 /** A dashed line through the diagram. */
-function guide(from, to) {
+function guide(label, from, to) {
   return {
+    label,
     data: [from, to],
     showLine: true,
     pointRadius: 0,
@@ -48,8 +50,9 @@ function guide(from, to) {
   };
 }
 
-function curve(line) {
+function curve(label, line) {
   return {
+    label,
     data: line,
     showLine: true,
     pointRadius: 0,
@@ -61,31 +64,30 @@ function curve(line) {
 
 function growthSets(run) {
   const line = pointsOf(run.cycles).map(({x, y}) => ({x: 1e3 * x, y}));
-  if (!line.length || !(run.onset > 0)) return [curve(line)];
-  return [
-    curve(line), guide({x: line[0].x, y: run.onset}, {x: line[line.length - 1].x, y: run.onset})
-  ];
+  const motion = curve("largest kinetic energy of each cycle", line);
+  if (!line.length || !(run.onset > 0)) return [motion];
+  const [from, to] = [line[0], line[line.length - 1]].map(({x}) => ({x, y: run.onset}));
+  return [motion, guide("first node separates or sticks", from, to)];
 }
 
 function spectrumSets(run) {
-  const line =
-      pointsOf(Object.values(run.spectrum)[regime.line] || []).map(({x, y}) => ({x: x / 1e3, y}));
-  if (!line.length || !run.flutter) return [curve(line)];
+  const [title, values] = Object.entries(run.spectrum)[regime.line] || ["", []];
+  const line = pointsOf(values).map(({x, y}) => ({x: x / 1e3, y}));
+  const spectrum = curve(title, line);
+  if (!line.length || !run.flutter) return [spectrum];
   const heights = line.map(({y}) => y), at = run.flutter / 1e3;
-  return [
-    curve(line),
-    guide(
-        {x: at, y: heights.reduce((a, b) => Math.min(a, b))},
-        {x: at, y: heights.reduce((a, b) => Math.max(a, b))})
-  ];
+  const [low, high] = [Math.min, Math.max].map((end) => heights.reduce((a, b) => end(a, b)));
+  return [spectrum, guide("flutter mode", {x: at, y: low}, {x: at, y: high})];
 }
 
 function nodeSets(run) {
   if (!run.nodes) return [];
   const {title, unit, values} = run.nodes.fields[regime.field];
   const most = values.reduce((a, b) => Math.max(a, b), 0) || 1;
-  element("nodescale").textContent = `dark: 0, bright: ${digits(most, 3)} ${unit}`;
+  const scale = `dark: 0, bright: ${digits(most, 3)} ${unit}`;
+  element("nodescale").textContent = scale;
   return [{
+    label: `${title}, ${scale}`,
     data: run.nodes.places.map(
         ([x, y], i) => ({x, y, text: `${title} ${digits(values[i], 4)} ${unit}`})),
     pointRadius: 5,
@@ -103,6 +105,7 @@ function periodicSets(run) {
                         `${digits(frequency, 6)} Hz`, stable ? "stable" : "unstable"]
                            .join(", ");
   return [{
+    label: "periodic motion, filled: stable",
     data: run.periodic.map((motion) => ({x: motion[0], y: motion[1], text: text(motion)})),
     pointRadius: 5,
     borderColor: colour,

@@ -8,6 +8,9 @@ function setScheme(dark) {
   element("scheme").textContent = dark ? "Light" : "Dark";
   drawCharts();
   drawRegime();
+  drawStability();
+  colourBars();
+  drawMaps();
   if (view.bodies) outlines();
 }
 
@@ -21,6 +24,9 @@ function firstRow() {
 async function begin() {
   element("main").hidden = false;
   makeCharts();
+  makeStability();
+  makeShares();
+  makeChanges();
   makeLines();
   makeTable();
   makeRegime();
@@ -29,8 +35,9 @@ async function begin() {
     setScheme(!document.documentElement.classList.contains("dark"));
   });
   setScheme(matchMedia("(prefers-color-scheme: dark)").matches);
+  await makeMaps();
   await makeView();
-  if (rows.length) select(firstRow());
+  if (rows.length) await select(firstRow());
   document.documentElement.dataset.ready = "yes";
 }
 

@@ -120,10 +120,6 @@ function makeInfluences() {
       "Which interface feeds a mode: growth by its friction", data.frictionWork,
       ["point", "mode", "frequency_hz", "interface"], "friction_work_1_per_s",
       ["point", "mode", "frequency Hz", "interface", "growth 1/s"]);
-  bars(
-      "Sensitivities: derivatives of the growth rate", data.sensitivities,
-      ["point", "mode", "frequency_hz", "parameter"], "growth_rate_derivative_1_per_s",
-      ["point", "mode", "frequency Hz", "parameter", "1/s per unit"]);
 }
 
 function makeForces() {

@@ -2,13 +2,17 @@
 "use strict";
 // The selected eigenvalue, and the line of the sweep that is shown.
 
+/** Selects an eigenvalue; done when its shape and its maps are drawn. */
 function select(row) {
   state.selected = row;
   element("chosen").textContent = wordsOf(row).replaceAll("\n", " · ");
   if (lineOf(eigen, row) !== state.line) chooseLine(lineOf(eigen, row));
   drawCharts();
+  drawStability();
   markRow();
-  showShape();
+  showShares();
+  showChanges();
+  return Promise.all([showMaps(), showShape()]);
 }
 
 /** The next mode of the same point, above (1) or below (-1); undefined at the end. */
@@ -53,6 +57,7 @@ function chooseLine(line) {
   for (const button of element("line").querySelectorAll("button"))
     button.setAttribute("aria-pressed", String(button.dataset.line === line));
   drawCharts();
+  drawStability();
 }
 
 /** The swept parameters of a line besides the one across. */

@@ -9,6 +9,7 @@ const view = {
   parts: null,
   asked: 0,
   last: 0,
+  held: false,  // nothing is drawn for the time being
 };
 
 /** The bytes that the file holds under a name. */
@@ -70,7 +71,7 @@ async function fillView(skin) {
   makeRenderer();
   makeScene();
   view.bodies = skin.bodies.map((body) => bodyOf(body, triangles, edges));
-  skin.bodies.forEach(makeBodyBox);
+  makeBodies();
   element("point").max = Math.max(0, skin.steady.length - 1);
   listenToControls();
   play(view.playing);
@@ -129,17 +130,6 @@ function bodyOf(body, triangles, edges) {
   return {mesh, outline};
 }
 
-/** Makes the box that shows or hides a body. */
-function makeBodyBox(body, k) {
-  const label = make("label"), box = make("input", {type: "checkbox", checked: true});
-  box.addEventListener("change", () => {
-    view.bodies[k].mesh.visible = box.checked;
-    outlines();
-  });
-  label.append(box, ` ${body.name}`);
-  element("bodies").append(label, " ");
-}
-
 function listenToControls() {
   element("point").addEventListener("input", colour);
   element("field").addEventListener("change", colour);
@@ -164,6 +154,7 @@ function fit() {
 }
 
 function render() {
+  if (view.held) return;
   view.scene.background = new THREE.Color(css("--paper"));
   view.renderer.render(view.scene, view.camera);
 }
@@ -212,19 +203,26 @@ function move() {
   render();
 }
 
+/** The stored shape of a mode; undefined if there is none. */
+function shapeOf(row) {
+  return data.shapes.find((one) => one.mode === eigen.mode[row] && isPointOf(one.at, row));
+}
+
 /** Fills the view with the shape of the selected mode, or reports that it was not kept. */
 async function showShape() {
   if (!view.bodies) return;
   const asked = ++view.asked, row = state.selected;
-  const shape = data.shapes.find((one) => one.mode === eigen.mode[row] && isPointOf(one.at, row));
+  const shape = shapeOf(row);
   const parts = shape ? new Int8Array(await bytes(shape.blob)) : null;
   const work = shape && shape.work ? new Float32Array(await bytes(shape.work)) : null;
   if (asked !== view.asked || !view.bodies) return;  // another mode has been chosen meanwhile
   Object.assign(view, {parts, work});
   element("canvas").dataset.mode = shape ? shape.blob : "";
   if (!shape) element("chosen").textContent += " · its shape was not kept (-flutter_shapes)";
+  view.held = true;  // one picture instead of three
   listFields();
   colour();
-  outlines();
+  showBodies();
+  view.held = false;
   move();
 }

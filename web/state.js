@@ -61,6 +61,9 @@ function isPointOf(values, row) {
   return data.parameters.every((name, k) => values[k] === eigen[name][row]);
 }
 
+/** The name of the shape of a mode, if it has one. */
+const nameOfShape = (i) => (eigen.name && eigen.name[i]) || "";
+
 /** An eigenvalue in words, one line for each property. */
 function wordsOf(i) {
   const damping = eigen.damping_ratio[i];
@@ -68,6 +71,7 @@ function wordsOf(i) {
   return [
     `mode ${eigen.mode[i]} at ${nameOfPoint(eigen, i)}`,
     `${digits(eigen.frequency_hz[i], 8)} Hz`,
+    ...(nameOfShape(i) ? [nameOfShape(i)] : []),
     `growth ${digits(eigen.growth_rate_1_per_s[i], 6)} 1/s`,
     `damping ${damping === null ? "unknown" : `${digits(100 * damping, 4)} %`}`,
     `error |δs|/|s| ${error === null ? "unknown" : error.toExponential(1)}`,
@@ -81,6 +85,12 @@ function errorOf(critical, i) {
   const words = error === null ? "?" : error.toExponential(1);
   if (!critical.converged || critical.converged[i]) return words;
   return `${words}, not solved for: between points of the sweep`;
+}
+
+/** A round step that divides a length into about n parts. */
+function roundStep(length, n) {
+  const raw = length / n, power = 10 ** Math.floor(Math.log10(raw));
+  return power * [1, 2, 5, 10].find((factor) => factor * power >= raw);
 }
 
 /** One of the 32 colours, for a share between 0 and 1. */

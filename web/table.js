@@ -13,7 +13,9 @@ const columns = [
   ["damping_ratio", "damping %", percent],
   ["error_estimate", "error |δs|/|s|", exponential],
   ["verdict", "verdict", String],
+  ["name", "shape", (v) => v ?? ""],
 ].filter(([name]) => eigen[name]);
+const isWord = (name) => name === "verdict" || name === "name";
 const mostRows = 2000;
 let listed = [];
 
@@ -45,7 +47,7 @@ function sortBy(name) {
 
 function headCell(name, title) {
   const chosen = state.sort === name;
-  const cell = make("th", {className: name === "verdict" ? "word" : ""});
+  const cell = make("th", {className: isWord(name) ? "word" : ""});
   const button = make("button", {type: "button", textContent: title});
   if (chosen) button.textContent += state.down ? " ▼" : " ▲";
   button.addEventListener("click", () => sortBy(name));
@@ -61,7 +63,7 @@ function addRow(body, i) {
   for (const [name, , text] of columns) {
     const cell = row.insertCell();
     cell.textContent = text(eigen[name][i]);
-    if (name === "verdict") cell.className = "word";
+    if (isWord(name)) cell.className = "word";
   }
 }
 
@@ -92,10 +94,7 @@ function download() {
   const keys = Object.keys(eigen).filter((name) => name !== "grows");
   const body = listed.map((i) => keys.map((name) => eigen[name][i] ?? "").join(","));
   const text = [keys.join(","), ...body, ""].join("\n");
-  const link = make("a", {download: "eigenvalues.csv"});
-  link.href = URL.createObjectURL(new Blob([text], {type: "text/csv"}));
-  link.click();
-  URL.revokeObjectURL(link.href);
+  offer("eigenvalues.csv", new Blob([text], {type: "text/csv"}));
 }
 
 function makeTable() {

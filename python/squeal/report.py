@@ -7,18 +7,18 @@ import math
 import os
 import re
 import sys
-import zlib
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 
 from squeal import regime
-from squeal.files import ResultsError, open_regular
+from squeal.files import open_regular
 from squeal.folder import Folder
 from squeal.keys import PARAMETERS
 from squeal.results import Results
-from squeal.skin import Skin
+from squeal.shapes import add_shapes
+from squeal.verdict import certificate, verdict
 
 WEB = Path(__file__).resolve().parents[2] / "web"
 # Debian's packages libjs-three and libjs-chart.js: program, controls of the view, licences.
@@ -39,17 +39,26 @@ SCRIPTS = {
 # Of web/, in the order in which the browser runs them: the last one starts the report.
 OWN_SCRIPTS = (
     "state",
+    "svg",
+    "figures",
     "plots",
+    "stability",
+    "bars",
+    "shares",
+    "changes",
+    "linings",
     "selection",
     "table",
     "shape",
+    "bodies",
     "fields",
     "regime",
     "sections",
+    "print",
     "report",
 )
-MOST_BYTES = 22_000_000  # of the skin, fields and shapes in the file
-SMALL = 1e-300
+# Columns that are in the table of the eigenvalues.
+REPEATED = ("growth_rate_1_per_s", "frequency_hz")
 
 
 def build(results):
@@ -125,11 +134,7 @@ def _after_flutter(results):
     return "".join(f"<p>{html.escape(line)}</p>" for line in regime.sentences(results))
 
 
-def _blob(array):
-    return base64.b64encode(zlib.compress(np.ascontiguousarray(array).tobytes(), 9)).decode()
-
-
-def _columns(table):
+def _columns(table, without=()):
     """Returns a table as lists by column, without the numbers that JSON lacks."""
     if table is None:
         return None
@@ -139,7 +144,7 @@ def _columns(table):
             for value in column.tolist()
         ]
         for name, column in table.items()
-        if not np.iscomplexobj(column)
+        if name not in without and not np.iscomplexobj(column)
     }
 
 
@@ -162,6 +167,8 @@ def _data(results, with_shapes):
         "critical": _columns(results.critical),
         "frictionWork": _columns(results.friction_work),
         "sensitivities": _columns(results.sensitivities),
+        "components": _columns(results.table("components"), REPEATED),
+        "participation": _columns(results.table("participation"), REPEATED),
         "steady": _steady_forces(summary),
         "regimes": regime.diagrams(results),
         "stages": {
@@ -180,6 +187,7 @@ def _data(results, with_shapes):
             for colour in matplotlib.colormaps["viridis"](np.linspace(0, 1, 32))
         ],
         "shapes": [],
+        "linings": [],
         "skin": None,
         "left": [],
     }
@@ -191,7 +199,7 @@ def _data(results, with_shapes):
             f" in the reports of each: {folders}."
         )
     elif with_shapes and results.mesh is not None and len(kept):
-        _add_shapes(results, kept, data, blobs)
+        add_shapes(results, kept, data, blobs)
     elif with_shapes and results.mesh is None:
         data["left"].append("Matrices from files have no mesh, so that no shapes are shown.")
     elif with_shapes:
@@ -220,206 +228,10 @@ def _steady_forces(summary):
     return rows
 
 
-def verdict(results):
-    """Returns one sentence on the stability of the sweep, by the program, or for a merge by its
-    tables."""
-    given = results.summary.get("verdict")
-    return given["sentence"] if given else _verdict_of_merge(results)
-
-
 def _notes(results):
     """Returns the remark of the user (-report_note) as a sentence, if there is one."""
     note = results.summary.get("options", {}).get("report_note", "none")
     return [] if note == "none" else [f"Note: {note.rstrip('.')}."]
-
-
-def _verdict_of_merge(results):
-    table, points, critical = results.eigenvalues, results.stability_map, results.critical
-    grows = table[table["grows"]]
-    if len(points) == 0:
-        return "No point of the sweep has a steady sliding state."
-    where = (
-        "at all points of the sweep"
-        if len(points) > 1
-        else f"at friction {points['friction'].iloc[0]:g}"
-    )
-    undecided = int((table["verdict"] == "undecided").sum())
-    if results.summary.get("complete") is False:
-        solved = int(points["unstable_modes"].notna().sum())
-        found = (
-            "all of them are stable"
-            if grows.empty
-            else (
-                "the lowest friction among them with an unstable mode is"
-                f" {grows['friction'].min():g}"
-            )
-        )
-        return (
-            f"The run was stopped before its end: {solved} of {len(points)} points are solved, and"
-            f" {found}."
-        )
-    if grows.empty:
-        rest = f"; {undecided} eigenvalues are undecided" if undecided else ""
-        return (
-            f"Stable {where}{rest}."
-            if len(table)
-            else f"No eigenvalue was found in the band {where}."
-        )
-    worst = grows.loc[grows["growth_rate_1_per_s"].idxmax()]
-    begins = None
-    if critical is not None and len(critical) and len(results.swept()) <= 1:
-        lost = critical[(critical["direction"] == "loss") & (critical["converged"] == 1)][
-            "friction"
-        ]
-        below = points[points["unstable_modes"] > 0]["friction"].min()
-        if len(lost) and lost.min() <= below:
-            begins = (
-                f"Stable up to friction {lost.min():.6g}"
-                if lost.min() > 0
-                else "Unstable as soon as there is friction"
-            )
-    if begins is None:
-        first = points[points["unstable_modes"] > 0]["friction"].min()
-        begins = (
-            f"Unstable from friction {first:g} on"
-            if first > points["friction"].min()
-            else f"Unstable at friction {first:g} already"
-        )
-    most = int(points["unstable_modes"].max())
-    others = "".join(
-        f", {name} {worst[name]:g}" for name in PARAMETERS[1:] if name in results.swept()
-    )
-    return (
-        f"{begins}; above it, up to {most} unstable mode{'s' if most > 1 else ''} at once. The"
-        f" fastest grows at {worst['frequency_hz']:.6g} Hz with"
-        f" {worst['growth_rate_1_per_s']:.4g} 1/s (damping {100 * worst['damping_ratio']:.3g} %) at"
-        f" friction {worst['friction']:g}{others}."
-    )
-
-
-def certificate(results):
-    """Returns the grounds of the verdict, in sentences."""
-    table, summary = results.eigenvalues, results.summary
-    certified = int((table["certified"] == 1).sum()) if "certified" in table else 0
-    lines = [
-        f"{certified} of {len(table)} eigenvalues are certified against the full-order problem"
-    ]
-    if "error_estimate" in table and len(table):
-        lines[0] += (
-            f": backward errors up to {table['backward_error'].max():.1e}, estimated errors"
-            f" |δs|/|s| up to {table['error_estimate'].max():.1e}"
-        )
-    lines[0] += "."
-    lines += [
-        followed["statement"][0].upper() + followed["statement"][1:] + "."
-        for active in summary.get("active_sets", [])
-        for followed in active.get("followed", [])
-        if followed.get("statement")
-    ][:3]
-    failed = [
-        point
-        for point in summary.get("frictions", [])
-        if not (point.get("steady") or {"converged": True}).get("converged", True)
-    ]
-    if failed:
-        lines.append(
-            f"{len(failed)} points of the sweep have no steady sliding state: "
-            + ", ".join(f"{p['friction']:g}" for p in failed[:8])
-            + "."
-        )
-    return lines
-
-
-def _add_shapes(results, kept, data, blobs):
-    mesh = results.mesh
-    skin = Skin(mesh)
-    places = np.pad(mesh.coordinates, ((0, 0), (0, 3 - mesh.coordinates.shape[1])))[skin.nodes]
-    low, high = places.min(axis=0), places.max(axis=0)
-    size = max((high - low).max(), SMALL)
-    blobs["places"] = _blob(np.round((places - (low + high) / 2) / size * 65534).astype(np.int16))
-    blobs["triangles"] = _blob(skin.triangles.astype(np.uint32))
-    blobs["lines"] = _blob(skin.lines.astype(np.uint32))
-    touching, fields, points = _contact(results, skin)
-    blobs["touching"] = _blob(np.flatnonzero(touching).astype(np.uint32))
-    blobs["steady"] = _blob(fields.astype(np.float32))
-    every = len(points)
-    while len(blobs["steady"]) > MOST_BYTES // 4 and len(points) > 1:
-        fields, points = fields[::2], points[::2]
-        blobs["steady"] = _blob(fields.astype(np.float32))
-    if len(points) < every:
-        data["left"].append(
-            f"Contact fields are shown at {len(points)} of the {every} points of the sweep: the"
-            " file would be too large."
-        )
-    data["skin"] = {
-        "nodes": len(skin.nodes),
-        "size": size,
-        "bodies": skin.bodies,
-        "touching": int(touching.sum()),
-        "steady": points,
-    }
-    total = sum(len(text) for text in blobs.values())
-    order = kept.sort_values("growth_rate_1_per_s", ascending=False)
-    for row in order.itertuples():
-        mode = results.mode(int(row.mode), **{name: getattr(row, name) for name in PARAMETERS})
-        shape = np.pad(mode.shape, ((0, 0), (0, 3 - mode.shape.shape[1])))
-        largest = max(np.abs(np.concatenate([shape.real, shape.imag])).max(), SMALL)
-        parts = np.concatenate([shape.real[skin.nodes], shape.imag[skin.nodes]], axis=1) / largest
-        text = _blob(np.round(127 * parts).astype(np.int8))
-        worked = mode.friction_work is not None and touching.any()
-        work = (
-            _blob(mode.friction_work[skin.nodes[touching], 1].astype(np.float32)) if worked else ""
-        )
-        total += len(text) + len(work)
-        if total > MOST_BYTES:
-            data["left"].append(
-                f"The shapes of {len(order) - len(data['shapes'])} slower growing modes were left"
-                " out: the file would be too large."
-            )
-            break
-        name = f"shape{len(data['shapes'])}"
-        blobs[name] = text
-        entry = {
-            "blob": name,
-            "mode": int(row.mode),
-            "at": [float(getattr(row, key)) for key in PARAMETERS],
-            "work": None,
-        }
-        if work:
-            blobs[name + "work"] = work
-            entry["work"] = name + "work"
-        data["shapes"].append(entry)
-    if skin.detail:
-        data["left"].append(
-            f"The surface has {skin.whole} triangles and is drawn with {len(skin.triangles)}, on"
-            f" {len(skin.nodes)} of its nodes: details below {skin.detail:.2g} m are not seen."
-        )
-    if skin.unseen:
-        data["left"].append(f"Bodies that are smaller are not drawn: {', '.join(skin.unseen)}.")
-    if any(kind in (9, 10, 11, 12, 13, 14, 16, 17, 18, 19) for kind in mesh.cells):
-        data["left"].append("Nodes amid the edges of cells are not drawn.")
-    data["left"].append(
-        "Shapes are drawn to 1/127 of their largest displacement, places to 1/65534 of the size of"
-        " the brake."
-    )
-
-
-def _contact(results, skin):
-    """Returns which nodes of the skin are contact nodes, pressure and gap as [point, 2, contact
-    node], and the parameters of the points."""
-    touching, fields, points = np.zeros(len(skin.nodes), bool), [], []
-    for at in results.points.to_dict("records"):
-        try:
-            field = results.fields(**at).get("contact_pressure_gap")
-        except ResultsError:  # a point without steady sliding
-            continue
-        if field is not None and field.shape[1] >= 2:
-            touching |= np.any(field[skin.nodes] != 0, axis=1)
-            fields.append(field[skin.nodes, :2])  # not the whole field: there may be many points
-            points.append([at[name] for name in PARAMETERS])
-    if not fields:
-        return touching, np.zeros((0, 2, 0)), []
-    return touching, np.stack([field[touching].T for field in fields]), points
 
 
 HELP = """squeal-report DIR: writes report.html into the folder of results DIR.

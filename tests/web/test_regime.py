@@ -159,6 +159,17 @@ class AfterFlutter(unittest.TestCase):
             self.assertEqual(colours[values.index(max(values))], brightest)
         self.assertIn("W", self.element("nodescale").text)
 
+    def test_diagrams_are_saved_with_their_legends(self):
+        for name, legend in (
+            ("cycles", "first node separates or sticks"),
+            ("spectrum", "flutter mode"),
+            ("nodes", "dark: 0, bright:"),
+            ("periodic", "periodic motion, filled: stable"),
+        ):
+            text = self.driver.execute_script("return figures[arguments[0]].svg()", name)
+            self.assertIn(legend, text)
+            self.assertGreater(text.count("<path"), 20, name)
+
     def test_works_offline_in_both_schemes(self):
         frames = []
         for dark in (False, True):

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Made tables of shares and participation for the stored modes of a run."""
+import numpy as np
+
+from changed_tables import reshape
+from squeal.keys import PARAMETERS
+from squeal.schema import MODE, POINT, Table, numbers, whole, word
+
+COLUMNS = (
+    "damping_1_per_s follower_1_per_s friction_damping_1_per_s law_slope_1_per_s"
+    " convective_1_per_s gyroscopic_1_per_s"
+).split()
+HEAD = [*PARAMETERS, "mode", "growth_rate_1_per_s", "frequency_hz"]
+
+FIRST = (*POINT, *MODE, *numbers("frequency_hz"))
+SCHEMA = {
+    "components": Table(
+        (
+            *FIRST,
+            word("kind"),
+            word("component"),
+            *numbers("strain_share kinetic_share"),
+            *numbers(" ".join(COLUMNS)),
+        )
+    ),
+    "participation": Table(
+        (
+            *FIRST,
+            whole("free_mode"),
+            *numbers("free_frequency_hz", empty=True),
+            *numbers("energy_share"),
+            *numbers("mac", empty=True),
+        )
+    ),
+}
+
+
+def write(folder, results, names):
+    """Writes both tables, in place of those of the run: `names` lists (kind, component)."""
+    reshape(folder, without=SCHEMA)
+    kept = results.kept_modes()
+    random = np.random.default_rng(1)
+    components, participation = [], []
+    for row in kept.itertuples():
+        head = [getattr(row, name) for name in PARAMETERS]
+        head += [int(row.mode), row.growth_rate_1_per_s, row.frequency_hz]
+        strain, kinetic = random.dirichlet(np.full(len(names), 0.4), 2)
+        parts = _contributions(random, names, row.growth_rate_1_per_s)
+        for k, (kind, name) in enumerate(names):
+            components.append([*head, kind, name, strain[k], kinetic[k], *parts[k]])
+        shares = np.sort(random.dirichlet(np.full(13, 0.5)))[::-1]
+        for k, share in enumerate(shares):
+            free = 0 if k == 12 else 20 + k
+            frequency = "" if k == 12 else row.frequency_hz + 10 * k
+            participation.append([*head, free, frequency, share, share**2])
+    _save(
+        folder / "components.csv",
+        [*HEAD, "kind", "component", "strain_share", "kinetic_share", *COLUMNS],
+        components,
+    )
+    _save(
+        folder / "participation.csv",
+        [*HEAD, "free_mode", "free_frequency_hz", "energy_share", "mac"],
+        participation,
+    )
+
+
+def _contributions(random, names, growth):
+    """Terms of components that add up to the growth rate: bodies damp, interfaces feed."""
+    parts = np.zeros((len(names), len(COLUMNS)))
+    for k, (kind, _) in enumerate(names):
+        if kind == "interface":
+            parts[k, 1:3] = abs(growth) * np.array([1.5, -0.2])
+        else:
+            parts[k, 0] = -abs(growth) * random.uniform(0, 0.1)
+    first = next(k for k, (kind, _) in enumerate(names) if kind == "interface")
+    parts[first, 1] += growth - parts.sum()
+    return parts
+
+
+def _save(path, head, rows):
+    lines = [",".join(map(str, line)) for line in [head, *rows]]
+    path.write_text("\n".join(lines) + "\n")
+
+
+__all__ = ["COLUMNS", "SCHEMA", "write"]
