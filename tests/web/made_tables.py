@@ -4,7 +4,6 @@ import numpy as np
 
 from changed_tables import reshape
 from squeal.keys import PARAMETERS
-from squeal.schema import MODE, POINT, Table, numbers, whole, word
 
 COLUMNS = (
     "damping_1_per_s follower_1_per_s friction_damping_1_per_s law_slope_1_per_s"
@@ -12,32 +11,13 @@ COLUMNS = (
 ).split()
 HEAD = [*PARAMETERS, "mode", "growth_rate_1_per_s", "frequency_hz"]
 
-FIRST = (*POINT, *MODE, *numbers("frequency_hz"))
-SCHEMA = {
-    "components": Table(
-        (
-            *FIRST,
-            word("kind"),
-            word("component"),
-            *numbers("strain_share kinetic_share"),
-            *numbers(" ".join(COLUMNS)),
-        )
-    ),
-    "participation": Table(
-        (
-            *FIRST,
-            whole("free_mode"),
-            *numbers("free_frequency_hz", empty=True),
-            *numbers("energy_share"),
-            *numbers("mac", empty=True),
-        )
-    ),
-}
+SHARES = ["strain_share", "kinetic_share", "motion", "motion_share"]
+PHASOR = ["amplitude", "phase_deg"]
+TABLES = ("components", "participation")
 
 
 def write(folder, results, names):
     """Writes both tables, in place of those of the run: `names` lists (kind, component)."""
-    reshape(folder, without=SCHEMA)
     kept = results.kept_modes()
     random = np.random.default_rng(1)
     components, participation = [], []
@@ -47,22 +27,25 @@ def write(folder, results, names):
         strain, kinetic = random.dirichlet(np.full(len(names), 0.4), 2)
         parts = _contributions(random, names, row.growth_rate_1_per_s)
         for k, (kind, name) in enumerate(names):
-            components.append([*head, kind, name, strain[k], kinetic[k], *parts[k]])
+            components.append([*head, kind, name, strain[k], kinetic[k], "", "", *parts[k]])
         shares = np.sort(random.dirichlet(np.full(13, 0.5)))[::-1]
         for k, share in enumerate(shares):
             free = 0 if k == 12 else 20 + k
             frequency = "" if k == 12 else row.frequency_hz + 10 * k
-            participation.append([*head, free, frequency, share, share**2])
+            participation.append(
+                [*head, free, frequency, share, share**2, *([0.5, 0] if frequency else ["", ""])]
+            )
     _save(
         folder / "components.csv",
-        [*HEAD, "kind", "component", "strain_share", "kinetic_share", *COLUMNS],
+        [*HEAD, "kind", "component", *SHARES, *COLUMNS],
         components,
     )
     _save(
         folder / "participation.csv",
-        [*HEAD, "free_mode", "free_frequency_hz", "energy_share", "mac"],
+        [*HEAD, "free_mode", "free_frequency_hz", "energy_share", "mac", *PHASOR],
         participation,
     )
+    reshape(folder)
 
 
 def _contributions(random, names, growth):
@@ -83,4 +66,4 @@ def _save(path, head, rows):
     path.write_text("\n".join(lines) + "\n")
 
 
-__all__ = ["COLUMNS", "SCHEMA", "write"]
+__all__ = ["COLUMNS", "TABLES", "write"]
