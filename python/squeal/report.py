@@ -2,10 +2,7 @@
 """The report of a run: one HTML file that opens offline in a browser."""
 import base64
 import html
-import json
-import math
 import os
-import re
 import sys
 import zlib
 from pathlib import Path
@@ -17,10 +14,11 @@ from squeal import regime
 from squeal.files import ResultsError, open_regular
 from squeal.folder import Folder
 from squeal.keys import PARAMETERS
+from squeal.page import WEB, columns, data_text, fill, script_element
 from squeal.results import Results
 from squeal.skin import Skin
+from squeal.verdict import certificate, verdict
 
-WEB = Path(__file__).resolve().parents[2] / "web"
 # Debian's packages libjs-three and libjs-chart.js: program, controls of the view, licences.
 SCRIPTS = {
     "three.js": (
@@ -38,6 +36,7 @@ SCRIPTS = {
 }
 # Of web/, in the order in which the browser runs them: the last one starts the report.
 OWN_SCRIPTS = (
+    "basics",
     "state",
     "plots",
     "selection",
@@ -54,7 +53,6 @@ SMALL = 1e-300
 
 def build(results):
     """Returns the text of the HTML file."""
-    template = (WEB / "report.html").read_text()
     libraries, licences = _libraries()
     data, blobs = _data(results, with_shapes=bool(libraries))
     own = [(WEB / f"{name}.js").read_text() for name in OWN_SCRIPTS] if libraries else []
@@ -63,25 +61,19 @@ def build(results):
         "style": (WEB / "report.css").read_text(),
         "verdict": html.escape(data["verdict"]),
         "certificate": "".join(f"<li>{html.escape(line)}</li>" for line in data["certificate"]),
-        "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        "data": data_text(data),
         "blobs": "\n".join(
             f'<script type="application/octet-stream" id="blob-{name}">{text}</script>'
             for name, text in blobs.items()
         ),
-        "libraries": "\n".join(map(_script_element, libraries)),
-        "scripts": "\n".join(map(_script_element, own)),
+        "libraries": "\n".join(map(script_element, libraries)),
+        "scripts": "\n".join(map(script_element, own)),
         "pictures": _after_flutter(results) + _pictures(results) if not libraries else "",
         "licences": "".join(
             f"<h3>{html.escape(name)}</h3><pre>{html.escape(text)}</pre>" for name, text in licences
         ),
     }
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template)
-
-
-def _script_element(text):
-    """A script element with JavaScript that cannot end it."""
-    safe = text.replace("</", "<\\/").replace("<!--", "<\\!--")
-    return f"<script>\n{safe}</script>"
+    return fill("report.html", parts)
 
 
 def _libraries():
@@ -129,20 +121,6 @@ def _blob(array):
     return base64.b64encode(zlib.compress(np.ascontiguousarray(array).tobytes(), 9)).decode()
 
 
-def _columns(table):
-    """Returns a table as lists by column, without the numbers that JSON lacks."""
-    if table is None:
-        return None
-    return {
-        name: [
-            None if isinstance(value, float) and not math.isfinite(value) else value
-            for value in column.tolist()
-        ]
-        for name, column in table.items()
-        if not np.iscomplexobj(column)
-    }
-
-
 def _data(results, with_shapes):
     summary, eigenvalues = results.summary, results.eigenvalues
     kept = results.kept_modes()
@@ -156,12 +134,12 @@ def _data(results, with_shapes):
         "bandHz": max(
             (point.get("band_top_hz") or 0 for point in summary.get("frictions", [])), default=0
         ),
-        "points": _columns(results.stability_map),
-        "eigenvalues": _columns(eigenvalues),
-        "branches": _columns(results.branches),
-        "critical": _columns(results.critical),
-        "frictionWork": _columns(results.friction_work),
-        "sensitivities": _columns(results.sensitivities),
+        "points": columns(results.stability_map),
+        "eigenvalues": columns(eigenvalues),
+        "branches": columns(results.branches),
+        "critical": columns(results.critical),
+        "frictionWork": columns(results.friction_work),
+        "sensitivities": columns(results.sensitivities),
         "steady": _steady_forces(summary),
         "regimes": regime.diagrams(results),
         "stages": {
@@ -220,114 +198,10 @@ def _steady_forces(summary):
     return rows
 
 
-def verdict(results):
-    """Returns one sentence on the stability of the sweep, by the program, or for a merge by its
-    tables."""
-    given = results.summary.get("verdict")
-    return given["sentence"] if given else _verdict_of_merge(results)
-
-
 def _notes(results):
     """Returns the remark of the user (-report_note) as a sentence, if there is one."""
     note = results.summary.get("options", {}).get("report_note", "none")
     return [] if note == "none" else [f"Note: {note.rstrip('.')}."]
-
-
-def _verdict_of_merge(results):
-    table, points, critical = results.eigenvalues, results.stability_map, results.critical
-    grows = table[table["grows"]]
-    if len(points) == 0:
-        return "No point of the sweep has a steady sliding state."
-    where = (
-        "at all points of the sweep"
-        if len(points) > 1
-        else f"at friction {points['friction'].iloc[0]:g}"
-    )
-    undecided = int((table["verdict"] == "undecided").sum())
-    if results.summary.get("complete") is False:
-        solved = int(points["unstable_modes"].notna().sum())
-        found = (
-            "all of them are stable"
-            if grows.empty
-            else (
-                "the lowest friction among them with an unstable mode is"
-                f" {grows['friction'].min():g}"
-            )
-        )
-        return (
-            f"The run was stopped before its end: {solved} of {len(points)} points are solved, and"
-            f" {found}."
-        )
-    if grows.empty:
-        rest = f"; {undecided} eigenvalues are undecided" if undecided else ""
-        return (
-            f"Stable {where}{rest}."
-            if len(table)
-            else f"No eigenvalue was found in the band {where}."
-        )
-    worst = grows.loc[grows["growth_rate_1_per_s"].idxmax()]
-    begins = None
-    if critical is not None and len(critical) and len(results.swept()) <= 1:
-        lost = critical[(critical["direction"] == "loss") & (critical["converged"] == 1)][
-            "friction"
-        ]
-        below = points[points["unstable_modes"] > 0]["friction"].min()
-        if len(lost) and lost.min() <= below:
-            begins = (
-                f"Stable up to friction {lost.min():.6g}"
-                if lost.min() > 0
-                else "Unstable as soon as there is friction"
-            )
-    if begins is None:
-        first = points[points["unstable_modes"] > 0]["friction"].min()
-        begins = (
-            f"Unstable from friction {first:g} on"
-            if first > points["friction"].min()
-            else f"Unstable at friction {first:g} already"
-        )
-    most = int(points["unstable_modes"].max())
-    others = "".join(
-        f", {name} {worst[name]:g}" for name in PARAMETERS[1:] if name in results.swept()
-    )
-    return (
-        f"{begins}; above it, up to {most} unstable mode{'s' if most > 1 else ''} at once. The"
-        f" fastest grows at {worst['frequency_hz']:.6g} Hz with"
-        f" {worst['growth_rate_1_per_s']:.4g} 1/s (damping {100 * worst['damping_ratio']:.3g} %) at"
-        f" friction {worst['friction']:g}{others}."
-    )
-
-
-def certificate(results):
-    """Returns the grounds of the verdict, in sentences."""
-    table, summary = results.eigenvalues, results.summary
-    certified = int((table["certified"] == 1).sum()) if "certified" in table else 0
-    lines = [
-        f"{certified} of {len(table)} eigenvalues are certified against the full-order problem"
-    ]
-    if "error_estimate" in table and len(table):
-        lines[0] += (
-            f": backward errors up to {table['backward_error'].max():.1e}, estimated errors"
-            f" |δs|/|s| up to {table['error_estimate'].max():.1e}"
-        )
-    lines[0] += "."
-    lines += [
-        followed["statement"][0].upper() + followed["statement"][1:] + "."
-        for active in summary.get("active_sets", [])
-        for followed in active.get("followed", [])
-        if followed.get("statement")
-    ][:3]
-    failed = [
-        point
-        for point in summary.get("frictions", [])
-        if not (point.get("steady") or {"converged": True}).get("converged", True)
-    ]
-    if failed:
-        lines.append(
-            f"{len(failed)} points of the sweep have no steady sliding state: "
-            + ", ".join(f"{p['friction']:g}" for p in failed[:8])
-            + "."
-        )
-    return lines
 
 
 def _add_shapes(results, kept, data, blobs):

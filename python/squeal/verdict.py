@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""The verdict of a run or of a merge, and its grounds, in sentences."""
+from squeal.keys import PARAMETERS
+
+
+def verdict(results):
+    """Returns one sentence on the stability of the sweep, by the program, or for a merge by its
+    tables."""
+    given = results.summary.get("verdict")
+    return given["sentence"] if given else _verdict_of_merge(results)
+
+
+def _verdict_of_merge(results):
+    table, points, critical = results.eigenvalues, results.stability_map, results.critical
+    grows = table[table["grows"]]
+    if len(points) == 0:
+        return "No point of the sweep has a steady sliding state."
+    where = (
+        "at all points of the sweep"
+        if len(points) > 1
+        else f"at friction {points['friction'].iloc[0]:g}"
+    )
+    undecided = int((table["verdict"] == "undecided").sum())
+    if results.summary.get("complete") is False:
+        solved = int(points["unstable_modes"].notna().sum())
+        found = (
+            "all of them are stable"
+            if grows.empty
+            else (
+                "the lowest friction among them with an unstable mode is"
+                f" {grows['friction'].min():g}"
+            )
+        )
+        return (
+            f"The run was stopped before its end: {solved} of {len(points)} points are solved, and"
+            f" {found}."
+        )
+    if grows.empty:
+        rest = f"; {undecided} eigenvalues are undecided" if undecided else ""
+        return (
+            f"Stable {where}{rest}."
+            if len(table)
+            else f"No eigenvalue was found in the band {where}."
+        )
+    worst = grows.loc[grows["growth_rate_1_per_s"].idxmax()]
+    begins = None
+    if critical is not None and len(critical) and len(results.swept()) <= 1:
+        lost = critical[(critical["direction"] == "loss") & (critical["converged"] == 1)][
+            "friction"
+        ]
+        below = points[points["unstable_modes"] > 0]["friction"].min()
+        if len(lost) and lost.min() <= below:
+            begins = (
+                f"Stable up to friction {lost.min():.6g}"
+                if lost.min() > 0
+                else "Unstable as soon as there is friction"
+            )
+    if begins is None:
+        first = points[points["unstable_modes"] > 0]["friction"].min()
+        begins = (
+            f"Unstable from friction {first:g} on"
+            if first > points["friction"].min()
+            else f"Unstable at friction {first:g} already"
+        )
+    most = int(points["unstable_modes"].max())
+    others = "".join(
+        f", {name} {worst[name]:g}" for name in PARAMETERS[1:] if name in results.swept()
+    )
+    return (
+        f"{begins}; above it, up to {most} unstable mode{'s' if most > 1 else ''} at once. The"
+        f" fastest grows at {worst['frequency_hz']:.6g} Hz with"
+        f" {worst['growth_rate_1_per_s']:.4g} 1/s (damping {100 * worst['damping_ratio']:.3g} %) at"
+        f" friction {worst['friction']:g}{others}."
+    )
+
+
+def certificate(results):
+    """Returns the grounds of the verdict, in sentences."""
+    table, summary = results.eigenvalues, results.summary
+    certified = int((table["certified"] == 1).sum()) if "certified" in table else 0
+    lines = [
+        f"{certified} of {len(table)} eigenvalues are certified against the full-order problem"
+    ]
+    if "error_estimate" in table and len(table):
+        lines[0] += (
+            f": backward errors up to {table['backward_error'].max():.1e}, estimated errors"
+            f" |δs|/|s| up to {table['error_estimate'].max():.1e}"
+        )
+    lines[0] += "."
+    lines += [
+        followed["statement"][0].upper() + followed["statement"][1:] + "."
+        for active in summary.get("active_sets", [])
+        for followed in active.get("followed", [])
+        if followed.get("statement")
+    ][:3]
+    failed = [
+        point
+        for point in summary.get("frictions", [])
+        if not (point.get("steady") or {"converged": True}).get("converged", True)
+    ]
+    if failed:
+        lines.append(
+            f"{len(failed)} points of the sweep have no steady sliding state: "
+            + ", ".join(f"{p['friction']:g}" for p in failed[:8])
+            + "."
+        )
+    return lines
+
+
+__all__ = ["certificate", "verdict"]
