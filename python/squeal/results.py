@@ -182,6 +182,48 @@ class Results:
             values = {name: float(group.attrs[name]) for name in PARAMETERS}
         return Mode(self, values, number, complex(growth, angular), shape, work)
 
+    def shapes(self, **at):
+        """Returns the stored shapes of the complex modes of a point, by number."""
+        with self._fields() as file:
+            group = self._group(file, "flutter", at) or {}
+            numbers = sorted(int(name.split("_")[1]) for name in group if name.endswith("_real"))
+            return {
+                number: group[f"mode_{number:03d}_real"][()]
+                + 1j * group[f"mode_{number:03d}_imaginary"][()]
+                for number in numbers
+            }
+
+    def free_shapes(self):
+        """Returns the stored shapes of the free modes of the first active set, by number."""
+        with self._fields() as file:
+            group = file["modes/active_set_1"] if "modes/active_set_1" in file else {}
+            return {
+                int(name.split("_")[1]): group[name][()]
+                for name in sorted(group)
+                if name.startswith("mode_")
+            }
+
+    def has_shapes(self):
+        """Returns whether the folder holds shapes of modes: not a merge, nor a run with
+        -report_fields off."""
+        return not self.parts and self.summary.get("options", {}).get("report_fields") != "off"
+
+    def mac(self, other, kind="complex", **at):
+        """Returns the MAC of the stored complex modes of a point, or with kind="free" of the free
+        modes, with those of another run on the same mesh: a row for each mode, a column for each
+        mode of the other run."""
+        from squeal.pairs import mac_table
+
+        return mac_table(self, other, kind, at)
+
+    def compare(self, other):
+        """Returns the free modes and the complex modes at all common points with their partners in
+        another run and the changes of frequency and growth. A mode without partner has empty
+        cells."""
+        from squeal.pairs import compare
+
+        return compare(self, other)
+
     def fastest_mode(self, **at):
         """Returns the fastest growing mode whose shape was stored, of the points with these
         values of parameters; None if there is none."""
@@ -221,6 +263,7 @@ class Results:
                 group["coordinates"][()],
                 cells,
                 (names.decode() if isinstance(names, bytes) else str(names)).split(","),
+                group["node_tag"][:, 0],
             )
 
     def grid(self):
@@ -270,12 +313,14 @@ class Results:
     def _point(self, at):
         """Returns the name of a point in names of files, by the rule of the program: friction,
         and other parameters that are not 1."""
-        values = self._only_point(at)
+        values = self.only_point(at)
         return f"{values['friction']:g}" + "".join(
             f"_{name}_{values[name]:g}" for name in PARAMETERS[1:] if values[name] != 1
         )
 
-    def _only_point(self, at):
+    def only_point(self, at):
+        """Returns the parameters of the only point with some values. Raises ResultsError if there
+        is none, or more than one."""
         found = _rows(self.points, at)
         if len(found) != 1:
             raise ResultsError(
@@ -285,7 +330,7 @@ class Results:
         return found.iloc[0]
 
     def _group(self, file, kind, at):
-        values = self._only_point(at)
+        values = self.only_point(at)
         for group in file.get(kind, {}).values():
             if all(
                 np.isclose(group.attrs[name], values[name], rtol=1e-12, atol=0)
@@ -303,6 +348,7 @@ class Mesh:
     # By gmsh's element type: `nodes` [cell, node of the cell], `body` and `tag` [cell, 1].
     cells: dict
     bodies: list  # their names
+    tags: np.ndarray = None  # of the nodes in the mesh file
 
 
 @dataclasses.dataclass
