@@ -5,6 +5,7 @@ import html
 import os
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from squeal.files import ResultsError, is_there, read_text
@@ -12,6 +13,7 @@ from squeal.folder import Folder
 from squeal.keys import PARAMETERS, key_of
 from squeal.page import WEB, columns, data_text, fill, plain, script_element
 from squeal.pairs import common_tops, compare
+from squeal.parts import SAME_NUMBER
 from squeal.variants import (
     CRITERIA,
     notes_of,
@@ -140,9 +142,16 @@ def _results(variants):
     for name, values in results_table(variants).iterrows():
         first, *rest = map(plain, values)
         known = first is not None and not name.startswith("estimated error")
-        changes = [value - first if known and value is not None else None for value in rest]
+        changes = [
+            _change(value - first, value) if known and value is not None else None for value in rest
+        ]
         rows.append([name, [first, *rest], [None, *changes]])
     return rows
+
+
+def _change(change, size):
+    """Returns a change, or 0 if it is below the round-off of a value of that size."""
+    return 0.0 if abs(change) <= SAME_NUMBER * abs(size) else change
 
 
 def matched_modes(variants, tops):
@@ -185,6 +194,10 @@ def _cell(row, prefix, names):
         return None
     cell = {name: row[prefix + name if name in CELLS else name] for name in names}
     cell["mode"] = int(cell["mode"])
+    size = np.hypot(2 * np.pi * cell["frequency_hz"], np.nan_to_num(cell["growth_rate_1_per_s"]))
+    for name, unit in (("frequency_change_hz", 2 * np.pi), ("growth_change_1_per_s", 1)):
+        if name in cell:
+            cell[name] = _change(cell[name], size / unit)
     return {name: plain(value) for name, value in cell.items()}
 
 

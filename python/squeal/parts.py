@@ -248,6 +248,7 @@ def _words(point):
 
 
 __all__ = [
+    "SAME_NUMBER",
     "SWEPT",
     "TABLES",
     "differs",

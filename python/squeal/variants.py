@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Variants of one brake: their common points and band, what differs, and which is quietest."""
+import os
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from squeal.keys import PARAMETERS, key_of, words_of
 from squeal.mac import shared_rows
 from squeal.matching import unstable
 from squeal.pairs import common_tops, tops_of
-from squeal.parts import differs, recipe_of
+from squeal.parts import SAME_NUMBER, differs, recipe_of
 from squeal.results import Results
 
 DOUBTS = ("undecided", "uncertified")
@@ -20,7 +21,6 @@ CRITERIA = {
     "number of unstable modes": False,
     "critical friction": True,
 }
-MOST_NAMED = 8  # points in one sentence
 KNOWN = 1e-5  # relative; a larger error of a critical friction is shown as a range
 
 
@@ -38,6 +38,8 @@ class Variant:
             self.given = set(self.options)
         else:
             self.given, self.options = recipe_of(self.folder / "options.txt")
+        if "mesh_file" in self.options:  # a merge keeps the path as the case has it
+            self.options["mesh_file"] = os.path.normpath(self.options["mesh_file"])
         self.tops = tops_of(self.results)
 
     def within(self, tops):
@@ -101,12 +103,12 @@ def notes_of(variants):
     notes += _bands(variants, tops)
     for variant in variants[1:]:
         shared = shared_rows(first.results, variant.results, [first.name, variant.name])
-        both = f"{first.name} and {variant.name}"
+        both = f"Modes of {first.name} and {variant.name}"
         notes.append(
-            f"{shared[0].upper()}{shared[1:]}: their modes are matched by frequency."
+            f"{both} are matched by frequency: {shared}."
             if isinstance(shared, str)
-            else f"Modes of {both} with stored shapes are matched by the MAC {shared.words}, other"
-            " modes by frequency."
+            else f"{both} with stored shapes are matched by the MAC {shared.words}, other modes by"
+            " frequency."
         )
     for name, words in (("case", "cases"), ("version", "versions of the program")):
         values = [str(variant.results.summary.get(name, "unknown")) for variant in variants]
@@ -122,16 +124,16 @@ def _listed(variant):
 
 
 def words_of_points(points, every):
-    """Returns points in words: the friction, and the parameters that vary among `every` point."""
-    shown = [
-        place for place in range(len(PARAMETERS)) if not place or len({p[place] for p in every}) > 1
-    ]
-    words = [
-        words_of({PARAMETERS[place]: point[place] for place in shown})
-        for point in list(points)[:MOST_NAMED]
-    ]
-    rest = len(points) - len(words)
-    return "; ".join(words) + (f"; and {rest} more" if rest > 0 else "")
+    """Returns points in words: their frictions, and the parameters that vary among all points."""
+    shown = [place for place in range(1, len(PARAMETERS)) if len({p[place] for p in every}) > 1]
+    lines = {}
+    for point in points:
+        line = words_of({PARAMETERS[place]: point[place] for place in shown})
+        lines.setdefault(line, []).append(f"{point[0]:g}")
+    return "; ".join(
+        f"friction {', '.join(frictions)}" + (f" at {line}" if line else "")
+        for line, frictions in lines.items()
+    )
 
 
 def _bands(variants, tops):
@@ -145,7 +147,7 @@ def _bands(variants, tops):
         points = [key_of(values) for values in table[list(PARAMETERS)].to_numpy()]
         count = sum(point in tops for point in points) - len(variant.within(tops))
         outside.append(f"{variant.name} {count}")
-    span = f"{min(differ):.6g} Hz" + (f" to {max(differ):.6g} Hz" if len(differ) > 1 else "")
+    span = " to ".join(dict.fromkeys(f"{top:.6g} Hz" for top in (min(differ), max(differ))))
     return [
         f"The bands differ at {len(differ)} of {len(tops)} points; the common band ends there at"
         f" {span}. Eigenvalues above it are not compared: {', '.join(outside)}."
@@ -268,10 +270,10 @@ def _largest_growth(counted):
         return {"value": 0.0, "error": 0.0, "words": "no unstable mode"}
     worst = counted.loc[counted["growth_rate_1_per_s"].idxmax()]
     value, frequency = max(worst["growth_rate_1_per_s"], 0.0), worst["s"].imag / (2 * np.pi)
-    error = worst.get("error_estimate", 0.0) * abs(worst["s"])
+    error = max(np.nan_to_num(worst.get("error_estimate", 0.0)), SAME_NUMBER) * abs(worst["s"])
     return {
         "value": value,
-        "error": error if np.isfinite(error) else 0.0,
+        "error": error,
         "words": f"{value:.6g} 1/s at {frequency:.6g} Hz, friction {worst['friction']:g}",
     }
 

@@ -115,7 +115,7 @@ def write(folder, points, **more):
     ]
     for name, table in tables.items():
         if table:
-            pd.DataFrame(table).to_csv(folder / f"{name}.csv", index=False)
+            pd.DataFrame(table).to_csv(folder / f"{name}.csv", index=False, na_rep="nan")
     summary = {"version": "0.1.0", "case": "bar", "complete": more.get("complete", True)}
     summary |= {"frictions": entries, "options": options}
     summary["verdict"] = {"sentence": "Known."}
@@ -308,6 +308,16 @@ class Variants(unittest.TestCase):
         )
         self.assertEqual(self.ranks(one, other)["largest growth rate"], {"one": 1, "other": 1})
 
+    def test_round_off_is_no_change(self):
+        """Growth rates 1e-13 apart, without an estimate of their errors: a tie, shown as equal."""
+        one, other = (
+            self.write(name, {0.4: [(HZ * 100 + growth, "uncertified")]}, error=np.nan)
+            for name, growth in (("one", 5), ("other", 5 + 1e-13))
+        )
+        self.assertEqual(self.ranks(one, other)["largest growth rate"], {"one": 1, "other": 1})
+        cell = compare.page_data(self.read(one, other))["modes"][-1]["rows"][0][1]
+        self.assertEqual((cell["growth_change_1_per_s"], cell["matched_by"]), (0, "frequency"))
+
     def test_doubt_moves_no_variant_up(self):
         """Undecided modes count as unstable, and uncertified ones that grow by more than
         round-off."""
@@ -347,7 +357,7 @@ class Variants(unittest.TestCase):
             "points of other, which are not compared: friction 0.5.",
             "The bands differ at 1 of 1 points; the common band ends there at 500 Hz.",
             "not compared: one 1, other 0.",
-            "The meshes of one and other differ (12 and 12 nodes): their modes are matched by freq",
+            "Modes of one and other are matched by frequency: the meshes of one and other differ",
         ):
             self.assertIn(text, notes)
         table = variants.results_table(found)
