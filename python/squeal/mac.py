@@ -75,36 +75,50 @@ def shared_rows(one, other, names=None):
             return f"the matrices of {both} differ in size"
         rows = np.arange(count[0])
         return Shared(rows, rows, np.ones(len(rows)), "of their vectors, row by row")
-    rows = _same_nodes(one.mesh, other.mesh)
+    rows = same_nodes(one.mesh, other.mesh)
     if rows is None:
         count = f"{len(one.mesh.coordinates)} and {len(other.mesh.coordinates)} nodes"
         return f"the meshes of {both} differ ({count})"
     words = "of their displacements, weighted with nodal volumes"
     lost = len(one.mesh.coordinates) - len(rows[0])
     if lost:
-        words += f", without {lost} nodes that share tag and place with another one"
+        words += f", without {lost} nodes that share tag, place and body with another one"
     return Shared(*rows, nodal_volumes(one.mesh)[rows[0]], words)
 
 
-def _same_nodes(one, other):
+def same_nodes(one, other):
     """Returns the indices of the nodes of two equal meshes in one order; None if nodes differ.
 
-    The numbering of the nodes depends on the ranks. Nodes on the two sides of a section have one
-    tag and one place; they cannot be distinguished and are left out.
+    The numbering of the nodes depends on the ranks. Nodes of one tag and place, on the two sides of
+    a contact, are distinguished by their bodies. On the two sides of a section of a bolt they
+    cannot be distinguished and are left out.
     """
-    if one.coordinates.shape != other.coordinates.shape or not len(one.coordinates):
+    meshes = (one, other)
+    if one.coordinates.shape != other.coordinates.shape or one.bodies != other.bodies:
         return None
-    size = np.ptp(one.coordinates, axis=0).max()
-    order = [np.lexsort((*mesh.coordinates.T, mesh.tags)) for mesh in (one, other)]
-    tags = [mesh.tags[rows] for mesh, rows in zip((one, other), order)]
-    places = [mesh.coordinates[rows] for mesh, rows in zip((one, other), order)]
-    if not np.array_equal(*tags) or np.abs(places[0] - places[1]).max() > SAME_PLACE * size:
+    bodies = [_bodies_of_nodes(mesh) for mesh in meshes]
+    order = [
+        np.lexsort((body, *mesh.coordinates.T, mesh.tags)) for mesh, body in zip(meshes, bodies)
+    ]
+    keys = [
+        np.stack([mesh.tags[rows], body[rows]]) for mesh, body, rows in zip(meshes, bodies, order)
+    ]
+    places = [mesh.coordinates[rows] for mesh, rows in zip(meshes, order)]
+    close = SAME_PLACE * np.ptp(places[0], axis=0).max(initial=0)
+    if not np.array_equal(*keys) or np.abs(places[0] - places[1]).max(initial=0) > close:
         return None
-    again = (np.diff(tags[0]) == 0) & (
-        np.abs(np.diff(places[0], axis=0)).max(axis=1) <= SAME_PLACE * size
-    )
+    again = np.all(np.diff(keys[0]) == 0, axis=0)
+    again &= np.abs(np.diff(places[0], axis=0)).max(axis=1) <= close
     single = ~(np.append(again, False) | np.append(False, again))
     return order[0][single], order[1][single]
+
+
+def _bodies_of_nodes(mesh):
+    """Returns the number of the body of each node; -1 in no cell."""
+    bodies = np.full(len(mesh.coordinates), -1)
+    for block in mesh.cells.values():
+        bodies[block["nodes"]] = block["body"]
+    return bodies
 
 
 def mac(one, other, weights=None):
@@ -126,4 +140,4 @@ def _scaled(shapes, weights):
     return rows / sizes[:, None]
 
 
-__all__ = ["Shared", "mac", "nodal_volumes", "shared_rows"]
+__all__ = ["Shared", "mac", "nodal_volumes", "same_nodes", "shared_rows"]

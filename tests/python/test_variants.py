@@ -18,7 +18,7 @@ sys.path.insert(0, str(repository / "python"))
 sys.dont_write_bytecode = True
 import squeal
 from squeal import compare, variants
-from squeal.mac import mac, nodal_volumes
+from squeal.mac import mac, nodal_volumes, same_nodes
 from squeal.pairs import pair
 from squeal.results import Mesh
 
@@ -208,6 +208,20 @@ class Variants(unittest.TestCase):
             one.mac(other, kind="bent")
         with self.assertRaisesRegex(squeal.ResultsError, "one holds no shape of a free mode"):
             one.mac(other, kind="free")
+
+    def test_nodes_of_one_tag_and_place_differ_by_their_bodies(self):
+        """Two hexahedra of two bodies, with nodes of their own where they touch; in one body, as
+        where a bolt is cut, the eight nodes there are left out."""
+        places, cells = PLACES[np.r_[0:8, 4:12]], np.array([CELLS[0], CELLS[1] + 4])
+        tags, order = np.r_[0:8, 4:12], np.random.default_rng(2).permutation(16)
+        for bodies, left in (([[0], [1]], 16), ([[0], [0]], 8)):
+            block = {"body": np.array(bodies)}
+            one = Mesh(places, {5: {"nodes": cells, **block}}, ["a", "b"], tags)
+            moved = {5: {"nodes": np.argsort(order)[cells], **block}}
+            rows, same = same_nodes(one, Mesh(places[order], moved, ["a", "b"], tags[order]))
+            self.assertEqual(len(rows), left)
+            np.testing.assert_array_equal(order[same], rows)
+            self.assertIsNone(same_nodes(one, Mesh(places, one.cells, ["a", "c"], tags)))
 
     def test_pairs(self):
         """The MAC decides before the frequency; a known low MAC forbids a pair."""
