@@ -6,6 +6,7 @@
 const across = data.swept.includes("friction") || !data.swept.length ? "friction" : data.swept[0];
 const others = data.parameters.filter((name) => name !== across);
 const swept = data.parameters.filter((name) => name === across || data.swept.includes(name));
+const hasNames = data.modes.some(({rows}) => rows.flat().some((cell) => cell && cell.name));
 const hidden = new Set();
 const charts = [];
 
@@ -36,7 +37,8 @@ function wordsOf(variant, i) {
   return [
     variant.name, `mode ${e.mode[i]} at ${swept.map((n) => `${n} ${digits(e[n][i])}`).join(", ")}`,
     `${digits(e.frequency_hz[i], 8)} Hz`, `growth ${digits(e.growth_rate_1_per_s[i])} 1/s`,
-    ...(damping === null ? [] : [`damping ${digits(damping, 4)} %`]), e.verdict[i]
+    ...(damping === null ? [] : [`damping ${digits(damping, 4)} %`]),
+    ...(e.name && e.name[i] ? [e.name[i]] : []), e.verdict[i]
   ].join("\n");
 }
 
@@ -268,9 +270,9 @@ function makeChanges() {
 
 /** The cells of a mode in one variant; those of all except the first have changes. */
 function cellsOf(cell, isFree, isFirst) {
-  const count = (isFree ? 2 : 4) + (isFirst ? 0 : isFree ? 2 : 3);
+  const count = headsOf(isFree, isFirst).length;
   if (!cell) return [isFirst ? "" : "no partner", ...Array(count - 1).fill("")];
-  const s = [cell.mode, digits(cell.frequency_hz, 7)];
+  const s = [cell.mode, ...(hasNames ? [cell.name] : []), digits(cell.frequency_hz, 7)];
   if (!isFirst) s.push(cell.matched_by ? signed(cell.frequency_change_hz, 4) : "");
   if (!isFree) s.push(digits(cell.growth_rate_1_per_s, 5));
   if (!isFree && !isFirst) s.push(cell.matched_by ? signed(cell.growth_change_1_per_s, 4) : "");
@@ -281,7 +283,7 @@ function cellsOf(cell, isFree, isFirst) {
 }
 
 function headsOf(isFree, isFirst) {
-  const heads = ["mode", "frequency Hz"];
+  const heads = ["mode", ...(hasNames ? ["name"] : []), "frequency Hz"];
   if (!isFirst) heads.push("change Hz");
   if (!isFree) heads.push("growth 1/s");
   if (!isFree && !isFirst) heads.push("change 1/s");

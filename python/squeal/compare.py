@@ -35,8 +35,9 @@ EIGENVALUES = (
     "damping_ratio",
     "verdict",
     "grows",
+    "name",
 )
-CELLS = ("mode", "frequency_hz", "growth_rate_1_per_s", "verdict")
+CELLS = ("mode", "frequency_hz", "growth_rate_1_per_s", "verdict", "name")
 CHANGES = ("frequency_change_hz", "growth_change_1_per_s", "mac", "matched_by")
 
 

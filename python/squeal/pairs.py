@@ -10,9 +10,10 @@ from squeal.mac import mac, shared_rows
 from squeal.matching import match
 
 LEAST_MAC = 0.5  # of a pair of modes
-FARTHEST = 0.05  # relative distance |s' - s|/|s| of a pair without shapes
+FARTHEST = 0.05  # relative distance |s' - s|/|s| of a pair without shapes and names
+FARTHEST_NAMED = 0.2  # of a pair with one name
 KINDS = ("complex", "free")
-SIDE = ("mode", "frequency_hz", "growth_rate_1_per_s", "verdict")
+SIDE = ("mode", "frequency_hz", "growth_rate_1_per_s", "verdict", "name")
 
 
 def mac_table(one, other, kind, at):
@@ -113,9 +114,14 @@ def _side_of(run, point):
     here = np.ones(len(table), bool)
     for name, value in zip(PARAMETERS, point):
         here &= np.isclose(table[name], value, rtol=1e-11, atol=1e-300)
-    return table[here][[*SIDE[:1], *SIDE[2:], "s"]].assign(
-        frequency_hz=lambda rows: rows["s"].to_numpy().imag / (2 * np.pi)
-    )
+    return _named(
+        table[here].assign(frequency_hz=lambda rows: rows["s"].to_numpy().imag / (2 * np.pi))
+    )[[*SIDE, "s"]]
+
+
+def _named(table):
+    """Returns a table with the names of modes; empty where there is none."""
+    return table.assign(name=table["name"].fillna("") if "name" in table else "")
 
 
 def _free_pairs(one, other, shared):
@@ -123,7 +129,7 @@ def _free_pairs(one, other, shared):
     if any(table is None or not len(table) for table in tables):
         return _pairs("free", None, [_no_side()] * 2, np.zeros((0, 0)), np.inf)
     sides = [
-        table[["mode", "frequency_hz"]].assign(
+        _named(table).assign(
             growth_rate_1_per_s=np.nan,
             verdict="",
             s=1j * table["angular_frequency_rad_per_s"].to_numpy(),
@@ -141,7 +147,9 @@ def _no_side():
 
 def _pairs(kind, point, sides, macs, top):
     """Returns a table of pairs, in the order of the first side, then the rest of the other one."""
-    partner, by = pair(*(side["s"].to_numpy() for side in sides), macs)
+    partner, by = pair(
+        *(side["s"].to_numpy() for side in sides), macs, [side["name"] for side in sides]
+    )
     missing = np.setdiff1d(np.arange(len(sides[1])), partner)
     first = np.append(np.arange(len(sides[0])), np.full(len(missing), -1)).astype(int)
     second = np.append(partner, missing).astype(int)
@@ -167,12 +175,12 @@ def _pairs(kind, point, sides, macs, top):
     return pd.DataFrame(table)[inside]
 
 
-def pair(one, other, macs):
+def pair(one, other, macs, names=None):
     """Returns for each eigenvalue the index of its partner among the others, or -1, and how it was
-    found: "MAC", "frequency" or "".
+    found: "MAC", "name", "frequency" or "".
 
-    Pairs with a known MAC come first. Modes with a MAC below LEAST_MAC are not the same mode,
-    however near their frequencies are.
+    Pairs with a known MAC come first, then modes of one name. Modes with a MAC below LEAST_MAC are
+    not the same mode, however near their frequencies are.
     """
     one, other = np.asarray(one, complex), np.asarray(other, complex)
     alike = np.where(np.isfinite(macs) & (macs >= LEAST_MAC), macs, 0.0)
@@ -180,10 +188,17 @@ def pair(one, other, macs):
     found = alike[rows, columns] > 0
     partner, by = np.full(len(one), -1), np.full(len(one), "", dtype=object)
     partner[rows[found]], by[rows[found]] = columns[found], "MAC"
-    left = np.flatnonzero(partner < 0)
-    rest = np.setdiff1d(np.arange(len(other)), partner)
-    near = match(one[left], other[rest], FARTHEST, np.isfinite(macs[np.ix_(left, rest)]))
-    partner[left[near >= 0]], by[left[near >= 0]] = rest[near[near >= 0]], "frequency"
+    apart = {"frequency": np.isfinite(macs)}
+    if names is not None:
+        mine, others = (np.asarray(list(each), object) for each in names)
+        same = (mine[:, None] == others[None, :]) & (mine != "")[:, None]
+        apart = {"name": np.isfinite(macs) | ~same, **apart}
+    for word, different in apart.items():
+        left = np.flatnonzero(partner < 0)
+        rest = np.setdiff1d(np.arange(len(other)), partner)
+        farthest = FARTHEST_NAMED if word == "name" else FARTHEST
+        near = match(one[left], other[rest], farthest, different[np.ix_(left, rest)])
+        partner[left[near >= 0]], by[left[near >= 0]] = rest[near[near >= 0]], word
     return partner, by
 
 

@@ -104,11 +104,13 @@ def notes_of(variants):
     for variant in variants[1:]:
         shared = shared_rows(first.results, variant.results, [first.name, variant.name])
         both = f"Modes of {first.name} and {variant.name}"
+        named = all("name" in one.results.eigenvalues for one in (first, variant))
+        rest = "name and frequency" if named else "frequency"
         notes.append(
-            f"{both} are matched by frequency: {shared}."
+            f"{both} are matched by {rest}: {shared}."
             if isinstance(shared, str)
             else f"{both} with stored shapes are matched by the MAC {shared.words}, other modes by"
-            " frequency."
+            f" {rest}."
         )
     for name, words in (("case", "cases"), ("version", "versions of the program")):
         values = [str(variant.results.summary.get(name, "unknown")) for variant in variants]

@@ -234,6 +234,12 @@ class Variants(unittest.TestCase):
         for hertz, expected in ((104.9, 0), (105.1, -1)):  # 5 %
             self.assertEqual(pair(s[:1], [HZ * hertz], none[:1, :1])[0], [expected])
         self.assertEqual(pair([0], [0], none[:1, :1])[0], [0])  # rigid-body modes
+        # Modes of one name are a pair up to 20 % apart, before the nearest frequency decides.
+        for hertz, expected in ((119, ([1], ["name"])), (121, ([0], ["frequency"]))):
+            found, by = pair(s[:1], [HZ * 101, HZ * hertz], none[:1], (["bend"], ["twist", "bend"]))
+            self.assertEqual((list(found), list(by)), expected)
+        self.assertEqual(list(pair(s, s, none, (["", ""], ["", ""]))[1]), ["frequency"] * 2)
+        self.assertEqual(pair(s[:1], s[:1], mixed[:1, :1], (["bend"], ["bend"]))[0], [-1])
 
     def test_compare(self):
         one = squeal.open(
@@ -284,6 +290,21 @@ class Variants(unittest.TestCase):
         )
         np.testing.assert_allclose(found["mac"], [np.nan, 1 / 1.01, np.nan, np.nan], rtol=1e-12)
         self.assertEqual(list(found["matched_by"]), ["", "MAC", "frequency", ""])
+
+    def test_names_of_modes(self):
+        """Two meshes: the named modes have changed places."""
+        runs = [
+            squeal.open(
+                self.write(name, {0.4: [(HZ * 100, "stable"), (HZ * 110, "stable")]}, stretch=k)
+            )
+            for k, name in ((1, "one"), (2, "other"))
+        ]
+        for run, names in zip(runs, (["bend", np.nan], [np.nan, "bend"])):
+            run.eigenvalues = run.eigenvalues.assign(name=names)
+        table = runs[0].compare(runs[1])
+        self.assertEqual(list(table["other_name"].fillna("none")), ["bend", "none", ""])
+        # 110 and 100 Hz are too far from each other for modes without names.
+        self.assertEqual(list(table["matched_by"]), ["name", "", ""])
 
     def test_rankings(self):
         low = self.write("low", {0.4: [(HZ * 100 + 2, "unstable"), (HZ * 200 + 1, "unstable")]})
