@@ -220,7 +220,7 @@ def write(path, text):
 HELP = """squeal-compare DIR DIR...: lays the results of variants of a brake over each other.
 
 Each folder DIR holds the complete results of one variant; the first one is the reference for all
-differences. The page FILE opens in any browser without a network: frequency over damping ratio,
+differences. The page FILE opens in any browser without a network: damping ratio over frequency,
 frequency and growth over the friction, modes matched between the variants, options and results that
 differ, and which variant is the quietest. The command prints what it does not compare, and replaces
 only an earlier page in FILE.

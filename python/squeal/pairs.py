@@ -45,9 +45,10 @@ def compare(one, other, tops=None):
         tops = common_tops([one, other])
     shared = shared_rows(one, other)
     tables = [_free_pairs(one, other, shared)]
+    runs = [(run, _parameters(run)) for run in (one, other)]
     for point, top in tops.items():
-        sides = [_side_of(run, point) for run in (one, other)]
-        shapes = [_shapes(run, "complex", dict(zip(PARAMETERS, point))) for run in (one, other)]
+        sides = [_side_of(run, own[point]) for run, own in runs]
+        shapes = [_shapes(run, "complex", own[point]) for run, own in runs]
         tables.append(_pairs("complex", point, sides, _known(shared, sides, shapes), top))
     return pd.concat([table for table in tables if len(table)] or tables[:1], ignore_index=True)
 
@@ -72,6 +73,11 @@ def tops_of(run):
     }
     points = [key_of(values) for values in solved[list(PARAMETERS)].to_numpy()]
     return {point: listed.get(point) or np.inf for point in points}
+
+
+def _parameters(run):
+    """Returns the parameters of each point by its key, which has fewer digits."""
+    return {key_of(at.values()): at for at in run.points.to_dict("records")}
 
 
 def _point(run, kind, at):
@@ -108,12 +114,12 @@ def _known(shared, sides, shapes):
     return known
 
 
-def _side_of(run, point):
+def _side_of(run, at):
     """Returns the eigenvalues of a point."""
     table = run.eigenvalues
     here = np.ones(len(table), bool)
-    for name, value in zip(PARAMETERS, point):
-        here &= np.isclose(table[name], value, rtol=1e-11, atol=1e-300)
+    for name, value in at.items():
+        here &= np.isclose(table[name], value, rtol=1e-12, atol=1e-300)
     return _named(
         table[here].assign(frequency_hz=lambda rows: rows["s"].to_numpy().imag / (2 * np.pi))
     )[[*SIDE, "s"]]

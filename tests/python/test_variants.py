@@ -291,6 +291,15 @@ class Variants(unittest.TestCase):
         np.testing.assert_allclose(found["mac"], [np.nan, 1 / 1.01, np.nan, np.nan], rtol=1e-12)
         self.assertEqual(list(found["matched_by"]), ["", "MAC", "frequency", ""])
 
+    def test_points_of_many_digits(self):
+        """Keys of points have twelve digits."""
+        friction = 0.1 + 4e-13
+        one, other = (
+            squeal.open(self.write(name, {friction: [(HZ * 100, "stable", ALONG)]}))
+            for name in ("one", "other")
+        )
+        self.assertEqual(list(one.compare(other)["matched_by"]), ["MAC"])
+
     def test_names_of_modes(self):
         """Two meshes: the named modes have changed places."""
         runs = [
