@@ -43,16 +43,26 @@ class Variant:
         self.tops = tops_of(self.results)
 
     def within(self, tops):
-        """Returns the eigenvalues at common points and in the common band. The column `counts`
-        is true for unstable modes, and for those that may be: doubt gives none an advantage."""
+        """Returns the eigenvalues at common points and in the common band."""
+        table = self._at_common_points(tops)
+        return table[table["inside"]]
+
+    def above(self, tops):
+        """Returns the eigenvalues at common points above the common band."""
+        table = self._at_common_points(tops)
+        return table[~table["inside"]]
+
+    def _at_common_points(self, tops):
+        """The column `counts` is true for unstable modes, and for those that may be: doubt gives
+        none an advantage."""
         table = self.results.eigenvalues
         points = [key_of(values) for values in table[list(PARAMETERS)].to_numpy()]
-        top = np.array([tops.get(point, -1.0) for point in points])
+        top = np.array([tops.get(point, np.nan) for point in points])
         s = table["s"].to_numpy()
         counts = table["grows"] | (table["verdict"] == "undecided")
         counts |= (table["verdict"] == "uncertified") & unstable(s)
         inside = np.abs(s) <= 2 * np.pi * top * (1 + 1e-12)
-        return table.assign(point=points, counts=counts)[inside]
+        return table.assign(point=points, counts=counts, inside=inside)[~np.isnan(top)]
 
 
 def read_variants(folders):
@@ -143,16 +153,14 @@ def _bands(variants, tops):
     differ = [top for point, top in tops.items() if len({v.tops[point] for v in variants}) > 1]
     if not differ:
         return []
-    outside = []
-    for variant in variants:
-        table = variant.results.eigenvalues
-        points = [key_of(values) for values in table[list(PARAMETERS)].to_numpy()]
-        count = sum(point in tops for point in points) - len(variant.within(tops))
-        outside.append(f"{variant.name} {count}")
+    above = ", ".join(
+        f"{variant.name} {len(table)} ({int(table['counts'].sum())} unstable)"
+        for variant, table in ((variant, variant.above(tops)) for variant in variants)
+    )
     span = " to ".join(dict.fromkeys(f"{top:.6g} Hz" for top in (min(differ), max(differ))))
     return [
         f"The bands differ at {len(differ)} of {len(tops)} points; the common band ends there at"
-        f" {span}. Eigenvalues above it are not compared: {', '.join(outside)}."
+        f" {span}. Eigenvalues above it are not compared: {above}."
     ]
 
 
@@ -263,7 +271,7 @@ def rankings(variants):
                 zip(ranks, variants, found), key=lambda row: (row[0], variants.index(row[1]))
             )
         ]
-    remarks = {variant.name: _doubt(variant.within(tops)) for variant in variants}
+    remarks = {variant.name: _remark(variant, tops) for variant in variants}
     return pd.DataFrame(rows).assign(remark=lambda table: table["variant"].map(remarks))
 
 
@@ -296,13 +304,16 @@ def ranks_of(scores, larger_is_quieter):
     return ranks
 
 
-def _doubt(table):
-    """The undecided and uncertified eigenvalues in words; empty without any."""
+def _remark(variant, tops):
+    """What the ranks of a variant leave open, in words; empty for nothing."""
+    table, above = variant.within(tops), int(variant.above(tops)["counts"].sum())
     words = [
         f"{count} of {len(table)} eigenvalues are {word}"
         for word in DOUBTS
         if (count := int((table["verdict"] == word).sum()))
     ]
+    if above:
+        words.append(f"unstable modes above the common band, not ranked: {above}")
     return "; ".join(words)
 
 

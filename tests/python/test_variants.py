@@ -353,13 +353,17 @@ class Variants(unittest.TestCase):
         self.assertEqual(self.ranks(one, other)["largest growth rate"], {"one": 1, "other": 1})
 
     def test_round_off_is_no_change(self):
-        """Growth rates 1e-13 apart, without an estimate of their errors: a tie, shown as equal."""
+        """Growth rates 1e-13 apart, without an estimate of their errors, in bands without a top: a
+        tie, shown as equal."""
+        none = {0.4: None}
         one, other = (
-            self.write(name, {0.4: [(HZ * 100 + growth, "uncertified")]}, error=np.nan)
+            self.write(name, {0.4: [(HZ * 100 + growth, "uncertified")]}, error=np.nan, tops=none)
             for name, growth in (("one", 5), ("other", 5 + 1e-13))
         )
         self.assertEqual(self.ranks(one, other)["largest growth rate"], {"one": 1, "other": 1})
-        cell = compare.page_data(self.read(one, other))["modes"][-1]["rows"][0][1]
+        found = self.read(one, other)
+        self.assertEqual(list(variants.results_table(found).loc["eigenvalues"]), [1, 1])
+        cell = compare.page_data(found)["modes"][-1]["rows"][0][1]
         self.assertEqual((cell["growth_change_1_per_s"], cell["matched_by"]), (0, "frequency"))
 
     def test_doubt_moves_no_variant_up(self):
@@ -400,7 +404,7 @@ class Variants(unittest.TestCase):
             "points of one, which are not compared: friction 0.2.",
             "points of other, which are not compared: friction 0.5.",
             "The bands differ at 1 of 1 points; the common band ends there at 500 Hz.",
-            "not compared: one 1, other 0.",
+            "not compared: one 1 (1 unstable), other 0 (0 unstable).",
             "Modes of one and other are matched by frequency: the meshes of one and other differ",
         ):
             self.assertIn(text, notes)
@@ -408,6 +412,11 @@ class Variants(unittest.TestCase):
         self.assertEqual(list(table.loc["unstable modes at all points"]), [0, 1])
         self.assertEqual(list(table.loc["critical friction"]), [np.inf, 0.3])
         np.testing.assert_allclose(table.loc["largest growth rate [1/s]"], [np.nan, 1])
+        remarks = variants.rankings(found).set_index("variant")["remark"]
+        self.assertEqual(
+            set(remarks["one"]), {"unstable modes above the common band, not ranked: 1"}
+        )
+        self.assertEqual(set(remarks["other"]), {""})
 
     def test_options_that_differ(self):
         stable = {0.4: [(HZ * 100, "stable")]}
