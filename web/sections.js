@@ -2,23 +2,6 @@
 "use strict";
 // The sections below the table: further results, times and options.
 
-/** A table with a head; its first columns, as many as `words`, hold words. */
-function tableOf(head, body, words = 1) {
-  const table = make("table"), top = table.createTHead().insertRow();
-  const kind = (k) => (k < words ? "word" : "");
-  head.forEach((title, k) => top.append(make("th", {textContent: title, className: kind(k)})));
-  const rest = table.createTBody();
-  for (const line of body) {
-    const row = rest.insertRow();
-    line.forEach((value, k) => {
-      const cell = row.insertCell();
-      cell.className = kind(k);
-      cell.append(typeof value === "number" ? digits(value) : value ?? "");
-    });
-  }
-  return table;
-}
-
 function section(title, ...content) {
   const box = make("details"), frame = make("div", {className: "scroll"});
   frame.append(...content);

@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 "use strict";
-// The data of the report, what is selected, and how values are written.
+// What is selected, and how eigenvalues are written.
 
-const data = JSON.parse(document.getElementById("data").textContent);
-const element = (id) => document.getElementById(id);
 const eigen = data.eigenvalues;
 const rows = eigen.mode.map((_, i) => i);
-
-/** A number with n digits at most; an empty text for none. */
-function digits(value, n = 6) {
-  if (value === null || value === undefined) return "";
-  return Number(Number(value).toPrecision(n)).toString();
-}
-
-const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 // The diagrams show one line of the sweep at a time: over the parameter `across`, at fixed values
 // of the others. Buttons choose the line.
@@ -104,8 +94,3 @@ function colourOfGrowth(value, most) {
 }
 
 const rgb = (colour) => `rgb(${colour.join(",")})`;
-
-/** A new element with properties. */
-function make(tag, properties = {}) {
-  return Object.assign(document.createElement(tag), properties);
-}

@@ -65,8 +65,8 @@ class Squeal(CMakePackage):
         if "+report" not in self.spec:
             return
         scripts = join_path(self.prefix.share, "squeal", "scripts")
-        commands = ("squeal-report", "squeal-plot", "squeal-merge", "squeal-import")
-        for name in (*commands, "convert_matrix"):
+        commands = ("report", "plot", "merge", "compare", "import")
+        for name in (*(f"squeal-{command}" for command in commands), "convert_matrix"):
             filter_file(
                 r"^#!/usr/bin/python3",
                 "#!" + self.spec["python"].command.path,

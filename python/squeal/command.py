@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Starts the commands squeal-plot, squeal-report, squeal-merge and squeal-import."""
+"""Starts the commands squeal-plot, squeal-report, squeal-merge, squeal-compare, squeal-import."""
 import importlib
 import sys
 

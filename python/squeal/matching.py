@@ -10,18 +10,22 @@ def unstable(s, tolerance=NOISE):
     return s.real > tolerance * np.abs(s)
 
 
-def match(wanted, found, farthest=0.02):
+def match(wanted, found, farthest=0.02, apart=None):
     """Returns for each wanted eigenvalue the index of its partner among the found ones, or -1.
 
     The assignment minimises the sum of relative distances, and pairs no eigenvalues further
     apart than `farthest`. It uses none twice, so that a double eigenvalue found once is noticed.
-    The order in sorted lists does not help where two eigenvalues meet.
+    The order in sorted lists does not help where two eigenvalues meet. `apart` marks pairs that are
+    known to be different, [wanted, found].
     """
     wanted, found = np.asarray(wanted), np.asarray(found)
     partner = np.full(len(wanted), -1)
     if len(wanted) == 0 or len(found) == 0:
         return partner
-    distance = np.abs(wanted[:, None] - found[None, :]) / np.abs(wanted)[:, None]
+    sizes = np.maximum(np.abs(wanted), np.finfo(float).tiny)
+    distance = np.abs(wanted[:, None] - found[None, :]) / sizes[:, None]
+    if apart is not None:
+        distance[apart] = farthest
     # Beyond `farthest` all distances count the same: an eigenvalue without partner takes none from
     # the others.
     rows, columns = linear_sum_assignment(np.minimum(distance, farthest))

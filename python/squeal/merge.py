@@ -23,8 +23,8 @@ from squeal.parts import (
     read_parts,
     require_alike,
 )
-from squeal.results import read_summary
 from squeal.schema import VERDICTS as GRAVITY
+from squeal.summary import read_summary
 
 SAME_CRITICAL = 1e-7  # relative; ten times -flutter_critical_tolerance by default
 

@@ -41,7 +41,7 @@ class Part:
             raise ResultsError(f"{folder} is a merge itself: name the folders of its parts")
         if not self.summary["complete"]:
             raise ResultsError(f"{folder} holds no complete results: its run was interrupted")
-        self.given, self.options = _recipe(self.folder / "options.txt")
+        self.given, self.options = recipe_of(self.folder / "options.txt")
         self.tables = {
             name: self.results.texts[name] for name in TABLES if name in self.results.texts
         }
@@ -85,7 +85,7 @@ def read_parts(folders, out):
     return [Part(folder) for folder in folders]
 
 
-def _recipe(path):
+def recipe_of(path):
     """Returns the options in options.txt: the names of those that were given, and the values of
     all, including defaults."""
     try:
@@ -248,6 +248,7 @@ def _words(point):
 
 
 __all__ = [
+    "SAME_NUMBER",
     "SWEPT",
     "TABLES",
     "differs",
@@ -255,5 +256,6 @@ __all__ = [
     "keys_of",
     "owners_of",
     "read_parts",
+    "recipe_of",
     "require_alike",
 ]

@@ -2,10 +2,7 @@
 """The report of a run: one HTML file that opens offline in a browser."""
 import base64
 import html
-import json
-import math
 import os
-import re
 import sys
 from pathlib import Path
 
@@ -16,11 +13,11 @@ from squeal import regime
 from squeal.files import open_regular
 from squeal.folder import Folder
 from squeal.keys import PARAMETERS
+from squeal.page import WEB, columns, data_text, fill, script_element
 from squeal.results import Results
 from squeal.shapes import add_shapes
 from squeal.verdict import certificate, verdict
 
-WEB = Path(__file__).resolve().parents[2] / "web"
 # Debian's packages libjs-three and libjs-chart.js: program, controls of the view, licences.
 SCRIPTS = {
     "three.js": (
@@ -38,6 +35,7 @@ SCRIPTS = {
 }
 # Of web/, in the order in which the browser runs them: the last one starts the report.
 OWN_SCRIPTS = (
+    "basics",
     "state",
     "svg",
     "figures",
@@ -63,7 +61,6 @@ REPEATED = ("growth_rate_1_per_s", "frequency_hz")
 
 def build(results):
     """Returns the text of the HTML file."""
-    template = (WEB / "report.html").read_text()
     libraries, licences = _libraries()
     data, blobs = _data(results, with_shapes=bool(libraries))
     own = [(WEB / f"{name}.js").read_text() for name in OWN_SCRIPTS] if libraries else []
@@ -72,25 +69,19 @@ def build(results):
         "style": (WEB / "report.css").read_text(),
         "verdict": html.escape(data["verdict"]),
         "certificate": "".join(f"<li>{html.escape(line)}</li>" for line in data["certificate"]),
-        "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        "data": data_text(data),
         "blobs": "\n".join(
             f'<script type="application/octet-stream" id="blob-{name}">{text}</script>'
             for name, text in blobs.items()
         ),
-        "libraries": "\n".join(map(_script_element, libraries)),
-        "scripts": "\n".join(map(_script_element, own)),
+        "libraries": "\n".join(map(script_element, libraries)),
+        "scripts": "\n".join(map(script_element, own)),
         "pictures": _after_flutter(results) + _pictures(results) if not libraries else "",
         "licences": "".join(
             f"<h3>{html.escape(name)}</h3><pre>{html.escape(text)}</pre>" for name, text in licences
         ),
     }
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template)
-
-
-def _script_element(text):
-    """A script element with JavaScript that cannot end it."""
-    safe = text.replace("</", "<\\/").replace("<!--", "<\\!--")
-    return f"<script>\n{safe}</script>"
+    return fill("report.html", parts)
 
 
 def _libraries():
@@ -134,20 +125,6 @@ def _after_flutter(results):
     return "".join(f"<p>{html.escape(line)}</p>" for line in regime.sentences(results))
 
 
-def _columns(table, without=()):
-    """Returns a table as lists by column, without the numbers that JSON lacks."""
-    if table is None:
-        return None
-    return {
-        name: [
-            None if isinstance(value, float) and not math.isfinite(value) else value
-            for value in column.tolist()
-        ]
-        for name, column in table.items()
-        if name not in without and not np.iscomplexobj(column)
-    }
-
-
 def _data(results, with_shapes):
     summary, eigenvalues = results.summary, results.eigenvalues
     kept = results.kept_modes()
@@ -161,14 +138,14 @@ def _data(results, with_shapes):
         "bandHz": max(
             (point.get("band_top_hz") or 0 for point in summary.get("frictions", [])), default=0
         ),
-        "points": _columns(results.stability_map),
-        "eigenvalues": _columns(eigenvalues),
-        "branches": _columns(results.branches),
-        "critical": _columns(results.critical),
-        "frictionWork": _columns(results.friction_work),
-        "sensitivities": _columns(results.sensitivities),
-        "components": _columns(results.table("components"), REPEATED),
-        "participation": _columns(results.table("participation"), REPEATED),
+        "points": columns(results.stability_map),
+        "eigenvalues": columns(eigenvalues),
+        "branches": columns(results.branches),
+        "critical": columns(results.critical),
+        "frictionWork": columns(results.friction_work),
+        "sensitivities": columns(results.sensitivities),
+        "components": columns(results.table("components"), REPEATED),
+        "participation": columns(results.table("participation"), REPEATED),
         "steady": _steady_forces(summary),
         "regimes": regime.diagrams(results),
         "stages": {

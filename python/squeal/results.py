@@ -3,7 +3,6 @@
 import contextlib
 import dataclasses
 import functools
-import json
 import os
 from pathlib import Path
 
@@ -13,50 +12,13 @@ import pandas as pd
 
 from squeal import schema
 from squeal.agreement import require_agreement
-from squeal.files import ResultsError, is_there, open_regular, read_text
+from squeal.files import ResultsError, is_there, open_regular
 from squeal.keys import PARAMETERS, words_of
+from squeal.summary import read_summary
 from squeal.tables import read_table
 
 # A growth rate below this fraction of |s| is round-off, if there is no estimate of its error.
 NOISE = 1e-6
-NUMBER = (float, int)
-# The form of summary.json, as far as this package reads it: a name with ? may be missing, * means
-# all names.
-SUMMARY = {
-    "version": str,
-    "complete": bool,
-    "options?": {"*": str},
-    "frictions?": [
-        {
-            **dict.fromkeys(PARAMETERS, NUMBER),
-            "eigenvalues?": int,
-            "verdict?": str,
-            "verdicts?": {"*": int},
-            "unstable_modes?": [dict],
-            "band_top_hz?": (*NUMBER, type(None)),
-            "steady?": {
-                "converged?": bool,
-                "open_nodes?": int,
-                "interfaces?": {"*": {"normal_force_n?": [NUMBER], "friction_force_n?": [NUMBER]}},
-            },
-        }
-    ],
-    "active_sets?": [{"followed?": [{"critical_frictions?": [NUMBER], "statement?": str}]}],
-    "stages?": {"*": {"wall_s?": NUMBER, "peak_memory_bytes?": NUMBER}},
-    "wall_s?": NUMBER,
-    "verdict?": {"sentence": str},
-    "parts?": [{"folder": str}],
-    "tables?": {"*": {"rows": int, "columns": [str]}},
-    "regimes?": [{**dict.fromkeys(PARAMETERS, NUMBER), "start": str, "class": str}],
-}
-KINDS = {
-    bool: "not true or false",
-    str: "not a text",
-    float: "not a number",
-    int: "not a whole number",
-    dict: "not an object",
-    list: "not a list",
-}
 
 
 def open(folder):
@@ -167,6 +129,16 @@ class Results:
         return self.table("friction_work")
 
     @functools.cached_property
+    def components(self):
+        """Shares of the components in the stored complex modes; None for matrices from files."""
+        return self.table("components")
+
+    @functools.cached_property
+    def participation(self):
+        """The free modes that the stored complex modes are made of."""
+        return self.table("participation")
+
+    @functools.cached_property
     def sensitivities(self):
         """Derivatives of eigenvalues; None without -flutter_sensitivities."""
         return self.table("sensitivities")
@@ -220,6 +192,48 @@ class Results:
             values = {name: float(group.attrs[name]) for name in PARAMETERS}
         return Mode(self, values, number, complex(growth, angular), shape, work)
 
+    def shapes(self, **at):
+        """Returns the stored shapes of the complex modes of a point, by number."""
+        with self._fields() as file:
+            group = self._group(file, "flutter", at) or {}
+            numbers = sorted(int(name.split("_")[1]) for name in group if name.endswith("_real"))
+            return {
+                number: group[f"mode_{number:03d}_real"][()]
+                + 1j * group[f"mode_{number:03d}_imaginary"][()]
+                for number in numbers
+            }
+
+    def free_shapes(self):
+        """Returns the stored shapes of the free modes of the first active set, by number."""
+        with self._fields() as file:
+            group = file["modes/active_set_1"] if "modes/active_set_1" in file else {}
+            return {
+                int(name.split("_")[1]): group[name][()]
+                for name in sorted(group)
+                if name.startswith("mode_")
+            }
+
+    def has_shapes(self):
+        """Returns whether the folder holds shapes of modes: not a merge, nor a run with
+        -report_fields off."""
+        return not self.parts and self.summary.get("options", {}).get("report_fields") != "off"
+
+    def mac(self, other, kind="complex", **at):
+        """Returns the MAC of the stored complex modes of a point, or with kind="free" of the free
+        modes, with those of another run on the same mesh: a row for each mode, a column for each
+        mode of the other run."""
+        from squeal.pairs import mac_table
+
+        return mac_table(self, other, kind, at)
+
+    def compare(self, other):
+        """Returns the free modes and the complex modes at all common points with their partners in
+        another run and the changes of frequency and growth. A mode without partner has empty
+        cells."""
+        from squeal.pairs import compare
+
+        return compare(self, other)
+
     def fastest_mode(self, **at):
         """Returns the fastest growing mode whose shape was stored, of the points with these
         values of parameters; None if there is none."""
@@ -259,6 +273,7 @@ class Results:
                 group["coordinates"][()],
                 cells,
                 (names.decode() if isinstance(names, bytes) else str(names)).split(","),
+                group["node_tag"][:, 0],
             )
 
     def grid(self):
@@ -308,12 +323,14 @@ class Results:
     def _point(self, at):
         """Returns the name of a point in names of files, by the rule of the program: friction,
         and other parameters that are not 1."""
-        values = self._only_point(at)
+        values = self.only_point(at)
         return f"{values['friction']:g}" + "".join(
             f"_{name}_{values[name]:g}" for name in PARAMETERS[1:] if values[name] != 1
         )
 
-    def _only_point(self, at):
+    def only_point(self, at):
+        """Returns the parameters of the only point with some values. Raises ResultsError if there
+        is none, or more than one."""
         found = _rows(self.points, at)
         if len(found) != 1:
             raise ResultsError(
@@ -323,7 +340,7 @@ class Results:
         return found.iloc[0]
 
     def _group(self, file, kind, at):
-        values = self._only_point(at)
+        values = self.only_point(at)
         for group in file.get(kind, {}).values():
             if all(
                 np.isclose(group.attrs[name], values[name], rtol=1e-12, atol=0)
@@ -341,6 +358,7 @@ class Mesh:
     # By gmsh's element type: `nodes` [cell, node of the cell], `body` and `tag` [cell, 1].
     cells: dict
     bodies: list  # their names
+    tags: np.ndarray = None  # of the nodes in the mesh file
 
 
 @dataclasses.dataclass
@@ -389,48 +407,6 @@ def os_closing(file):
         yield
     finally:
         os.close(file)
-
-
-def read_summary(path):
-    """Returns the content of summary.json, of a run or of a merge."""
-    try:
-        summary = json.loads(read_text(path))
-    except ResultsError:
-        raise
-    except (FileNotFoundError, NotADirectoryError):
-        raise ResultsError(
-            f"{path.parent} holds no complete results: there is no summary.json"
-        ) from None
-    except (ValueError, RecursionError) as error:
-        raise ResultsError(f"{path}: {error}") from None
-    for wrong in _departures(summary, SUMMARY, ""):
-        raise ResultsError(f"{path} is not a summary of a run: {wrong}")
-    try:
-        float(summary.get("options", {}).get("flutter_unstable_tolerance", "0"))
-    except ValueError:
-        raise ResultsError(
-            f"{path} is not a summary of a run:"
-            " `options.flutter_unstable_tolerance` is not a number"
-        ) from None
-    return summary
-
-
-def _departures(found, form, place):
-    """Yields in words each difference between a value and a form."""
-    kinds = form if isinstance(form, tuple) else (form if isinstance(form, type) else type(form),)
-    if not isinstance(found, kinds) or (isinstance(found, bool) and bool not in kinds):
-        yield f"{f'`{place}`' if place else 'it'} is {KINDS[kinds[0]]}"
-    elif isinstance(form, list):
-        for number, entry in enumerate(found):
-            yield from _departures(entry, form[0], f"{place}[{number}]")
-    elif isinstance(form, dict):
-        for name, inner in form.items():
-            for key in found if name == "*" else [name.rstrip("?")]:
-                below = f"{place}.{key}" if place else key
-                if key in found:
-                    yield from _departures(found[key], inner, below)
-                elif not name.endswith("?"):
-                    yield f"`{below}` is missing"
 
 
 def _rows(table, at):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""The verdict on a run and its grounds, in sentences."""
+"""The verdict of a run or of a merge, and its grounds, in sentences."""
 from squeal.keys import PARAMETERS
 
 

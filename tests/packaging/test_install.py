@@ -19,7 +19,8 @@ CMAKE, BUILD = (
     else ("cmake", repository / "build")
 )
 CASES = sorted(path.stem for path in (repository / "options").glob("*.yaml"))
-COMMANDS = {"squeal", "squeal-run", "squeal-report", "squeal-plot", "squeal-merge", "squeal-import"}
+SCRIPTS = tuple(f"squeal-{name}" for name in ("report", "plot", "merge", "compare", "import"))
+COMMANDS = {"squeal", "squeal-run", *SCRIPTS}
 SMALL = [
     "-mesh_set",
     "nx=12,ny=4",
@@ -54,7 +55,7 @@ class Installation(unittest.TestCase):
         )
         # Whoever may write there leaves no bytecode. The folder holds no results, which the
         # commands find when they have loaded all.
-        for command in ("squeal-report", "squeal-plot", "squeal-merge", "squeal-import"):
+        for command in SCRIPTS:
             subprocess.run(
                 [first / "bin" / command, first],
                 check=False,
