@@ -125,7 +125,7 @@ TABLES = {
             flag("certified", read=False),
             word("verdict", *VERDICTS),
             flag("unstable"),
-            word("name", empty=True),
+            word("name", empty=True, read=False),
         ),
         counted=("friction", "speed", "pressure", "damping", "mode"),
     ),
@@ -241,7 +241,7 @@ TABLES = {
             whole("mode", 1),
             *numbers("angular_frequency_rad_per_s frequency_hz", **SIZE),
             number("relative_residual", least=0, open=True, read=False),
-            word("name", empty=True),
+            word("name", empty=True, read=False),
         ),
         counted=("mode",),
     ),
@@ -269,7 +269,7 @@ TABLES = {
         (
             *POINT[:3],
             word("kind", *REACTIONS),
-            word("name", empty=True),
+            word("name", empty=True, read=False),
             *numbers("force_x_n force_y_n force_z_n moment_x_n_m moment_y_n_m moment_z_n_m"),
         )
     ),
