@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <list>
 
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/arrays.hpp"
@@ -141,17 +140,14 @@ NamedMotion BodyMotions::rigidName(const Body& body,
   return {std::string(largest < 3 ? "rigid along " : "rigid about ") + "xyz"[largest % 3], sum};
 }
 
-std::vector<NamedMotion> BodyMotions::names(const std::vector<Vec>& parts) const {
+std::vector<NamedMotion> BodyMotions::names(const std::vector<const double*>& parts) const {
   std::vector<NamedMotion> names(mesh_.bodies.size());
   if (list_.empty()) return names;
-  std::list<ReadArray> arrays;
-  std::vector<const double*> values;
-  for (const Vec part : parts) values.push_back(arrays.emplace_back(part).data());
   for (std::size_t body = 0; body < list_.size(); ++body) {
-    names[body] = rigidName(list_[body], values);
+    names[body] = rigidName(list_[body], parts);
     if (names[body].share >= surelyRigid) continue;
     NamedMotion shape;
-    if (list_[body].revolution) shape = list_[body].revolution->name(values);
+    if (list_[body].revolution) shape = list_[body].revolution->name(parts);
     if (!shape.name.empty())
       names[body] = shape;
     else if (names[body].share < clear)

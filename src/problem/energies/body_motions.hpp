@@ -21,8 +21,8 @@ class BodyMotions {
   BodyMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
               const std::vector<std::vector<PetscInt>>& nodes);
   /// Collective. Returns the name of the motion of each body, [body], in the mode with these parts:
-  /// real, or real and imaginary nodal vectors. All are empty in the plane.
-  std::vector<NamedMotion> names(const std::vector<Vec>& parts) const;
+  /// real, or real and imaginary nodal values, this rank's rows. All are empty in the plane.
+  std::vector<NamedMotion> names(const std::vector<const double*>& parts) const;
 
  private:
   struct Body {

@@ -25,15 +25,6 @@ OwnedVec product(Mat x, Vec u) {
   return y;
 }
 
-/// Collective. Returns X u − Σ Y u for the matrices Y that are not null; null if X is.
-OwnedVec productWithout(Mat x, const std::vector<Mat>& others, Vec u) {
-  OwnedVec y = product(x, u);
-  if (!y) return y;
-  for (const Mat other : others)
-    if (const OwnedVec part = product(other, u); part) check(VecAXPY(y, -1, part));
-  return y;
-}
-
 /// Collective. Returns these rows of a matrix, with all columns; null if it is.
 OwnedMat rowsOf(Mat matrix, IS rows) {
   OwnedMat part;
@@ -137,37 +128,49 @@ void Components::keepSharedRows() {
   }
 }
 
-std::vector<Forms> Components::forms(Vec u) const {
+std::vector<Forms> Components::forms(const NodalProducts& products) const {
+  const OwnedVec u = elasticity::nodalVector(mesh_);
+  {
+    const WriteArray values(u);
+    std::ranges::copy(products.u, values.begin());
+  }
   std::vector<Forms> forms(list_.size());
-  addBodies(u, forms);
+  addBodies(products, u, forms);
   addShared(u, forms);
-  addGround(u, forms);
+  addGround(products.u.data(), forms);
   addLayers(u, forms);
   std::vector<double> sums;
   for (const auto& one : forms) sums.insert(sums.end(), {one.stiffness, one.mass, one.damping});
   mpi::sumAlike(mesh_.comm, sums);
   for (std::size_t i = 0; i < forms.size(); ++i)
     forms[i] = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
-  addForms(u, forms);
+  addForms(products.u.data(), forms);
   return forms;
 }
 
-/// Collective. Adds this rank's sums over the nodes of one body.
-void Components::addBodies(Vec u, std::vector<Forms>& forms) const {
-  const auto add = [&](const OwnedVec& product, double Forms::*form) {
-    if (!product) return;
-    const ReadArray x(u), y(product);
+/// Collective. Adds this rank's sums over the nodes of one body, without the parts of the matrices
+/// that belong to no body.
+void Components::addBodies(const NodalProducts& products, Vec u, std::vector<Forms>& forms) const {
+  const auto add = [&](const double* y, double factor, double Forms::*form) {
+    const double* x = products.u.data();
     for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
       for (int d = 0; d < mesh_.dimension && bodyOf_[node] >= 0; ++d) {
         const PetscInt row = mesh_.dimension * node + d;
-        forms[bodyOf_[node]].*form += x[row] * y[row];
+        forms[bodyOf_[node]].*form += factor * x[row] * y[row];
       }
   };
-  add(productWithout(bodies_.stiffness,
-                     {bodies_.linkStiffness, bodies_.layerStiffness, bodies_.springs}, u),
-      &Forms::stiffness);
-  add(productWithout(bodies_.mass, {pointMass_}, u), &Forms::mass);
-  add(productWithout(bodies_.damping, {linkDamping_, groundDashpots_}, u), &Forms::damping);
+  const auto remove = [&](Mat part, double Forms::*form) {
+    if (const OwnedVec y = product(part, u); y) add(ReadArray(y).data(), -1, form);
+  };
+  add(products.stiffness.data(), 1, &Forms::stiffness);
+  for (const Mat part :
+       {bodies_.linkStiffness.get(), bodies_.layerStiffness.get(), bodies_.springs.get()})
+    remove(part, &Forms::stiffness);
+  add(products.mass.data(), 1, &Forms::mass);
+  remove(pointMass_, &Forms::mass);
+  if (products.damping.empty()) return;
+  add(products.damping.data(), 1, &Forms::damping);
+  for (const Mat part : {linkDamping_.get(), groundDashpots_.get()}) remove(part, &Forms::damping);
 }
 
 /// Collective. Adds this rank's sums over the nodes that bodies share.
@@ -191,8 +194,7 @@ void Components::addShared(Vec u, std::vector<Forms>& forms) const {
 }
 
 /// Adds this rank's sums over springs and dashpots to the ground.
-void Components::addGround(Vec u, std::vector<Forms>& forms) const {
-  const ReadArray x(u);
+void Components::addGround(const double* x, std::vector<Forms>& forms) const {
   const int dimension = mesh_.dimension;
   for (std::size_t g = 0; g < ground_.size(); ++g) {
     const auto& nodes = mesh_.nodeGroups.at(ground_[g].name);
@@ -227,9 +229,8 @@ void Components::addLayers(Vec u, std::vector<Forms>& forms) const {
 }
 
 /// Collective. Adds springs, bushings and point masses.
-void Components::addForms(Vec u, std::vector<Forms>& forms) const {
+void Components::addForms(const double* x, std::vector<Forms>& forms) const {
   std::vector<double> delta(attached_.size(), 0.0);
-  const ReadArray x(u);
   for (std::size_t f = 0; f < attached_.size(); ++f)
     for (const auto& term : attached_[f].terms)
       if (const PetscInt node = mesh_.ownedNode(term.node); node >= 0)

@@ -2,6 +2,7 @@
 #pragma once
 /// The components of a model, and their shares in the energies of a motion.
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct Forms {
   double damping = 0;    ///< uᵀ C u
 };
 
+/// A nodal vector u and its products with the matrices of all bodies, this rank's rows; borrowed.
+struct NodalProducts {
+  std::span<const double> u, stiffness, mass;  ///< u, K u, M u
+  std::span<const double> damping = {};        ///< C u; empty: the forms of C are not wanted
+};
+
 /// What stores or dissipates energy: bodies, springs, bushings, point masses, the springs and
 /// dashpots of groups to the ground, and the compliant layers of interfaces. Ties, couplings and
 /// equations are constraints and store none.
@@ -36,10 +43,10 @@ class Components {
   const std::vector<pencil::Component>& list() const { return list_; }
   /// Collective. Returns the forms of a nodal vector, [component]. Their sums are the forms of the
   /// matrices of `bodies`.
-  std::vector<Forms> forms(Vec u) const;
+  std::vector<Forms> forms(const NodalProducts& products) const;
   /// Collective. Returns the names of the motions of the bodies, [body], in the mode with these
-  /// parts: real, or real and imaginary nodal vectors.
-  std::vector<NamedMotion> motions(const std::vector<Vec>& parts) const {
+  /// parts: real, or real and imaginary nodal values, this rank's rows.
+  std::vector<NamedMotion> motions(const std::vector<const double*>& parts) const {
     return motions_->names(parts);
   }
   /// Returns the index of a contact interface in the list.
@@ -59,11 +66,11 @@ class Components {
   };
   void findBodies();
   void keepSharedRows();
-  void addBodies(Vec u, std::vector<Forms>& forms) const;
+  void addBodies(const NodalProducts& products, Vec u, std::vector<Forms>& forms) const;
   void addShared(Vec u, std::vector<Forms>& forms) const;
-  void addGround(Vec u, std::vector<Forms>& forms) const;
+  void addGround(const double* x, std::vector<Forms>& forms) const;
   void addLayers(Vec u, std::vector<Forms>& forms) const;
-  void addForms(Vec u, std::vector<Forms>& forms) const;
+  void addForms(const double* x, std::vector<Forms>& forms) const;
 
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;

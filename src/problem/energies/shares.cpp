@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/petsc/arrays.hpp"
 #include "base/petsc/object.hpp"
 #include "base/system/mpi.hpp"
 
@@ -57,23 +58,43 @@ std::vector<pencil::Component> shares(const Components& components, const Motion
 }
 
 /// Collective. Names the motions of the bodies, the first components.
-void nameMotions(const Components& components, const std::vector<Vec>& parts,
+void nameMotions(const Components& components, const std::vector<const double*>& parts,
                  std::vector<pencil::Component>& list) {
   const auto names = components.motions(parts);
   for (std::size_t body = 0; body < names.size(); ++body)
     list[body].motion = names[body].name, list[body].motionShare = names[body].share;
 }
 
+/// Collective. Returns the sums of the forms of the real and the imaginary part of a motion.
+std::vector<Forms> formsOf(const Components& components, const ComplexMode& mode) {
+  std::vector<Forms> sums(components.list().size());
+  for (const auto part : {&linalg::ComplexVector::real, &linalg::ComplexVector::imaginary}) {
+    const auto& force = mode.force;
+    const ReadArray u(mode.motion.u.*part), elastic(force.elastic.*part),
+        inertia(force.inertia.*part);
+    NodalProducts products{u, elastic, inertia};
+    std::optional<ReadArray> damped;
+    if (force.damped.real) products.damping = damped.emplace(force.damped.*part);
+    const auto forms = components.forms(products);
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+      sums[i].stiffness += forms[i].stiffness;
+      sums[i].mass += forms[i].mass;
+      sums[i].damping += forms[i].damping;
+    }
+  }
+  return sums;
+}
+
 }  // namespace
 
-std::vector<pencil::Component> sharesOfFreeMode(const Components& components, Vec u,
-                                                Mat prestress) {
-  const MotionForms forms{components.forms(u), form(prestress, u), 0};
+std::vector<pencil::Component> sharesOfFreeMode(const Components& components,
+                                                const NodalProducts& mode,
+                                                std::optional<double> prestress) {
+  const MotionForms forms{components.forms(mode), prestress.value_or(0), 0};
   auto list = shares(components, forms);
-  nameMotions(components, {u}, list);
+  nameMotions(components, {mode.u.data()}, list);
   if (prestress)
-    list.push_back(
-        {.kind = "prestress", .name = "model", .strain = forms.prestress / forms.strain()});
+    list.push_back({.kind = "prestress", .name = "model", .strain = *prestress / forms.strain()});
   return list;
 }
 
@@ -83,15 +104,13 @@ std::vector<pencil::Component> sharesOfComplexMode(const Components& components,
                                                    const ComplexMode& mode) {
   const auto& [at, s, u, prestress] = mode.motion;
   const double v = at.speed, energy = mode.force.energy;
-  MotionForms forms{components.forms(u.real), form(prestress, u),
-                    v * v * form(bodies.rotationStiffness, u)};
-  const auto imaginary = components.forms(u.imaginary);
-  for (std::size_t i = 0; i < imaginary.size(); ++i) {
-    auto& [stiffness, mass, damping] = forms.components[i];
-    stiffness += imaginary[i].stiffness, mass += imaginary[i].mass, damping += imaginary[i].damping;
-  }
+  const MotionForms forms{formsOf(components, mode), form(prestress, u),
+                          v * v * form(bodies.rotationStiffness, u)};
   auto list = shares(components, forms);
-  nameMotions(components, {u.real, u.imaginary}, list);
+  {
+    const ReadArray real(u.real), imaginary(u.imaginary);
+    nameMotions(components, {real.data(), imaginary.data()}, list);
+  }
   if (bodies.damping)
     for (std::size_t i = 0; i < list.size(); ++i)
       list[i].growth.damping = -std::norm(s) * at.damping * forms.components[i].damping / energy;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The shares of the components in the energies of a mode, and in its growth.
+#include <optional>
 #include <vector>
 
 #include "eigen/pencil/complex_modes.hpp"
@@ -10,9 +11,11 @@
 
 namespace squeal::energies {
 
-/// Collective. Returns the components with their shares in the energies of a free mode u, N
-/// entries. The strain energy includes that of the steady stress, K_σ = `prestress`; null: none.
-std::vector<pencil::Component> sharesOfFreeMode(const Components& components, Vec u, Mat prestress);
+/// Collective. Returns the components with their shares in the energies of a free mode u. The
+/// strain energy includes that of the steady stress, uᵀ K_σ u = `prestress`, if there is one.
+std::vector<pencil::Component> sharesOfFreeMode(const Components& components,
+                                                const NodalProducts& mode,
+                                                std::optional<double> prestress);
 
 /// A complex mode at a point of a sweep, all members borrowed.
 struct ComplexMode {

@@ -10,14 +10,19 @@ namespace squeal::terms {
 
 MotionForces motionForces(const elasticity::Bodies& bodies, const Motion& motion) {
   const auto& [at, s, u, prestress] = motion;
-  MotionForces result{product(bodies.stiffness, u), 0};
+  MotionForces result{.forces = linalg::ComplexVector::like(u.real),
+                      .elastic = product(bodies.stiffness, u),
+                      .inertia = product(bodies.mass, u)};
   auto& r = result.forces;
+  add(r, 1, result.elastic);
   if (prestress) add(r, 1, product(prestress, u));
   if (bodies.rotationStiffness) add(r, at.speed * at.speed, product(bodies.rotationStiffness, u));
-  const linalg::ComplexVector inertia = product(bodies.mass, u);
-  result.energy = std::norm(s) * dot(u, inertia).real() + dot(u, r).real();
-  add(r, s * s, inertia);
-  if (bodies.damping) add(r, s * at.damping, product(bodies.damping, u));
+  result.energy = std::norm(s) * dot(u, result.inertia).real() + dot(u, r).real();
+  add(r, s * s, result.inertia);
+  if (bodies.damping) {
+    result.damped = product(bodies.damping, u);
+    add(r, s * at.damping, result.damped);
+  }
   if (bodies.gyroscopic) add(r, s * at.speed, product(bodies.gyroscopic, u));
   return result;
 }

@@ -22,6 +22,8 @@ using ComplexPoint = std::array<Complex, 3>;
 struct MotionForces {
   /// The nodal forces r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u, N entries.
   linalg::ComplexVector forces;
+  /// The terms K u, M u and C u, N entries; C u is null without damping.
+  linalg::ComplexVector elastic = {}, inertia = {}, damped = {};
   /// The energy E = |s|² uᴴ M u + uᴴ (K + v² K^R + K_σ) u [M.51], four times the mean energy.
   double energy = 0;
 };

@@ -245,7 +245,7 @@ std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Paramet
 }
 
 void MeshSweep::addComponents(sweep_solver::ModalSegment& segment) const {
-  analysis::addComponents(components_, trial, prestress_, segment);
+  analysis::addComponents(components_, brake_.model.bodies, trial, prestress_, segment);
   addParticipations(*all_, segment);
 }
 

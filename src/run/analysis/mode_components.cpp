@@ -2,11 +2,22 @@
 #include "run/analysis/mode_components.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 
+#include "algebra/linalg/block.hpp"
+#include "algebra/linalg/columns.hpp"
+#include "base/petsc/object.hpp"
+#include "base/system/mpi.hpp"
 #include "eigen/pencil/participation.hpp"
 #include "problem/energies/shares.hpp"
 
 namespace squeal::analysis {
+namespace {
+
+constexpr PetscInt together = 16;  // modes
+
+}  // namespace
 
 void addParticipations(const factor::AssociatedSystem& system,
                        sweep_solver::ModalSegment& segment) {
@@ -17,19 +28,36 @@ void addParticipations(const factor::AssociatedSystem& system,
           segment.modes, system, point.eigenvalues[shape.index].s, shape.unknowns);
 }
 
-void addComponents(const energies::Components& components, Mat trial, Mat prestress,
-                   sweep_solver::ModalSegment& segment) {
+void addComponents(const energies::Components& components, const elasticity::Bodies& bodies,
+                   Mat trial, Mat prestress, sweep_solver::ModalSegment& segment) {
   const auto& frequencies = segment.modes.angularFrequency;
   double top = 0;
   for (const auto& point : segment.points) top = std::max(top, point.bandTop);
-  OwnedVec u;
-  check(MatCreateVecs(trial, nullptr, u.out()));
-  for (std::size_t i = 0; i < frequencies.size() && (top == 0 || frequencies[i] <= top); ++i) {
-    Vec d = nullptr;
-    check(BVGetColumn(segment.modes.vectors, i, &d));
-    check(MatMult(trial, d, u));
-    check(BVRestoreColumn(segment.modes.vectors, i, &d));
-    segment.components.push_back(energies::sharesOfFreeMode(components, u, prestress));
+  const PetscInt count = top == 0
+                             ? frequencies.size()
+                             : std::ranges::upper_bound(frequencies, top) - frequencies.begin();
+  if (count == 0) return;
+  PetscInt rows = 0;
+  check(MatGetLocalSize(trial, &rows, nullptr));
+  const linalg::ReadColumns vectors(segment.modes.vectors);
+  const auto all = vectors.view();
+  // Products with several columns read a matrix only once.
+  for (PetscInt first = 0; first < count; first += together) {
+    const PetscInt size = std::min(together, count - first);
+    linalg::Block u(rows), elastic(rows), inertia(rows), stressed(rows);
+    linalg::appendProduct(trial, all.columnRange(first, first + size), u);
+    linalg::appendProduct(bodies.stiffness, u, elastic);
+    linalg::appendProduct(bodies.mass, u, inertia);
+    if (prestress) linalg::appendProduct(prestress, u, stressed);
+    for (PetscInt i = 0; i < size; ++i) {
+      std::optional<double> stress;
+      if (prestress) {
+        const auto x = u.column(i), y = stressed.column(i);
+        stress = mpi::sum(commOf(trial), std::inner_product(x.begin(), x.end(), y.begin(), 0.0));
+      }
+      segment.components.push_back(energies::sharesOfFreeMode(
+          components, {u.column(i), elastic.column(i), inertia.column(i)}, stress));
+    }
   }
 }
 

@@ -13,7 +13,7 @@ void addParticipations(const factor::AssociatedSystem& system, sweep_solver::Mod
 
 /// Collective. Adds the shares of the components in the free modes up to the top of the band of the
 /// segment, or in all of them without a band. `trial` is T; `prestress` is K_σ, null: none.
-void addComponents(const energies::Components& components, Mat trial, Mat prestress,
-                   sweep_solver::ModalSegment& segment);
+void addComponents(const energies::Components& components, const elasticity::Bodies& bodies,
+                   Mat trial, Mat prestress, sweep_solver::ModalSegment& segment);
 
 }  // namespace squeal::analysis

@@ -31,7 +31,8 @@ struct Named {
   }
   template <class Field>
   NamedMotion name(const Field& field) const {
-    return motions.names({nodalField(mesh, field)}).at(0);
+    const OwnedVec u = nodalField(mesh, field);
+    return motions.names({ReadArray(u).data()}).at(0);
   }
 };
 
