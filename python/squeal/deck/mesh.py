@@ -132,13 +132,15 @@ class Sets:
 
 @dataclass
 class Surface:
-    """Faces (element number, number of the face from 0) or, without TYPE=ELEMENT, nodes."""
+    """Faces (element number, number of the face from 0) or, without TYPE=ELEMENT, nodes.
+    `areas_differ`: the deck gives areas to the nodes, and not the same to all."""
 
     name: str
     source: Source
     nodes: np.ndarray = None
     elements: np.ndarray = None
     faces: np.ndarray = None
+    areas_differ: bool = False
 
     @property
     def rows(self):

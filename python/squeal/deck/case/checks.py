@@ -42,7 +42,7 @@ def check_elements(model, journal):
     """Refuses springs, masses and the like without their properties, and loads of bodies on
     elements that do not exist or are point masses."""
     described = [model.element_sets.members(one.label) for one in (*model.joints, *model.masses)]
-    references = [one.reference for one in model.means]
+    references = [one.reference for one in (*model.means, *model.distributed)]
     for block in model.blocks:
         if block.shape is None and block.kind != "DCOUP3D":
             lacking = np.setdiff1d(block.numbers, np.concatenate([EMPTY, *described]))
