@@ -445,7 +445,7 @@ class Manual(unittest.TestCase):
             self.assertEqual((Path(folder) / "bracket/case.yaml").read_text(), case)
             self.assertEqual("\n".join(journal.choices) + "\n", choices)
             deck = re.sub(r"\*RIGID BODY.*", "*MPC\nBEAM, 21, 22", deck)
-            path.write_text(deck.replace("*CLOAD", "*CLOAD, AMPLITUDE=RAMP"))
+            path.write_text(deck.replace("*CLOAD", "*CLOAD, FOLLOWER"))
             with self.assertRaises(DeckError) as raised:
                 import_deck(path, Path(folder) / "bracket")
         # The page has the command's name and no path.

@@ -248,7 +248,9 @@ class Model:
     materials: dict = field(default_factory=dict)
     orientations: dict = field(default_factory=dict)
     frames: dict = field(default_factory=dict)  # by node number
+    amplitudes: dict = field(default_factory=dict)
     sections: list = field(default_factory=list)
+    temperatures: list = field(default_factory=list)  # at the start: (nodes, value, source)
     equations: list = field(default_factory=list)
     rigid: list = field(default_factory=list)
     means: list = field(default_factory=list)

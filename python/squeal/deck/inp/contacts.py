@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Cards of contact: pairs of surfaces, their interactions and the laws of friction."""
+from squeal.deck.inp.amplitudes import factor_of
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import Fault
@@ -92,11 +93,13 @@ def _law(card, reader):
     return Friction(card.source, tuple(values[0] for values in table), speeds)
 
 
-@handles("CHANGE FRICTION", used=("INTERACTION",), idle=("AMPLITUDE",), lines=0)
+@handles("CHANGE FRICTION", used=("INTERACTION", "AMPLITUDE"), lines=0)
 def change_friction(card, reader):
     key = card.key("INTERACTION")
     if key not in reader.model.interactions:
         raise Fault(f"there is no interaction '{card.require('INTERACTION')}'")
+    if factor_of(card, reader) != 1:
+        raise Fault("the amplitude does not end at 1: friction between two values", "AMPLITUDE")
     reader.interaction = reader.model.interactions[key]
 
 
