@@ -197,6 +197,18 @@ DECKS = {
         "*DLOAD\nLOW, CENTRIF, 1.E6, 0., 0., 0., 0., 1., 0.\n"
         "HIGH, CENTRIF, 4.E6, 1., 0., 0., 0., 0.6, 0.8\n",
     ),
+    "amplitudes of two steps": deck(
+        "*AMPLITUDE, NAME=A\n0., 0., 4., 2.\n*AMPLITUDE, NAME=B, TIME=TOTAL TIME\n0., 0., 4., 1.\n",
+        "*CLOAD, AMPLITUDE=A\nTIP, 1, 2.\n*END STEP\n"
+        "*STEP\n*STATIC\n1., 3.\n*CLOAD, AMPLITUDE=B\nTIP, 2, 3.\n"
+        "*DLOAD, AMPLITUDE=A\nLOW, GRAV, 9810., 1., 2., -2.\nEND, P2, 3.\n"
+        "*BOUNDARY, AMPLITUDE=A\nSIDE, 1, 1, 1.E-4\n",
+    ),
+    "constants between two temperatures": deck(
+        "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNODES, 45.\n",
+        PULL,
+        STEEL.replace("0.3\n", "0.3, 20.\n1.E5, 0.4, 120.\n") + SECTION,
+    ),
     "tie of nodes to a saddle": tied(lambda x, y: 0.0),
     "tie of nodes, some of them too far away": tied(lambda x, y: 0.001 + 0.002 * x + 0.001 * y),
     "tie of nodes, not moved": tied(lambda x, y: 0.002, ", ADJUST=NO"),

@@ -4,6 +4,7 @@
 import re
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -14,8 +15,10 @@ sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck
 sys.dont_write_bytecode = True
 from small_decks import CUBE, HELD, STATIC, STEEL, Imported, cube, numbers, refused, terms
 
+from squeal.deck.case.groups import NODES, Case
 from squeal.deck.importer import import_deck
 from squeal.deck.journal import DeckError
+from squeal.deck.output.msh import partition
 
 ORTHO = "500000.,157200.,400000.,157200.,157200.,300000.,126200.,126200.,\n126200.,294."
 
@@ -432,6 +435,23 @@ class Account(unittest.TestCase):
             self.assertRaisesRegex(DeckError, "was not made by", import_deck, deck, case)
 
 
+class Groups(unittest.TestCase):
+    def test_a_group_for_each_node(self):
+        """Fields of forces make as many groups as nodes; time and memory grow like their number."""
+        case, count = Case(), 20000
+        started = time.process_time()
+        for number in range(1, count + 1):
+            case.group(NODES, [number], "loaded")
+        case.group(NODES, range(2, count + 1), "all")
+        parts = list(partition(case.groups[NODES]))
+        # A quadratic effort is more than a minute.
+        self.assertLess(time.process_time() - started, 15)
+        self.assertEqual(parts[0][0], ["loaded"])
+        self.assertEqual(parts[1][0], ["loaded_nodes", "all"])
+        self.assertEqual(parts[-1][0], [f"loaded_{count - 1}", "all"])
+        self.assertEqual([part.tolist() for _, part in parts], [[at + 1] for at in range(count)])
+
+
 class Manual(unittest.TestCase):
     def test_the_example_of_the_page(self):
         """docs/decks.md shows the case of its deck, and the error of one that is changed."""
@@ -445,7 +465,7 @@ class Manual(unittest.TestCase):
             self.assertEqual((Path(folder) / "bracket/case.yaml").read_text(), case)
             self.assertEqual("\n".join(journal.choices) + "\n", choices)
             deck = re.sub(r"\*RIGID BODY.*", "*MPC\nBEAM, 21, 22", deck)
-            path.write_text(deck.replace("*CLOAD", "*CLOAD, AMPLITUDE=RAMP"))
+            path.write_text(deck.replace("*CLOAD", "*CLOAD, FOLLOWER"))
             with self.assertRaises(DeckError) as raised:
                 import_deck(path, Path(folder) / "bracket")
         # The page has the command's name and no path.

@@ -8,7 +8,12 @@ from pathlib import Path
 repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
+import numpy as np
 from small_decks import CUBE, Imported, cube, numbers, refused
+
+from squeal.deck.case.attachments import of_equal_weight
+from squeal.deck.case.weights import shares
+from squeal.deck.cells import HEX20, TET10
 
 LOOSE = "*NODE\n20, 0.5, 0.5, 3.\n21, 6., 0., 0.\n*NSET, NSET=R\n20\n"
 UP = "*SURFACE, NAME=UP\nCUBE, S2\n"
@@ -93,11 +98,88 @@ class Different(unittest.TestCase):
         self.assertIn("CalculiX distributes forces", refused(text, dialect="calculix")[0])
         for old, new, reason in (
             ("1, 6", "1, 3", "whose rotations are free"),
-            ("DISTRIBUTING", "DISTRIBUTING, WEIGHTING METHOD=LINEAR", "LINEAR is not supported"),
+            ("DISTRIBUTING", "DISTRIBUTING, WEIGHTING METHOD=X", "WEIGHTING METHOD=X is not"),
+            ("DISTRIBUTING", "DISTRIBUTING, COUPLING=STRUCTURAL", "only COUPLING=CONTINUUM"),
             ("R, SURFACE", "5, SURFACE", "the reference node 5 belongs to solid cells"),
         ):
             self.assertIn(reason, refused(text.replace(old, new), dialect="abaqus")[0])
-        self.assertIn("DCOUP3D of Abaqus", refused(cube(LOOSE + DCOUP), dialect="abaqus")[1])
+
+    def test_weights_of_distributing_couplings(self):
+        """Areas of the faces next to a node, times a function of its distance over the largest."""
+        other = "*NODE\n9, 3., 0., 1.\n10, 3., 1., 1.\n11, 3., 0., 0.\n12, 3., 1., 0.\n"
+        other += "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n2, 2, 11, 12, 3, 6, 9, 10, 7\n"
+        place = np.array([0.0, 0.5, 3.0])
+        nodes = {5: (0, 0), 6: (1, 0), 7: (1, 1), 8: (0, 1), 9: (3, 0), 10: (3, 1)}
+        areas = {5: 0.25, 6: 0.75, 7: 0.75, 8: 0.25, 9: 0.5, 10: 0.5}
+        away = {at: np.linalg.norm([*one, 1] - place) for at, one in nodes.items()}
+        for method, function in (
+            ("UNIFORM", lambda r: 1),
+            ("LINEAR", lambda r: 1 - r),
+            ("QUADRATIC", lambda r: 1 - r * r),
+            ("CUBIC", lambda r: 1 - 3 * r**2 + 2 * r**3),
+        ):
+            card = f"*DISTRIBUTING, WEIGHTING METHOD={method}\n"
+            loose = LOOSE.replace("0.5, 0.5, 3.", "0., 0.5, 3.")
+            one = Imported(cube(other + loose + UP + COUPLING + card), dialect="abaqus")
+            largest = max(away.values())
+            wanted = {at: areas[at] * function(away[at] / largest) for at in nodes}
+            self.compare_weights(one, {at: value for at, value in wanted.items() if value > 1e-9})
+
+    def compare_weights(self, one, wanted):
+        (coupling,) = one.options["coupling"].values()
+        groups = coupling["nodes"].split(",")
+        weights = numbers(coupling.get("weights", ",".join(["1"] * len(groups))))
+        found = {}
+        for group, weight in zip(groups, weights):
+            for node in one.groups[group]:
+                found[node] = found.get(node, 0.0) + weight
+        self.assertEqual(sorted(found), sorted(wanted))
+        scale = max(found.values()) / max(wanted.values())
+        for node, weight in wanted.items():
+            self.assertAlmostEqual(found[node] / scale, weight, delta=1e-9)
+
+    def test_areas_of_faces_with_nodes_on_edges(self):
+        """A triangle has 1/12 of its area at a corner and 1/4 in the middle of an edge; a square
+        1/24 and 5/24."""
+        tetrahedron = np.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 5.0]])
+        square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        cube_corners = np.array([[x, y, z] for z in (0, 1) for x, y in square], float)
+        for shape, corners, areas, corner, middle in (
+            (
+                TET10,
+                tetrahedron,
+                (3, 5, np.sqrt(15**2 + 10**2 + 6**2) / 2, 7.5),
+                1 / 12,
+                1 / 4,
+            ),
+            (HEX20, cube_corners, (1,) * 6, 1 / 24, 5 / 24),
+        ):
+            edges = [corners[list(edge)].mean(axis=0) for edge in shape.edges]
+            nodes = np.vstack([corners, edges])
+            for face, area in zip(shape.faces, areas):
+                half = len(face) // 2
+                wanted = area * np.repeat([corner, middle], half)
+                self.assertTrue(np.allclose(shares(nodes[list(face)][None])[0], wanted, 1e-14, 0))
+
+    def test_many_weights_are_sums_of_powers_of_two(self):
+        nodes = 100 + np.arange(50)
+        weights = np.random.default_rng(5).random(50) + 0.1
+        found = np.zeros(50)
+        for part, weight in of_equal_weight(nodes, weights):
+            found[part - 100] += weight
+        self.assertLess(np.max(np.abs(found / found.max() - weights / weights.max())), 1e-9)
+        self.assertEqual(len(list(of_equal_weight(nodes, np.repeat([1.0, 2.0], 25)))), 2)
+
+    def test_weights_of_nodes(self):
+        surface = "*SURFACE, NAME=UP, TYPE=NODE\n5, {}\n6, 2.\n7, 2.\n"
+        text = cube(LOOSE + surface.format("2.") + COUPLING + "*DISTRIBUTING\n")
+        self.compare_weights(Imported(text, dialect="abaqus"), {5: 1, 6: 1, 7: 1})
+        text = cube(LOOSE + surface.format("3.") + COUPLING + "*DISTRIBUTING\n")
+        self.assertIn("nodes with different areas", refused(text, dialect="abaqus")[0])
+        text = cube(LOOSE + DCOUP.replace("6, 3.", "6, 3.\n8, 2."))
+        self.compare_weights(Imported(text, dialect="abaqus"), {5: 1, 6: 3, 8: 2})
+        rows = refused(text.replace("9, 20", "9, 1"), dialect="abaqus")
+        self.assertIn("the reference node 1 belongs to solid cells", rows[0])
 
     def test_damping(self):
         text = cube().replace("*DENSITY", "*DAMPING, ALPHA=2., BETA=1.E-6\n*DENSITY")
@@ -272,8 +354,10 @@ class Readings(unittest.TestCase):
         mass = self.read(cards + turn.format("")).options["mass"]["reference_20"]
         self.assertEqual(mass["total"], 2.0)
         self.assertEqual(numbers(mass["inertia"]), [1, 2, 3, 0, 0, 0])
-        rows = refused(cube(cards + turn.format(", 0.5")), dialect="abaqus")
-        self.assertIn("products of inertia", rows[1])
+        mass = self.read(cards + turn.format(", .1, .2, .3")).options["mass"]["reference_20"]
+        self.assertEqual(numbers(mass["inertia"]), [1, 2, 3, 0.1, 0.2, 0.3])
+        rows = refused(cube(cards + turn.format(", 5.")), dialect="abaqus")
+        self.assertIn("a negative principal moment", rows[1])
         rows = refused(cube(cards.split("*ELEMENT")[0] + turn.format("")), dialect="abaqus")
         self.assertIn("*ROTARY INERTIA: node 20 has no *MASS", rows[0])
 

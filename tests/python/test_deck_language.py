@@ -111,22 +111,20 @@ class Cards(unittest.TestCase):
         self.assertIn("unknown card", rows[1])
 
     def test_unknown_parameters_are_refused_and_can_be_ignored(self):
-        text = cube(step="*CLOAD, AMPLITUDE=A1, WHEN=NOW\nTOP, 3, 2.\n")
+        text = cube(step="*CLOAD, FOLLOWER, WHEN=NOW\nTOP, 3, 2.\n")
         rows = refused(text)
-        self.assertEqual(
-            [row.split(": ")[1] for row in rows], ["*CLOAD, AMPLITUDE", "*CLOAD, WHEN"]
-        )
-        one = Imported(text, ignored=["amplitude", "WHEN"])
-        self.assertIn("ignored by --ignore AMPLITUDE", one.remarks("CLOAD")[1])
+        self.assertEqual([row.split(": ")[1] for row in rows], ["*CLOAD, FOLLOWER", "*CLOAD, WHEN"])
+        one = Imported(text, ignored=["follower", "WHEN"])
+        self.assertIn("ignored by --ignore FOLLOWER", one.remarks("CLOAD")[1])
         note = one.options["report"]["note"]
-        self.assertEqual(note, "left out of deck.inp by --ignore: amplitude, WHEN")
+        self.assertEqual(note, "left out of deck.inp by --ignore: follower, WHEN")
         self.assertEqual(one.options["load"]["TOP"]["force"], "0.0,0.0,8.0")
 
     def test_thirty_unsupported_cards_are_named_at_once(self):
         model = """BEAM SECTION|SHELL SECTION|MEMBRANE SECTION|GAP|NMAP|GASKET SECTION|NORMAL
 SUBMODEL|CYCLIC SYMMETRY MODEL|GAP CONDUCTANCE|CLEARANCE|DISTRIBUTION|USER ELEMENT|FLUID SECTION
-NONSTRUCTURAL MASS|DESIGN VARIABLES|MODAL DAMPING|PARAMETER|CONNECTOR SECTION|SURFACE WEAR"""
-        step = """TEMPERATURE|FILM|RADIATE|DFLUX|CFLUX|MODEL CHANGE|CONTACT DAMPING|VIEWFACTOR
+NONSTRUCTURAL MASS|DESIGN VARIABLES|MODAL DAMPING|MODEL CHANGE|CONNECTOR SECTION|SURFACE WEAR"""
+        step = """TEMPERATURE|FILM|RADIATE|DFLUX|CFLUX|CHANGE MATERIAL|CONTACT DAMPING|VIEWFACTOR
 CONTACT INTERFERENCE|BASE MOTION"""
         before, within = (text.replace("\n", "|").split("|") for text in (model, step))
         text = cube(
@@ -189,7 +187,7 @@ class Mesh(unittest.TestCase):
     def test_the_last_of_equal_node_numbers_counts_and_is_named(self):
         one = Imported(cube() + "*NODE\n8, 0., 1., 1.25\n")
         self.assertEqual(one.coordinates[7].tolist(), [0, 1, 1.25])
-        self.assertTrue(any("1 node is defined twice" in text for text in one.journal.choices))
+        self.assertTrue(any("defined twice, such as 8" in text for text in one.journal.choices))
 
     def test_records_of_elements_on_several_lines(self):
         wanted = Imported(cube()).groups["CUBE"]
@@ -217,6 +215,14 @@ class Mesh(unittest.TestCase):
         )
         again = "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
         self.assertIn("element 1 is defined twice", refused(cube(again))[0])
+        wedge = cube().replace("1, 1, 2, 3, 4, 5, 6, 7, 8", "1, 1, 2, 3, 3, 5, 6, 7, 7")
+        self.assertIn("element 1 has a node twice", refused(wedge)[0])
+
+    def test_decks_that_are_cut_off(self):
+        (row,) = refused(cube().replace("*END STEP\n", ""))
+        self.assertIn("*STEP: *END STEP is missing", row)
+        (row,) = refused(cube(after="*FREQUENCY\n3\n"))
+        self.assertIn("*FREQUENCY: this card belongs after *STEP", row)
 
     def test_rows_of_nodes(self):
         model, _ = model_of("*NODE\n1, 0., 0., 0.\n9, 4., 0., 8.\n*NGEN, NSET=ROW\n1, 9, 2\n")

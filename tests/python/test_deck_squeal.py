@@ -243,6 +243,20 @@ class Roles(unittest.TestCase):
         (contact,) = abaqus(text).options["contact"].values()
         self.assertEqual(contact["separation"], False)
 
+    def test_methods_of_contact(self):
+        """They are those of the other program; without SMALL SLIDING sliding is small as well."""
+        for method in ("DIRECT", "PENALTY", "AUGMENTED LAGRANGE"):
+            one = abaqus(f"*SURFACE BEHAVIOR, {method}\n*FRICTION\n0.3,\n")
+            (contact,) = one.options["contact"].values()
+            self.assertNotIn("stiffness", contact)
+            self.assertTrue(any("sliding is small" in choice for choice in one.journal.choices))
+
+    def test_a_pair_that_is_given_twice(self):
+        text = deck("*FRICTION\n0.3,\n", STATIC.format(PRESS + motion()))
+        line = text[text.index("*CONTACT PAIR") :].split("\n")[1]
+        rows = refused(text.replace(line, f"{line}\n{line}"), dialect="abaqus")
+        self.assertTrue(any("is given twice" in row for row in rows))
+
     def test_adjusted_nodes_start_in_contact(self):
         """The pin is 0.01 above the plate."""
         steps = STATIC.format(PRESS + motion())

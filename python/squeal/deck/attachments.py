@@ -36,13 +36,15 @@ class Bushing:
 
 @dataclass
 class Distributed:
-    """A reference node that follows the weighted mean motion of nodes (RBE3)."""
+    """A reference node that follows the weighted mean motion of nodes (RBE3). `label`: the name of
+    their group, None for that of the coupling."""
 
     name: str
     reference: int
     nodes: np.ndarray
     weights: np.ndarray
     source: Source
+    label: str = None
 
 
 @dataclass

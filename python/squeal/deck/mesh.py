@@ -37,8 +37,8 @@ class Nodes:
             numbers = np.concatenate([EMPTY, *(part[0] for part in self._parts)])
             places = np.concatenate([np.zeros((0, 3)), *(part[1] for part in self._parts)])
             # The last one of equal numbers counts.
-            unique, first = np.unique(numbers[::-1], return_index=True)
-            self._sorted = unique, places[::-1][first], len(numbers) - len(unique)
+            unique, first, counts = np.unique(numbers[::-1], return_index=True, return_counts=True)
+            self._sorted = unique, places[::-1][first], unique[counts > 1]
         return self._sorted
 
     @property
@@ -51,7 +51,7 @@ class Nodes:
 
     @property
     def repeated(self):
-        """The number of coordinates that were replaced."""
+        """The numbers of nodes whose coordinates were replaced."""
         return self._table()[2]
 
     def has(self, numbers):
@@ -132,13 +132,15 @@ class Sets:
 
 @dataclass
 class Surface:
-    """Faces (element number, number of the face from 0) or, without TYPE=ELEMENT, nodes."""
+    """Faces (element number, number of the face from 0) or, without TYPE=ELEMENT, nodes.
+    `areas_differ`: the deck gives areas to the nodes, and not the same to all."""
 
     name: str
     source: Source
     nodes: np.ndarray = None
     elements: np.ndarray = None
     faces: np.ndarray = None
+    areas_differ: bool = False
 
     @property
     def rows(self):

@@ -58,7 +58,7 @@ class Rigid:
     `frame` (None: global). The components of the node `rotation` are its rotation, if there is such
     a node; components 4 to 6 of the reference node always are. `surface`: the nodes are those of a
     surface of this key, otherwise of the set `label`. `name`: of a coupling, None for a body.
-    `distributed`: the reference node follows the mean motion of the nodes, with equal weights.
+    `weighting`: the reference node follows the mean motion of the nodes, weighted by this method.
     `pinned`: rotations of reference nodes among them stay free; `mixed`: some of their components
     do. `radius`: that of a sphere about the reference node outside of which nodes are not coupled.
     """
@@ -72,7 +72,7 @@ class Rigid:
     surface: str = None
     components: tuple = (0, 1, 2)
     frame: Frame = None
-    distributed: bool = False
+    weighting: str = None
     pinned: bool = False
     mixed: bool = False
     radius: float = None
@@ -248,7 +248,9 @@ class Model:
     materials: dict = field(default_factory=dict)
     orientations: dict = field(default_factory=dict)
     frames: dict = field(default_factory=dict)  # by node number
+    amplitudes: dict = field(default_factory=dict)
     sections: list = field(default_factory=list)
+    temperatures: list = field(default_factory=list)  # at the start: (nodes, value, source)
     equations: list = field(default_factory=list)
     rigid: list = field(default_factory=list)
     means: list = field(default_factory=list)

@@ -15,7 +15,11 @@ def read_texts(path, name, journal):
         data = data[3:]
         journal.choose(f"{name}: a byte order mark at the start is skipped")
     try:
-        text = data.decode("utf-8")
+        if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+            text = data.decode("utf-16")
+            journal.choose(f"{name}: read as UTF-16")
+        else:
+            text = data.decode("utf-8")
     except UnicodeDecodeError:
         text = data.decode("latin-1")
         journal.choose(f"{name}: read as ISO 8859-1, since it is not UTF-8")

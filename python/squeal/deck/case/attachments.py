@@ -5,12 +5,14 @@ import numpy as np
 from squeal.deck.case.groups import NODES, clean
 from squeal.deck.journal import TRANSLATED, Fault, Missing
 
+DIGITS = 30  # binary ones of weights
+
 
 def add_attachments(model, roles, case, journal):
     """A fault of one of them does not keep the others from being translated."""
     for translate, ones in (
         (_bushing, model.bushings),
-        (_distributed, model.distributed),
+        (add_distributed, model.distributed),
         (_inertia, [one for one in model.inertias if one.node in roles.references]),
     ):
         for one in ones:
@@ -37,13 +39,33 @@ def _bushing(one, model, roles, case):
         case.set((*path, "frame"), case.frame(one.frame), one.source)
 
 
-def _distributed(one, model, roles, case):
+def of_equal_weight(nodes, weights):
+    """Yields parts of the nodes and their weights. Those of a node in several parts add up: many
+    different weights are written as sums of powers of two."""
+    if not len(nodes):
+        return
+    relative = weights / np.max(weights)
+    _, first, kinds = np.unique(np.round(relative, 12), return_index=True, return_inverse=True)
+    if len(first) <= DIGITS:
+        for kind, at in enumerate(first):
+            yield nodes[kinds == kind], weights[at]
+        return
+    digits = np.round(relative * 2.0**DIGITS).astype(np.int64)
+    for digit in range(DIGITS, -1, -1):
+        chosen = nodes[(digits >> digit) % 2 == 1]
+        if len(chosen):
+            yield chosen, 2.0 ** (digit - DIGITS)
+
+
+def add_distributed(one, model, roles, case):
     """Nodes of equal weight are a group, except reference nodes."""
+    if one.reference not in roles.references:
+        label = model.node_label(one.reference)
+        raise Fault(f"the reference node {label} belongs to solid cells")
     parts, weights = [], []
     inside = np.array([roles.in_cells(number) for number in one.nodes.tolist()], bool)
-    for weight in np.unique(one.weights[inside]):
-        chosen = one.nodes[inside & (one.weights == weight)]
-        parts.append(case.group(NODES, chosen, f"{one.name}_nodes"))
+    for chosen, weight in of_equal_weight(one.nodes[inside], one.weights[inside]):
+        parts.append(case.group(NODES, chosen, one.label or f"{one.name}_nodes"))
         weights.append(weight)
     for number, weight in zip(one.nodes[~inside].tolist(), one.weights[~inside]):
         roles.place(number, 0)

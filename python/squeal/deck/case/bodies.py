@@ -131,7 +131,7 @@ def _material(model, case, journal, body, section, loads):
     for refusal in material.refusals:
         journal.refuse(*refusal)
     if not material.law:
-        if not material.refusals:
+        if not material.refusals and material.elastic is None:
             lacking = f"material '{material.name}' has no {model.word('ELASTIC')}"
             journal.refuse(material.source, lacking)
         return

@@ -20,6 +20,7 @@ def check_mesh(model, journal):
                 f" {model.node_label(missing)}",
             )
             complete = False
+        _check_distinct(block, model, journal)
     numbers = np.concatenate([EMPTY, *(block.numbers for block in model.blocks)])
     for what, known in (("node", model.nodes.numbers), ("element", numbers)):
         if len(known) and known.min() < 1:
@@ -32,17 +33,30 @@ def check_mesh(model, journal):
         )
         complete = False
     repeated = model.nodes.repeated
-    if repeated:
-        words = "1 node is" if repeated == 1 else f"{repeated} nodes are"
-        journal.choose(f"{words} defined twice; the last coordinates count")
+    if len(repeated):
+        words = "1 node is" if len(repeated) == 1 else f"{len(repeated)} nodes are"
+        such = model.node_label(int(repeated[0]))
+        journal.choose(f"{words} defined twice, such as {such}; the last coordinates count")
     return complete
+
+
+def _check_distinct(block, model, journal):
+    """Refuses cells that have a node twice: other programs take them as cells with fewer nodes."""
+    if block.shape is None:
+        return
+    ordered = np.sort(block.nodes, axis=1)
+    rows = np.flatnonzero(np.any(ordered[:, 1:] == ordered[:, :-1], axis=1))
+    if len(rows):
+        label = model.element_label(block.numbers[rows[0]])
+        reason = f"element {label} has a node twice; write it as the cell with fewer nodes"
+        journal.refuse(block.source, reason)
 
 
 def check_elements(model, journal):
     """Refuses springs, masses and the like without their properties, and loads of bodies on
     elements that do not exist or are point masses."""
     described = [model.element_sets.members(one.label) for one in (*model.joints, *model.masses)]
-    references = [one.reference for one in model.means]
+    references = [one.reference for one in (*model.means, *model.distributed)]
     for block in model.blocks:
         if block.shape is None and block.kind != "DCOUP3D":
             lacking = np.setdiff1d(block.numbers, np.concatenate([EMPTY, *described]))

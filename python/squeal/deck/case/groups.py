@@ -18,7 +18,8 @@ class Case:
         self.groups = {NODES: {}, FACES: {}, CELLS: {}}
         self.bodies = {}  # name -> numbers of their cells
         self._names = {}
-        self._reserved = set()
+        self._taken = set()  # names of groups and reserved ones
+        self._numbers = {}  # the number after the last name that was numbered
 
     def set(self, path, value, source=None):
         """Sets an option: `path` is a prefix, a name and a key, or a prefix and a key. Raises Fault
@@ -39,6 +40,7 @@ class Case:
         if identity not in self._names:
             name = self.free_name(wanted, dimension)
             self._names[identity] = name
+            self._taken.add(name)
             self.groups[dimension][name] = members
         return self._names[identity]
 
@@ -59,22 +61,23 @@ class Case:
     def reserve(self, wanted, dimension):
         """Returns a name that no group has or will get."""
         name = self.free_name(wanted, dimension)
-        self._reserved.add(name)
+        self._taken.add(name)
         return name
 
     def free_name(self, wanted, dimension):
         """Returns a name that no group has; of a blank it makes an underscore."""
-        taken = self._reserved.union(*self.groups.values())
+        taken = self._taken
         name = clean(wanted)
         if name.startswith("reference_"):  # names of reference nodes
             name = f"set_{name}"
         suffix = {NODES: "_nodes", FACES: "_faces", CELLS: "_body"}[dimension]
         if name in taken and name + suffix not in taken:
             name += suffix
-        number, free = 2, name
+        number, free = self._numbers.get(name, 2), name
         while free in taken:
             free = f"{name}_{number}"
             number += 1
+        self._numbers[name] = max(number - 1, 2)
         return free
 
 

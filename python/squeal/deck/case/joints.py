@@ -2,9 +2,11 @@
 """Equations, rigid bodies, couplings, springs, dashpots and masses of a case."""
 import numpy as np
 
-from squeal.deck.case.attachments import add_attachments
+from squeal.deck.attachments import Distributed
+from squeal.deck.case.attachments import add_attachments, add_distributed
 from squeal.deck.case.groups import NODES, clean, text_of
 from squeal.deck.case.roles import elements_in
+from squeal.deck.case.weights import coupling_weights
 from squeal.deck.journal import TRANSLATED, Fault, Missing
 
 COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
@@ -13,7 +15,7 @@ COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
 def add_joints(model, roles, case, journal, faces):
     """`faces`: the object that looks faces of elements up. A fault of one joint does not keep the
     others from being translated."""
-    places = Numbered(faces)
+    places = Numbered(faces, journal)
     for translate, joints in (
         (_equation, model.equations),
         (_mean, model.means),
@@ -43,8 +45,8 @@ def add_joints(model, roles, case, journal, faces):
 class Numbered:
     """Names with the line of their card, and a number if a card gives several; masses by node."""
 
-    def __init__(self, faces):
-        self.faces = faces
+    def __init__(self, faces, journal):
+        self.faces, self.journal = faces, journal
         self.counts = {}
         self.masses = {}
 
@@ -98,13 +100,16 @@ def _rigid(rigid, model, roles, case, places):
     ]
     if not inside and not others:
         raise Missing("none of its nodes belongs to an element that is translated")
-    nodes = [case.group(NODES, inside, wanted)] if inside else []
     case.set(("reference", name, "position"), model.nodes.at([rigid.reference])[0], rigid.source)
+    if rigid.weighting is not None:
+        numbers, weights = coupling_weights(rigid, numbers, model, places.faces, places.journal)
+        one = Distributed(rigid.name, rigid.reference, numbers, weights, rigid.source, wanted)
+        add_distributed(one, model, roles, case)
+        return
+    nodes = [case.group(NODES, inside, wanted)] if inside else []
     path = ("coupling", clean(rigid.name) if rigid.name else name)
     case.set((*path, "reference"), name, rigid.source)
     case.set((*path, "nodes"), ",".join(nodes + others), rigid.source)
-    if rigid.distributed:
-        case.set((*path, "kind"), "distributed", rigid.source)
     if others and rigid.mixed:
         raise Fault("some, but not all, rotations of reference nodes are not supported")
     if others and rigid.pinned:

@@ -51,7 +51,7 @@ class Roles:
         """Loose nodes that a coupling moves: those that something else refers to become reference
         nodes, which need no support."""
         nodes = rigid.nodes if rigid.surface is None else self.model.surfaces[rigid.surface].nodes
-        if nodes is None or not rigid.components or rigid.distributed:
+        if nodes is None or not rigid.components or rigid.weighting:
             return
         state = self.model.state
         referred = {number for table in (state.forces, state.supports) for number, _ in table}
@@ -74,7 +74,7 @@ class Roles:
             raise Fault(f"node {label(rigid.reference)} is the REF NODE of two rigid bodies")
         if not rigid.components:
             raise Fault("no *KINEMATIC or *DISTRIBUTING follows this card")
-        if rigid.distributed and self.in_cells(rigid.reference):
+        if rigid.weighting and self.in_cells(rigid.reference):
             raise Fault(f"the reference node {label(rigid.reference)} belongs to solid cells")
         name = self.references[rigid.reference] = self._reference(rigid.reference)
         joined = range(3) if rigid.frame is not None else rigid.components

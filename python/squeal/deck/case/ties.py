@@ -51,7 +51,7 @@ def _tie_of_faces(tie, slave, master, model, case, journal, faces):
     if tie.tolerance is None:
         journal.choose(
             f"{tie.source}: without POSITION TOLERANCE, faces are tied up to a distance of half"
-            " their size"
+            " their size; the program of the deck ties only nodes within a few percent"
         )
 
 

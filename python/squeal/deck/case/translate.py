@@ -58,7 +58,7 @@ def _name_idle_nodes(model, roles, journal):
     if idle:
         journal.choose(
             f"nodes left out, since no solid element or joint has them: {len(idle)}, such as node"
-            f" {idle[0]}"
+            f" {model.node_label(idle[0])}"
         )
 
 
@@ -74,6 +74,14 @@ def _name_idle_cards(model, journal):
         coupled = any(one.frame is frame for one in model.rigid)
         if not coupled and not any(section.orientation == key for section in sections):
             journal.mark(frame.source, UNUSED, "nothing uses this orientation")
-    for frame in model.frames.values():
-        if journal.entries[frame.source].status == USED:
-            journal.mark(frame.source, UNUSED, "no support, force or equation has these axes")
+    for sources, remark in (
+        ([one.source for one in model.amplitudes.values()], "no load refers to this amplitude"),
+        ([one[2] for one in model.temperatures], "no constants of a material depend on it"),
+        (
+            [frame.source for frame in model.frames.values()],
+            "no support, force or equation has these axes",
+        ),
+    ):
+        for source in sources:
+            if journal.entries[source].status == USED:
+                journal.mark(source, UNUSED, remark)

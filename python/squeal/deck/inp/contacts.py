@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Cards of contact: pairs of surfaces, their interactions and the laws of friction."""
+from squeal.deck.inp.amplitudes import factor_of
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import Fault
@@ -26,9 +27,14 @@ def _interaction(reader):
     return reader.interaction
 
 
-@handles("SURFACE BEHAVIOR", used=("PRESSURE-OVERCLOSURE", "NO SEPARATION"), idle=("PENALTY",))
+@handles(
+    "SURFACE BEHAVIOR",
+    used=("PRESSURE-OVERCLOSURE", "NO SEPARATION"),
+    idle=("PENALTY", "DIRECT", "AUGMENTED LAGRANGE"),
+)
 def surface_behavior(card, reader):
-    """`hard` contact, or a pressure that is proportional to the penetration."""
+    """`hard` contact, by any method of the other program, or a pressure that is proportional to the
+    penetration."""
     one = _interaction(reader)
     kind = card.key("PRESSURE-OVERCLOSURE", "HARD")
     if kind not in ("HARD", "LINEAR"):
@@ -92,11 +98,13 @@ def _law(card, reader):
     return Friction(card.source, tuple(values[0] for values in table), speeds)
 
 
-@handles("CHANGE FRICTION", used=("INTERACTION",), idle=("AMPLITUDE",), lines=0)
+@handles("CHANGE FRICTION", used=("INTERACTION", "AMPLITUDE"), lines=0)
 def change_friction(card, reader):
     key = card.key("INTERACTION")
     if key not in reader.model.interactions:
         raise Fault(f"there is no interaction '{card.require('INTERACTION')}'")
+    if factor_of(card, reader) != 1:
+        raise Fault("the amplitude does not end at 1: friction between two values", "AMPLITUDE")
     reader.interaction = reader.model.interactions[key]
 
 
@@ -116,8 +124,12 @@ def contact_pair(card, reader):
             adjust = real(card.require("ADJUST"))
         except Fault:
             raise Fault("ADJUST with a set of nodes is not supported", "ADJUST") from None
+    if reader.dialect is ABAQUS and "SMALL SLIDING" not in card.parameters:
+        reader.journal.choose(f"{card.source}: sliding is small, as with SMALL SLIDING")
     for line, fields in card.rows():
         if len(fields) != 2:
             raise Fault("a line has the slave and the master surface", line=line)
         surfaces = [reader.surface_of(field, line) for field in fields]
+        if any([one.slave, one.master] == surfaces for one in reader.model.contacts):
+            raise Fault("this pair of surfaces is given twice", line=line)
         reader.model.contacts.append(Contact(*surfaces, interaction, card.source, adjust))

@@ -2,12 +2,14 @@
 """Cards that couple nodes with a reference node: rigid bodies, couplings, constraints of points."""
 import numpy as np
 
+from squeal.deck.attachments import Distributed
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import Fault
 from squeal.deck.model import Equation, Mean, Rigid
 from squeal.deck.numbers import integer, real
 
+METHODS = ("UNIFORM", "LINEAR", "QUADRATIC", "CUBIC")
 FREE = "rotations that some nodes share with a reference node, and others do not, are not supported"
 
 
@@ -83,6 +85,9 @@ def _frame_of(card, reader):
 
 
 def _open_coupling(reader):
+    refusals = reader.journal.refusals
+    if refusals and refusals[-1].source.card == "COUPLING":
+        raise Fault("its *COUPLING is refused")
     one = reader.model.rigid[-1] if reader.model.rigid else None
     if one is None or one.name is None or one.components:
         raise Fault("this card belongs after *COUPLING")
@@ -121,7 +126,7 @@ def kinematic(card, reader):
     _couple(one, _components(card), reader)
 
 
-@handles("DISTRIBUTING", used=("WEIGHTING METHOD",))
+@handles("DISTRIBUTING", used=("WEIGHTING METHOD", "COUPLING"))
 def distributing(card, reader):
     """In Abaqus the reference node follows the mean motion of the surface."""
     one = _open_coupling(reader)
@@ -133,22 +138,25 @@ def distributing(card, reader):
                 " not move; this is not supported"
             )
         method = card.key("WEIGHTING METHOD", "UNIFORM")
-        if method != "UNIFORM":
+        if method not in METHODS:
             raise Fault(f"WEIGHTING METHOD={method} is not supported", "WEIGHTING METHOD")
+        if card.key("COUPLING", "CONTINUUM") != "CONTINUUM":
+            raise Fault("only COUPLING=CONTINUUM is supported", "COUPLING")
+        if reader.model.surfaces[one.surface].areas_differ:
+            raise Fault("nodes with different areas in *SURFACE, TYPE=NODE are not supported")
         if _components(card) != set(range(6)):
             raise Fault("a reference node whose rotations are free is not supported")
     except Fault:
         reader.model.rigid.pop()
         raise
-    one.components, one.distributed = (0, 1, 2), True
+    one.components, one.weighting = (0, 1, 2), method
 
 
 @handles("DISTRIBUTING COUPLING", used=("ELSET",))
 def distributing_coupling(card, reader):
-    """In CalculiX the displacement of the node of DCOUP3D is the weighted mean, without moments."""
+    """In Abaqus the node of DCOUP3D follows the weighted mean motion of others; in CalculiX its
+    displacement is the weighted mean, without moments."""
     reader.decide()
-    if reader.dialect is ABAQUS:
-        raise Fault("DCOUP3D of Abaqus is not supported; use *COUPLING and *DISTRIBUTING")
     sets = reader.model.element_sets
     elements = sets.members(reader.key(card, "ELSET", sets))
     references = reader.model.nodes_of_elements(elements, "DCOUP3D")
@@ -162,8 +170,16 @@ def distributing_coupling(card, reader):
         weights.append(np.full(len(nodes[-1]), real(fields[1], line)))
     if not nodes or np.concatenate(weights).sum() == 0:
         raise Fault("the weights have the sum zero")
-    reader.model.means.append(
-        Mean(int(references[0]), np.concatenate(nodes), np.concatenate(weights), card.source)
+    nodes, weights = np.concatenate(nodes), np.concatenate(weights)
+    if reader.dialect is not ABAQUS:
+        reader.model.means.append(Mean(int(references[0]), nodes, weights, card.source))
+        return
+    if np.any(weights < 0):
+        raise Fault("negative weights are not supported")
+    used = weights > 0
+    name = f"coupling_{card.source.line}"
+    reader.model.distributed.append(
+        Distributed(name, int(references[0]), nodes[used], weights[used], card.source)
     )
 
 

@@ -138,16 +138,19 @@ def mass(card, reader):
 
 @handles("ROTARY INERTIA", used=("ELSET",), lines=1)
 def rotary_inertia(card, reader):
-    """Inertia about the node, in the axes of the part."""
+    """The tensor I11, I22, I33, I12, I13, I23 about the node, in the axes of the part: products of
+    inertia are negative sums, as those of the program."""
     label = _points(card, reader, "ROTARYI")
     line, fields = next(card.rows(), (None, []))
     numbers = [real(field, line) if field else 0.0 for field in fields]
     if not 1 <= len(numbers) <= 6:
         raise Fault("the line has up to six numbers", line=line)
     numbers += [0.0] * (6 - len(numbers))
-    if any(numbers[3:]):
-        raise Fault("products of inertia are not supported; give principal moments", line=line)
-    matrix = reader.scope.rotation @ np.diag(numbers[:3]) @ reader.scope.rotation.T
+    matrix = np.array(numbers)[[[0, 3, 4], [3, 1, 5], [4, 5, 2]]]
+    smallest, _, largest = np.linalg.eigvalsh(matrix)
+    if smallest < -1e-9 * abs(largest):
+        raise Fault("the tensor of inertia has a negative principal moment", line=line)
+    matrix = reader.scope.rotation @ matrix @ reader.scope.rotation.T
     reader.model.masses.append(PointMass(label, 0.0, card.source, matrix))
 
 

@@ -50,32 +50,54 @@ def elastic(card, reader):
     if kind not in LAWS:
         raise Fault(f"TYPE={kind} is not supported")
     law, count, lines = LAWS[kind]
-    rows = list(card.rows())
-    fields = [field for _, row in rows[:lines] for field in row]
-    if len(fields) not in (count, count + 1):
-        raise Fault(f"TYPE={kind} has {count} constants and a temperature on {lines} lines")
     if one.law:
         raise Fault(f"material '{one.name}' has two laws")
-    one.constants = tuple(real(field, rows[0][0]) for field in fields[:count])
-    one.law, one.elastic = law, card.source
-    if len(rows) > lines:
-        reader.journal.choose(
-            f"{card.source}: the constants of the first temperature are used, of"
-            f" {len(rows) // lines}"
-        )
-    elif len(fields) > count:
-        reader.journal.remark(card.source, "the temperature of the constants is not used")
+    one.elastic = card.source
+    table = _table(card, count, lines, f"TYPE={kind}")
+    one.constants = _at_temperature(card, table, count, reader)
+    one.law = law
+
+
+def _table(card, count, lines, name):
+    """Returns rows of constants and their temperature, if the deck gives one; each row may take
+    several lines."""
+    rows = list(card.rows())
+    table = []
+    for first in range(0, max(len(rows), 1), lines):
+        fields = [field for _, row in rows[first : first + lines] for field in row]
+        if len(fields) not in (count, count + 1):
+            ends = "1 line" if lines == 1 else f"{lines} lines"
+            constants = "1 constant" if count == 1 else f"{count} constants"
+            raise Fault(f"{name} has {constants} and a temperature on {ends}")
+        table.append([real(field, rows[first][0]) for field in fields])
+    return table
+
+
+def _at_temperature(card, table, count, reader):
+    """Returns the constants at the temperature of the start: between those of a table they change
+    linearly, beyond its ends they stay constant."""
+    if len(table) == 1:
+        if len(table[0]) > count:
+            reader.journal.remark(card.source, "the temperature of the constants is not used")
+        return tuple(table[0][:count])
+    values = np.array([row + [0.0] * (count + 1 - len(row)) for row in table])
+    temperatures = values[:, count]
+    if np.any(np.diff(temperatures) <= 0):
+        raise Fault("the temperatures of a table have to ascend")
+    at = reader.temperature()
+    reader.journal.choose(
+        f"{card.source}: the constants are those at the temperature {at:g} of the start"
+    )
+    return tuple(float(np.interp(at, temperatures, column)) for column in values.T[:count])
 
 
 @handles("DENSITY")
 def density(card, reader):
     one = _material(reader)
-    line, fields = next(card.rows(), (None, []))
-    if not fields:
+    if not card.data:
         raise Fault("there is no line of data")
-    one.density, one.density_source = real(fields[0], line), card.source
-    if len(card.data) > 1:
-        reader.journal.choose(f"{card.source}: the density of the first temperature is used")
+    (one.density,) = _at_temperature(card, _table(card, 1, 1, "a density"), 1, reader)
+    one.density_source = card.source
 
 
 @handles("DAMPING", used=("ALPHA", "BETA", "STRUCTURAL"), lines=0)

@@ -249,17 +249,21 @@ def define(card, reader, parameter, sets, numbers):
         sets.add(*reader.defined(card, parameter), card.source, [numbers])
 
 
-@handles("INITIAL CONDITIONS", used=("TYPE",))
+@handles("INITIAL CONDITIONS", used=("TYPE",), phase=1)
 def initial_conditions(card, reader):
+    """Temperatures at the start, at which materials have their constants."""
     if card.key("TYPE") != "TEMPERATURE":
         raise Fault(f"TYPE={card.value('TYPE')} is not supported")
-    reader.journal.mark(card.source, UNUSED, "no temperatures: a card that gives one is refused")
+    for line, fields in card.rows():
+        if len(fields) < 2:
+            raise Fault("a line has a node or node set and a temperature", line=line)
+        nodes, value = reader.nodes_of(fields[0], line), real(fields[1], line)
+        reader.model.temperatures.append((nodes, value, card.source))
 
 
 WITHOUT_EFFECT = {
     "HEADING": "",
     "PHYSICAL CONSTANTS": "temperatures and gravitation between masses are refused",
-    "AMPLITUDE": "a load that refers to it is refused",
     "CONTROLS": "this program has its own tolerances",
     "SECTION CONTROLS": "hourglass control and the like of the other program",
 }

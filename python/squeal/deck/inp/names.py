@@ -4,7 +4,7 @@ import numpy as np
 
 from squeal.deck.inp.assembly import Scope
 from squeal.deck.inp.cards import key_of
-from squeal.deck.journal import Fault
+from squeal.deck.journal import TRANSLATED, Fault
 from squeal.deck.mesh import EMPTY
 from squeal.deck.numbers import integer, is_integer
 from squeal.deck.topology import free_faces
@@ -125,6 +125,17 @@ class Names:
             nodes = [block.nodes.ravel() for block in self.model.blocks if block.shape]
             self._cell_nodes = np.unique(np.concatenate([EMPTY, *nodes]))
         return np.isin(numbers, self._cell_nodes)
+
+    def temperature(self):
+        """Returns the temperature at the start, 0 by default. Raises Fault if it is not uniform."""
+        self.in_cells([])
+        values = np.zeros(len(self._cell_nodes))
+        for nodes, value, source in self.model.temperatures:
+            values[np.isin(self._cell_nodes, nodes)] = value
+            self.journal.mark(source, TRANSLATED)
+        if np.any(values != values[:1]):
+            raise Fault("constants that depend on temperatures, which differ at the start")
+        return float(values[0]) if len(values) else 0.0
 
     def free_faces(self, elements):
         """Returns the faces of elements at the surface of the mesh, as rows (element, face)."""

@@ -7,6 +7,7 @@ import numpy as np
 
 from squeal.deck.inp import contacts, couplings, generate, joints  # noqa: F401 (handlers)
 from squeal.deck.inp import materials, mesh, squeal, state, surfaces  # noqa: F401
+from squeal.deck.inp.amplitudes import Clock
 from squeal.deck.inp.assembly import Structure
 from squeal.deck.inp.cards import read_cards
 from squeal.deck.inp.detect import detect
@@ -14,19 +15,21 @@ from squeal.deck.inp.dialect import ABAQUS, OUTPUT, PROCEDURES
 from squeal.deck.inp.handlers import TABLE, settle
 from squeal.deck.inp.lines import read_lines
 from squeal.deck.inp.names import Names
+from squeal.deck.inp.parameters import substitute
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
 from squeal.deck.mesh import Instance
 from squeal.deck.model import Model, Squeal
 from squeal.deck.numbers import integer, real
 
+GENERAL = "general contact is not supported; use *CONTACT PAIR"
 REASONS = {
     **{name: "shells are not supported" for name in ("SHELL SECTION", "MEMBRANE SECTION")},
     "BEAM SECTION": "beams are not supported",
     "TEMPERATURE": "temperatures and their strains are not supported",
     "GAP": "gap elements are not supported",
-    "PARAMETER": "parameters are not supported; write their values into the deck",
     "NMAP": "mapped nodes are not supported; write their coordinates into the deck",
     "CONNECTOR SECTION": "connectors are not supported; use springs, dashpots or a coupling",
+    **dict.fromkeys(("CONTACT", "CONTACT INCLUSIONS", "CONTACT PROPERTY ASSIGNMENT"), GENERAL),
     "BUCKLE": "buckling loads are not computed",
 }
 
@@ -34,6 +37,8 @@ REASONS = {
 def _reason(card):
     if card.keyword in REASONS:
         return REASONS[card.keyword]
+    if card.keyword in SUPPORTED:
+        return "this card belongs after *STEP"
     if card.keyword in PROCEDURES:
         return "this procedure is not computed"
     return "this card is not supported" if card.known else "unknown card"
@@ -48,9 +53,11 @@ CHANGES_OF_FRICTION = {"STEP", "STATIC", "CHANGE FRICTION", "FRICTION", "END STE
 @dataclass
 class Step:
     """The step that is read: kinds of cards that it has given already, and places that it has
-    loaded. `frequency`: it computes modes; `only_friction`: it changes nothing but friction."""
+    loaded. `frequency`: it computes modes; `timed`: it is static; `only_friction`: it changes
+    nothing but friction."""
 
     frequency: bool = False
+    timed: bool = False
     after_static: bool = False
     only_friction: bool = False
     perturbation: bool = False
@@ -67,6 +74,7 @@ class Reader(Names):
         self.dialect = dialect
         self.material = self.interaction = None
         self.step = Step()
+        self.clock = Clock()
 
     def read(self, cards):
         """Reads the nodes, elements and sets of all scopes, then their surfaces, then the rest."""
@@ -160,13 +168,18 @@ class Reader(Names):
             return
         if procedure is None:
             self.journal.refuse(cards[0].source, "the step has no procedure")
+        if cards[-1].keyword != "END STEP":
+            self.journal.refuse(cards[0].source, "*END STEP is missing: the deck may be cut off")
         only_friction = all(card.keyword in CHANGES_OF_FRICTION for card in cards)
         self.step = Step(
             name in ("FREQUENCY", "COMPLEX FREQUENCY"),
+            name == "STATIC",
             self.model.static is not None,
             only_friction,
         )
         self._open_step(cards[0], name)
+        if name == "STATIC":
+            self._begin(procedure)
         for card in cards[1:]:
             if card is procedure and supported:
                 self._procedure(card)
@@ -178,6 +191,12 @@ class Reader(Names):
                 self._apply(card)
         squeal.add_request(self)
         self.step = Step()
+
+    def _begin(self, procedure):
+        try:
+            self.clock.begin(procedure)
+        except Fault as fault:
+            self.journal.refuse(procedure.source, fault.reason, fault.name, fault.line)
 
     def _open_step(self, card, procedure):
         journal = self.journal
@@ -289,7 +308,7 @@ class Reader(Names):
 def read_model(path, dialect, journal):
     """Returns the model of a deck; the journal then has an entry for each card. `dialect` None: the
     one that is detected. Raises DeckError if a file cannot be read."""
-    lines = read_lines(path, journal)
+    lines = substitute(read_lines(path, journal), journal)
     if dialect is None:
         dialect, reason = detect(lines)
         journal.choose(f"dialect: {dialect.name}, {reason}")

@@ -2,6 +2,7 @@
 """Cards of supports and loads, and what a step keeps of those of the step before."""
 import numpy as np
 
+from squeal.deck.inp.amplitudes import factor_of
 from squeal.deck.inp.cards import key_of
 from squeal.deck.inp.handlers import PARAMETERS, handles
 from squeal.deck.inp.surfaces import face_number
@@ -32,11 +33,12 @@ def _clear_if_new(card, reader, *tables):
     reader.step.renewed.add(kind)
 
 
-@handles("BOUNDARY", used=("OP", "TYPE", "FIXED"))
+@handles("BOUNDARY", used=("OP", "TYPE", "FIXED", "AMPLITUDE"))
 def boundary(card, reader):
     if card.key("TYPE", "DISPLACEMENT") != "DISPLACEMENT":
         raise Fault(f"TYPE={card.value('TYPE')} is not supported", "TYPE")
     supports = reader.model.state.supports
+    factor = factor_of(card, reader)
     _clear_if_new(card, reader, supports)
     for line, fields in card.rows():
         nodes = reader.nodes_of(fields[0], line)
@@ -44,7 +46,8 @@ def boundary(card, reader):
             _lock(nodes, fields, line, reader)
             continue
         components, value = _held(fields, line)
-        held = Value(value, reader.label_of(fields[0], reader.model.node_sets), card.source)
+        label = reader.label_of(fields[0], reader.model.node_sets)
+        held = Value(factor * value, label, card.source)
         for number in nodes:
             for component in components:
                 supports[int(number), component] = held
@@ -73,7 +76,11 @@ def _held(fields, line):
         raise Fault("a line has a node or set, two components and a value", line=line)
     if key_of(fields[1]) in SYMMETRIES:
         return SYMMETRIES[key_of(fields[1])], 0.0
-    first = integer(fields[1], line)
+    try:
+        first = integer(fields[1], line)
+    except Fault:
+        known = ", ".join(SYMMETRIES)
+        raise Fault(f"'{fields[1]}' is not a component or one of {known}", line=line) from None
     last = integer(fields[2], line) if len(fields) > 2 and fields[2] else first
     if not 1 <= first <= last <= 6:
         what = "temperatures (11)" if first == 11 else f"components {first} to {last}"
@@ -82,18 +89,19 @@ def _held(fields, line):
     return range(first - 1, last), value
 
 
-@handles("CLOAD", used=("OP",))
+@handles("CLOAD", used=("OP", "AMPLITUDE"))
 def concentrated_load(card, reader):
     """A force replaces that of earlier steps at its node and component; in one step they add up."""
     if reader.step.frequency:
         reader.journal.mark(card.source, UNUSED, "loads have no effect on free vibrations")
         return
     forces = reader.model.state.forces
+    factor = factor_of(card, reader)
     _clear_if_new(card, reader, forces)
     for line, fields in card.rows():
         if len(fields) != 3:
             raise Fault("a line has a node or set, a component and a value", line=line)
-        component, value = integer(fields[1], line) - 1, real(fields[2], line)
+        component, value = integer(fields[1], line) - 1, factor * real(fields[2], line)
         if component not in range(6):
             raise Fault("components are 1 to 6", line=line)
         nodes = reader.nodes_of(fields[0], line)
@@ -118,18 +126,20 @@ def _add(table, place, new, step):
     step.loaded.add((id(table), place))
 
 
-@handles("DLOAD", used=("OP",))
+@handles("DLOAD", used=("OP", "AMPLITUDE"))
 def distributed_load(card, reader):
     if reader.step.frequency:
         reader.journal.mark(card.source, UNUSED, "loads have no effect on free vibrations")
         return
     state = reader.model.state
+    factor = factor_of(card, reader)
     _clear_if_new(card, reader, state.pressures, state.body_loads)
     for line, fields in card.rows():
         if len(fields) < 2:
             raise Fault("a line has an element or set, a label and values", line=line)
         elements, label = _loaded_elements(fields[0], line, reader), key_of(fields[1])
         numbers = [real(field, line) if field else 0.0 for field in fields[2:]]
+        numbers[:1] = [factor * one for one in numbers[:1]]
         if label in BODY_LOADS:
             load = _body_load(label, elements, numbers, line, card.source)
             _add_body_load(state.body_loads, load, reader.step)
@@ -182,12 +192,13 @@ def _body_load(kind, elements, numbers, line, source):
     return BodyLoad(kind, elements, vector / length, amount, source, np.array(numbers[1:4]))
 
 
-@handles("DSLOAD", used=("OP",))
+@handles("DSLOAD", used=("OP", "AMPLITUDE"))
 def surface_load(card, reader):
     if reader.step.frequency:
         reader.journal.mark(card.source, UNUSED, "loads have no effect on free vibrations")
         return
     state = reader.model.state
+    factor = factor_of(card, reader)
     _clear_if_new(card, reader, state.pressures, state.body_loads)
     for line, fields in card.rows():
         key = reader.set_key(fields[0], reader.model.surfaces)
@@ -196,7 +207,7 @@ def surface_load(card, reader):
             raise Fault(f"there is no surface with faces '{fields[0]}'", line=line)
         if len(fields) != 3 or key_of(fields[1]) != "P":
             raise Fault("only the pressure P is supported", line=line)
-        pressure = Value(real(fields[2], line), key, card.source)
+        pressure = Value(factor * real(fields[2], line), key, card.source)
         for number, face in zip(surface.elements, surface.faces):
             _add(state.pressures, (int(number), int(face)), pressure, reader.step)
     reader.journal.mark(card.source, TRANSLATED)

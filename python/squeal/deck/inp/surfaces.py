@@ -5,6 +5,7 @@ import numpy as np
 from squeal.deck.inp.handlers import handles
 from squeal.deck.journal import Fault
 from squeal.deck.mesh import EMPTY, Surface
+from squeal.deck.numbers import real
 
 COMBINATIONS = ("UNION", "INTERSECTION", "DIFFERENCE")
 
@@ -20,13 +21,25 @@ def surface(card, reader):
     if "COMBINE" in card.parameters:
         reader.model.surfaces[key] = _combined(card, reader, name)
     elif kind == "NODE":
-        parts = [reader.nodes_of(fields[0], line) for line, fields in card.rows()]
-        numbers = np.unique(np.concatenate([EMPTY, *parts]))
-        reader.model.surfaces[key] = Surface(name, card.source, nodes=numbers)
+        reader.model.surfaces[key] = _of_nodes(card, reader, name)
     else:
         rows = [_faces(fields, line, card, reader) for line, fields in card.rows()]
         elements, faces = np.concatenate([np.zeros((0, 2), np.int64), *rows]).T
         reader.model.surfaces[key] = Surface(name, card.source, None, elements, faces)
+
+
+def _of_nodes(card, reader, name):
+    """A line has a node or set, and the area of each node: 1 by default."""
+    parts, areas = [EMPTY], set()
+    for line, fields in card.rows():
+        if len(fields) > 2:
+            raise Fault("a line has a node or node set and an area", line=line)
+        parts.append(reader.nodes_of(fields[0], line))
+        areas.add(real(fields[1], line) if len(fields) == 2 and fields[1] else 1.0)
+    if areas - {1.0}:
+        reader.journal.remark(card.source, "the areas of the nodes are not used")
+    numbers = np.unique(np.concatenate(parts))
+    return Surface(name, card.source, nodes=numbers, areas_differ=len(areas) > 1)
 
 
 def _faces(fields, line, card, reader):

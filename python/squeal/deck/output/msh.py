@@ -30,32 +30,35 @@ def _numbers_of_groups(case):
     return {key: number for number, key in enumerate(names, 1)}
 
 
-def _partition(groups):
+def partition(groups):
     """Yields the names of groups, and the members that are in exactly these groups."""
     if not groups:
         return
     members = np.concatenate(list(groups.values()))
     unique, inverse = np.unique(members, axis=0, return_inverse=True)
     inverse = inverse.ravel()
-    found = np.zeros((len(unique), len(groups)), bool)
+    # Each group divides the parts that it meets. There may be a group for each node.
+    part_of, names = np.zeros(len(unique), np.int64), [[]]
     at = 0
-    for column, part in enumerate(groups.values()):
-        found[inverse[at : at + len(part)], column] = True
-        at += len(part)
-    kinds, which = np.unique(found, axis=0, return_inverse=True)
-    names = list(groups)
-    for number, kind in enumerate(kinds):
-        chosen = [name for name, on in zip(names, kind) if on]
-        yield chosen, unique[which.ravel() == number]
+    for name, members in groups.items():
+        rows = inverse[at : at + len(members)]
+        at += len(members)
+        before, which = np.unique(part_of[rows], return_inverse=True)
+        part_of[rows] = len(names) + which.ravel()
+        names += [[*names[one], name] for one in before]
+    order = np.argsort(part_of, kind="stable")
+    parts, first = np.unique(part_of[order], return_index=True)
+    for part, chosen in zip(parts, np.split(order, first[1:])):
+        yield names[part], unique[chosen]
 
 
 def _points(case):
-    for names, numbers in _partition(case.groups[NODES]):
+    for names, numbers in partition(case.groups[NODES]):
         yield NODES, names, (POINT, None, numbers[:, None])
 
 
 def _faces(case, faces):
-    for names, rows in _partition(case.groups[FACES]):
+    for names, rows in partition(case.groups[FACES]):
         tables = [table for _, table in faces.tables(rows)]
         for size in sorted({table.shape[1] for table in tables}):
             table = np.concatenate([table for table in tables if table.shape[1] == size])
