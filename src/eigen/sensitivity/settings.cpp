@@ -9,7 +9,8 @@ namespace {
 const FlagOption wantedOption(
     "flutter", "flutter_sensitivities", false,
     "derivatives of the eigenvalues of the stored complex modes (-flutter_shapes) with respect to "
-    "friction, speed, pressure, moduli, densities, springs, bushings and masses: "
+    "friction, speed, pressure, moduli, densities, damping of bodies, springs, bushings and "
+    "masses: "
     "sensitivities.csv");
 
 }  // namespace

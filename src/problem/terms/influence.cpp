@@ -25,14 +25,17 @@ bool dependsOnSteadyState(const contact::Contact& contact, const sweep::Paramete
 
 }  // namespace
 
+/// A property of a material.
+enum class Influences::Quantity { moduli, density, damping };
+
 /// A parameter θ, and the change of the steady state with θ.
 struct Influences::Influence {
   std::string name;
   double sweep::Parameters::*member = nullptr;  // θ in the point; null: θ belongs to a material
   int material = -1;                            // index into Mesh::materialGroups
-  bool density = false;  // θ is a factor on the density of the material; otherwise on its moduli
-  int attached = -1;     // θ is a factor on this spring, bushing or mass
-  double size = 1;       // θ, for the step of differences
+  Quantity quantity = Quantity::moduli;         // of the material, on which θ is a factor
+  int attached = -1;                            // θ is a factor on this spring, bushing or mass
+  double size = 1;                              // θ, for the step of differences
   steady::Change change = {};
   std::vector<double> responseForce = {};  // its change
   OwnedMat prestress = {};                 // its change
@@ -77,19 +80,27 @@ std::vector<Influences::Influence> Influences::influences(const BodyPoint& state
                     .member = parameter.value,
                     .size = isFriction ? 1 : state.at.*parameter.value});
   }
-  for (int group = 0; group < std::ssize(mesh_.materialGroups); ++group)
-    for (const bool density : {false, true})
-      list.push_back({.name = (density ? "density_" : "young_") + mesh_.materialGroups[group].name,
+  for (int group = 0; group < std::ssize(mesh_.materialGroups); ++group) {
+    const auto add = [&](const char* prefix, Quantity quantity) {
+      list.push_back({.name = prefix + mesh_.materialGroups[group].name,
                       .material = group,
-                      .density = density});
+                      .quantity = quantity});
+    };
+    add("young_", Quantity::moduli);
+    add("density_", Quantity::density);
+    if (parts_[group].massDamping > 0 || parts_[group].stiffnessDamping > 0)
+      add("damping_", Quantity::damping);
+  }
   for (int i = 0; i < std::ssize(attached_); ++i)
     list.push_back({.name = attached_[i].parameter, .attached = i});
   if (!dependsOnSteadyState(contact_, state.at, state.prestress, settings_)) return list;
   const steady::Problem problem(mesh_, bodies_, contact_);
-  for (auto& influence : list)
-    if (influence.member != &sweep::Parameters::damping &&
-        !(influence.attached >= 0 && attached_[influence.attached].damping))
-      addSteadyChange(state, problem, influence);
+  for (auto& influence : list) {
+    const bool damps = influence.member == &sweep::Parameters::damping ||
+                       influence.quantity == Quantity::damping ||
+                       (influence.attached >= 0 && attached_[influence.attached].damping);
+    if (!damps) addSteadyChange(state, problem, influence);
+  }
   return list;
 }
 
@@ -123,7 +134,7 @@ void Influences::addSteadyChange(const BodyPoint& state, const steady::Problem& 
     if (part.weight) check(VecAXPY(force, -1, part.weight));
   } else if (!influence.member) {
     const auto& part = parts_[influence.material];
-    if (influence.density) {
+    if (influence.quantity == Quantity::density) {
       inertiaForms(part.rotationStiffness, part.centrifugal, v * v);
       if (part.weight) check(VecAXPY(force, -1, part.weight));
     } else {
@@ -172,7 +183,7 @@ Influences::Projected Influences::project(const BodyPoint& state,
 }
 
 /// Returns zᴴ (∂P/∂θ) u for the matrices of one material [M.47]: K, C and K_σ for its moduli, or M,
-/// C, G and K^R for its density; or for those of a spring, bushing or mass.
+/// C, G and K^R for its density, or C for its damping; or for those of a spring, bushing or mass.
 Complex Influences::materialForm(const Influence& influence, const BodyPoint& state,
                                  const Projected& pair) const {
   if (influence.member) return 0;
@@ -185,7 +196,10 @@ Complex Influences::materialForm(const Influence& influence, const BodyPoint& st
            s * v * form(part.gyroscopic);
   }
   const auto& part = parts_[influence.material];
-  if (influence.density)
+  if (influence.quantity == Quantity::damping)
+    return s * c *
+           (part.massDamping * form(part.mass) + part.stiffnessDamping * form(part.stiffness));
+  if (influence.quantity == Quantity::density)
     return (s * s + s * c * part.massDamping) * form(part.mass) + s * v * form(part.gyroscopic) +
            v * v * form(part.rotationStiffness);
   Complex sum = (1.0 + s * c * part.stiffnessDamping) * form(part.stiffness);

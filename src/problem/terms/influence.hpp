@@ -41,13 +41,15 @@ class Influences {
   /// on the steady state; the active set and the matrix of modal damping are constant. The
   /// parameters are friction, speed, pressure and damping as in Parameters, a factor young_GROUP on
   /// all moduli of a material group (ds/d ln E), a factor density_GROUP on its density
-  /// (ds/d ln ρ), and factors on the stiffness and damping of each spring and bushing and on each
-  /// point mass. The search for left vectors starts from `start`. Throws Error if the change of the
-  /// steady state does not converge.
+  /// (ds/d ln ρ), a factor damping_GROUP on the damping of its material, if it has any, and factors
+  /// on the stiffness and damping of each spring and bushing and on each point mass. The search for
+  /// left vectors starts from `start`. Throws Error if the change of the steady state does not
+  /// converge.
   void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
 
  private:
+  enum class Quantity;
   struct Influence;
   struct Projected;
   std::vector<Influence> influences(const BodyPoint& state);

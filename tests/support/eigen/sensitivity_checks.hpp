@@ -27,10 +27,11 @@ struct Material {
 
 /// A case or only options, and the values of its parameters without factors.
 struct Configuration {
-  std::string name, options;  ///< no name: only options
+  std::string name = {}, options = {};  ///< no name: only options
   double friction = 0.4;
   std::map<std::string, Material> materials{{"disc", {{1.0}, 1.0}}, {"pad", {{0.4}, 0.6}}};
-  /// [parameter] the options of springs, bushings and masses that it multiplies, and their values
+  /// [parameter] the options of damping, springs, bushings and masses that it multiplies, and their
+  /// values
   std::map<std::string, std::vector<std::pair<std::string, std::vector<double>>>> attached = {};
 };
 

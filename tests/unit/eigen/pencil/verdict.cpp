@@ -10,7 +10,7 @@
 namespace squeal::pencil {
 namespace {
 
-constexpr Criteria plain{1e-9, 0, 3, 1e9};
+constexpr Criteria plain{.accuracy = 1e-9, .shapes = 3, .shapesBelow = 1e9};
 
 /// Returns the verdicts on eigenvalues of a band up to 1000 rad/s, all with the same estimate of
 /// |δs|/|s|.

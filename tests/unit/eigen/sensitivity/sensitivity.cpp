@@ -21,11 +21,16 @@ void expectDerivatives(const Configuration& model) {
   expectDifferences(model, analysis);
 }
 
+const std::string coarseLayers =
+    "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 40 -flutter_method direct "
+    "-flutter_direct_count 400";
+
 TEST(Sensitivity, OfApproximationAWithDampedBodies) {
-  expectDerivatives({"two_layers",
-                     "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 40 -flutter_method direct "
-                     "-flutter_direct_count 400 "
-                     "-material_disc_rayleigh_mass 0.01 -material_pad_rayleigh_stiffness 0.002"});
+  expectDerivatives(
+      {.name = "two_layers",
+       .options = coarseLayers,
+       .attached = {{"damping_disc", {{"material_disc_rayleigh_mass", {0.01}}}},
+                    {"damping_pad", {{"material_pad_rayleigh_stiffness", {0.002}}}}}});
 }
 
 // The full terms of moving matter, a friction law that falls with speed, and prestress: every term
@@ -51,12 +56,12 @@ TEST(Sensitivity, OfFrictionDamping) {
 
 // Equivalent viscous damping follows the moduli, and not the density.
 TEST(Sensitivity, OfLossFactors) {
-  expectDerivatives({"two_layers",
-                     "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 40 -flutter_method direct "
-                     "-flutter_direct_count 400 "
-                     "-material_disc_loss_factor 0.004 -material_disc_loss_frequency 0.3 "
-                     "-material_pad_loss_factor 0.02 "
-                     "-material_pad_loss_frequency 0.5"});
+  expectDerivatives(
+      {.name = "two_layers",
+       .options =
+           coarseLayers + " -material_disc_loss_frequency 0.3 -material_pad_loss_frequency 0.5",
+       .attached = {{"damping_disc", {{"material_disc_loss_factor", {0.004}}}},
+                    {"damping_pad", {{"material_pad_loss_factor", {0.02}}}}}});
 }
 
 // Axes turned in the disc, and with the place in the pad; the steady stress of both joins the
