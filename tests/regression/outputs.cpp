@@ -32,7 +32,7 @@ TEST(Outputs, Eigenvalues) {
   EXPECT_EQ(table.header,
             "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,"
             "frequency_hz,damping_ratio,"
-            "backward_error,error_estimate,certified,verdict,unstable");
+            "backward_error,error_estimate,certified,verdict,unstable,name");
   const auto friction = table.column("friction"), mode = table.column("mode"),
              growth = table.column("growth_rate_1_per_s"),
              angular = table.column("angular_frequency_rad_per_s"),
@@ -107,7 +107,7 @@ TEST(Outputs, StabilityMap) {
 
 TEST(Outputs, Modes) {
   const CsvTable table = readCsv(layerRun().folder / "modes.csv");
-  EXPECT_EQ(table.header, "mode,angular_frequency_rad_per_s,frequency_hz,relative_residual");
+  EXPECT_EQ(table.header, "mode,angular_frequency_rad_per_s,frequency_hz,relative_residual,name");
   const auto mode = table.column("mode"), angular = table.column("angular_frequency_rad_per_s"),
              frequency = table.column("frequency_hz"), residual = table.column("relative_residual");
   ASSERT_EQ(mode.size(), 21U);
