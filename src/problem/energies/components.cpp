@@ -68,12 +68,13 @@ Components::Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
     ofForm_.push_back(known - list_.begin());
     if (known == list_.end()) list_.push_back({.kind = form.kind, .name = form.name});
   }
-  firstInterface_ = list_.size();
   const auto& interfaces = contact.interfaces;
-  for (std::size_t i = 0; i < interfaces.names.size(); ++i)  // contact first, then ties
-    if (interfaces.options[i].role != contact::Role::tied)
-      list_.push_back({.kind = "interface", .name = interfaces.names[i]});
-  interfaces_ = list_.size() - firstInterface_;
+  for (std::size_t i = 0; i < interfaces.names.size(); ++i) {
+    ofInterface_.emplace_back();
+    if (interfaces.options[i].role == contact::Role::tied) continue;
+    ofInterface_.back() = list_.size();
+    list_.push_back({.kind = "interface", .name = interfaces.names[i]});
+  }
   groundDashpots_ = elasticity::groundOf(mesh, settings).dashpots;
   linkDamping_ = elasticity::formMatrix(mesh, bodies.links, &Form::damping);
   pointMass_ = elasticity::formMatrix(mesh, masses, &Form::mass);
@@ -222,7 +223,7 @@ void Components::addLayers(Vec u, std::vector<Forms>& forms) const {
   for (const auto& node : contact_.interfaces.nodes) {
     if (!node.hasLayer()) continue;
     for (int d = 0; d < dimension; ++d)
-      forms[firstInterface_ + node.interface].stiffness +=
+      forms[ofInterface_[node.interface].value()].stiffness +=
           (x[dimension * node.node + d] - x[dimension * node.surfaceNode + d]) *
           y[dimension * node.node + d];
   }

@@ -49,10 +49,8 @@ class Components {
   std::vector<NamedMotion> motions(const std::vector<const double*>& parts) const {
     return motions_->names(parts);
   }
-  /// Returns the index of a contact interface in the list.
-  std::size_t ofInterface(int interface) const { return firstInterface_ + interface; }
-  /// Returns the number of contact interfaces, which precede the ties in Interfaces.
-  std::size_t interfaces() const { return interfaces_; }
+  /// Returns the index in the list of each interface, [interface]; none for ties.
+  const std::vector<std::optional<std::size_t>>& ofInterfaces() const { return ofInterface_; }
 
  private:
   /// The rows of the nodes that several bodies share, of the matrices of one body.
@@ -76,7 +74,8 @@ class Components {
   const elasticity::Bodies& bodies_;
   const contact::Contact& contact_;
   std::vector<pencil::Component> list_;
-  std::size_t firstGround_ = 0, firstForm_ = 0, firstInterface_ = 0, interfaces_ = 0;
+  std::size_t firstGround_ = 0, firstForm_ = 0;
+  std::vector<std::optional<std::size_t>> ofInterface_;  // [interface] component
   std::vector<int> bodyOf_;  // [owned node] body; `none` in no cell, `several` where bodies meet
   std::vector<std::vector<PetscInt>> nodesOf_;  // [body] owned nodes
   std::optional<BodyMotions> motions_;          // always set

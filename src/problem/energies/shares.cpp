@@ -114,7 +114,7 @@ std::vector<pencil::Component> sharesOfComplexMode(const Components& components,
   if (bodies.damping)
     for (std::size_t i = 0; i < list.size(); ++i)
       list[i].growth.damping = -std::norm(s) * at.damping * forms.components[i].damping / energy;
-  std::vector<double> sums(4 * components.interfaces(), 0.0);
+  std::vector<double> sums(4 * components.ofInterfaces().size(), 0.0);
   for (std::size_t k = 0; k < mode.friction.size(); ++k) {
     double* sum = &sums[4 * contact.interfaces.nodes[k].interface];
     const auto& part = mode.friction[k];
@@ -122,8 +122,10 @@ std::vector<pencil::Component> sharesOfComplexMode(const Components& components,
         sum[3] += part.convective;
   }
   mpi::sumAlike(commOf(u.real), sums);
-  for (std::size_t i = 0; i < components.interfaces(); ++i) {
-    auto& growth = list[components.ofInterface(i)].growth;
+  for (std::size_t i = 0; i < components.ofInterfaces().size(); ++i) {
+    const auto component = components.ofInterfaces()[i];
+    if (!component) continue;
+    auto& growth = list[*component].growth;
     growth.follower = sums[4 * i], growth.turning = sums[4 * i + 1];
     growth.slope = sums[4 * i + 2], growth.convective = sums[4 * i + 3];
   }
