@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
 #include "model/elasticity/assembly.hpp"
 #include "model/elasticity/carried_masses.hpp"
@@ -28,6 +29,20 @@ OwnedMat formMatrix(const mesh::Mesh& mesh, const std::vector<attachments::Form>
   }
   if (!any) return {};
   return toMatrix(mesh, triples, SymmetryClass::symmetric);
+}
+
+std::vector<double> formValues(const mesh::Mesh& mesh, const std::vector<Form>& forms, Vec u) {
+  std::vector<double> values(forms.size(), 0.0);
+  {
+    const ReadArray x(u);
+    for (std::size_t f = 0; f < forms.size(); ++f)
+      for (const auto& term : forms[f].terms)
+        if (const PetscInt node = mesh.ownedNode(term.node); node >= 0)
+          for (int d = 0; d < mesh.dimension; ++d)
+            values[f] += term.direction[d] * x[mesh.dimension * node + d];
+  }
+  mpi::sumAlike(mesh.comm, values);
+  return values;
 }
 
 namespace {

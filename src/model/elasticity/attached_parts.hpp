@@ -14,6 +14,10 @@ namespace squeal::elasticity {
 OwnedMat formMatrix(const mesh::Mesh& mesh, const std::vector<attachments::Form>& forms,
                     double attachments::Form::*factor);
 
+/// Collective. Returns δ of each form for a nodal vector u, [form], the same on all ranks.
+std::vector<double> formValues(const mesh::Mesh& mesh, const std::vector<attachments::Form>& forms,
+                               Vec u);
+
 /// The contribution of one stiffness, damping or mass to Bodies, on all nodal displacements: its
 /// derivatives with respect to a factor on it. Matrices and vectors are null if they are zero.
 struct AttachedPart {

@@ -24,8 +24,8 @@ std::array<Point, 6> rigidMotions(const Point& fromCentre) {
   return motions;
 }
 
-/// Collective. Returns the mass and the centre of a body.
-std::pair<double, Point> massOf(const mesh::Mesh& mesh, const LumpedBody& body) {
+/// Collective. Returns the centre of mass of a body.
+Point centreOf(const mesh::Mesh& mesh, const LumpedBody& body) {
   std::array<double, 4> sums{};
   for (std::size_t k = 0; k < body.nodes.size(); ++k) {
     const Point& x = mesh.coordinates[body.nodes[k]];
@@ -33,7 +33,7 @@ std::pair<double, Point> massOf(const mesh::Mesh& mesh, const LumpedBody& body) 
     sums[3] += body.mass[k];
   }
   mpi::sumAlike(mesh.comm, sums);
-  return {sums[3], {sums[0] / sums[3], sums[1] / sums[3], sums[2] / sums[3]}};
+  return {sums[0] / sums[3], sums[1] / sums[3], sums[2] / sums[3]};
 }
 
 /// Collective. Returns Σ m r rᵀ about the centre.
@@ -88,7 +88,7 @@ BodyMotions::BodyMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodie
 BodyMotions::Body BodyMotions::bodyOf(const LumpedBody& lumped,
                                       const elasticity::Motion& motion) const {
   Body body{.lumped = lumped};
-  body.centre = massOf(mesh_, lumped).second;
+  body.centre = centreOf(mesh_, lumped);
   linalg::DenseMatrix gram(6, 6);
   for (std::size_t k = 0; k < lumped.nodes.size(); ++k) {
     const auto motions = rigidMotions(mesh::minus(mesh_.coordinates[lumped.nodes[k]], body.centre));
@@ -142,7 +142,6 @@ NamedMotion BodyMotions::rigidName(const Body& body,
 
 std::vector<NamedMotion> BodyMotions::names(const std::vector<const double*>& parts) const {
   std::vector<NamedMotion> names(mesh_.bodies.size());
-  if (list_.empty()) return names;
   for (std::size_t body = 0; body < list_.size(); ++body) {
     names[body] = rigidName(list_[body], parts);
     if (names[body].share >= surelyRigid) continue;

@@ -16,8 +16,8 @@ class BodyMotions {
  public:
   /// Collective. Takes the owned nodes of each body, [body], and borrows the mesh during the
   /// lifetime of the object. A body that turns is analysed about its axis, another one about the
-  /// principal axis of inertia about which it looks most alike. Masses are lumped as the diagonal
-  /// of the mass matrix, scaled to the mass of the body.
+  /// principal axis of inertia about which it looks most alike. The weight of a node is the
+  /// diagonal of the mass matrix there; a common factor would change no share.
   BodyMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
               const std::vector<std::vector<PetscInt>>& nodes);
   /// Collective. Returns the name of the motion of each body, [body], in the mode with these parts:

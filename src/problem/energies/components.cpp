@@ -2,7 +2,6 @@
 #include "problem/energies/components.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
@@ -88,12 +87,14 @@ void Components::findBodies() {
   const PetscInt count = mesh_.bodies.size();
   OwnedVec cells;  // [owned node][body] ranks with cells of the body at the node
   check(VecCreateMPI(mesh_.comm, count * mesh_.ownedNodes, PETSC_DETERMINE, cells.out()));
-  std::set<std::pair<PetscInt, int>> found;  // local node, body
+  std::vector<unsigned char> touches(count * mesh_.localNodes(), 0);  // [local node][body]
   for (const auto& block : mesh_.cells)
     for (std::size_t e = 0; e < block.tag.size(); ++e)
-      for (const PetscInt node : block.nodesOf(e)) found.emplace(node, block.body[e]);
-  for (const auto& [node, body] : found)
-    check(VecSetValue(cells, count * mesh_.globalNode[node] + body, 1, ADD_VALUES));
+      for (const PetscInt node : block.nodesOf(e)) touches[count * node + block.body[e]] = 1;
+  for (PetscInt node = 0; node < mesh_.localNodes(); ++node)
+    for (PetscInt body = 0; body < count; ++body)
+      if (touches[count * node + body])
+        check(VecSetValue(cells, count * mesh_.globalNode[node] + body, 1, ADD_VALUES));
   check(VecAssemblyBegin(cells));
   check(VecAssemblyEnd(cells));
   const ReadArray values(cells);
@@ -145,7 +146,7 @@ std::vector<Forms> Components::forms(const NodalProducts& products) const {
   mpi::sumAlike(mesh_.comm, sums);
   for (std::size_t i = 0; i < forms.size(); ++i)
     forms[i] = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
-  addForms(products.u.data(), forms);
+  addForms(u, forms);
   return forms;
 }
 
@@ -230,14 +231,8 @@ void Components::addLayers(Vec u, std::vector<Forms>& forms) const {
 }
 
 /// Collective. Adds springs, bushings and point masses.
-void Components::addForms(const double* x, std::vector<Forms>& forms) const {
-  std::vector<double> delta(attached_.size(), 0.0);
-  for (std::size_t f = 0; f < attached_.size(); ++f)
-    for (const auto& term : attached_[f].terms)
-      if (const PetscInt node = mesh_.ownedNode(term.node); node >= 0)
-        for (int d = 0; d < mesh_.dimension; ++d)
-          delta[f] += term.direction[d] * x[mesh_.dimension * node + d];
-  mpi::sumAlike(mesh_.comm, delta);
+void Components::addForms(Vec u, std::vector<Forms>& forms) const {
+  const auto delta = elasticity::formValues(mesh_, attached_, u);
   for (std::size_t f = 0; f < attached_.size(); ++f) {
     const double square = delta[f] * delta[f];
     forms[ofForm_[f]].stiffness += attached_[f].stiffness * square;

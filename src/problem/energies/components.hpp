@@ -68,7 +68,7 @@ class Components {
   void addShared(Vec u, std::vector<Forms>& forms) const;
   void addGround(const double* x, std::vector<Forms>& forms) const;
   void addLayers(Vec u, std::vector<Forms>& forms) const;
-  void addForms(const double* x, std::vector<Forms>& forms) const;
+  void addForms(Vec u, std::vector<Forms>& forms) const;
 
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;

@@ -30,21 +30,8 @@ double MotionForms::mass() const {
   return sum;
 }
 
-/// Collective. Returns uᵀ X u; 0 if X is null.
-double form(Mat x, Vec u) {
-  if (!x) return 0;
-  OwnedVec y;
-  PetscScalar value = 0;
-  check(VecDuplicate(u, y.out()));
-  check(MatMult(x, u, y));
-  check(VecDot(y, u, &value));
-  return value;
-}
-
-/// Collective. Returns uᴴ X u of a symmetric matrix, which is real.
-double form(Mat x, const linalg::ComplexVector& u) {
-  return form(x, u.real) + form(x, u.imaginary);
-}
+/// Collective. Returns uᴴ X u of a symmetric matrix, which is real; 0 if X is null.
+double form(Mat x, const linalg::ComplexVector& u) { return x ? dot(u, product(x, u)).real() : 0; }
 
 /// Returns the components with their shares of the energies.
 std::vector<pencil::Component> shares(const Components& components, const MotionForms& forms) {

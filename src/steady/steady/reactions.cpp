@@ -5,6 +5,7 @@
 
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
+#include "model/elasticity/attached_parts.hpp"
 #include "model/elasticity/ground.hpp"
 #include "model/elasticity/loads.hpp"
 #include "steady/steady/nodal_forces.hpp"
@@ -134,15 +135,7 @@ void Reactions::addGround(const Solution& solution, List& list) const {
 /// `to` or, if that is the ground, on the other one.
 void Reactions::addLinks(const Solution& solution, List& list) const {
   const auto& links = bodies_.links;
-  std::vector<double> lengthening(links.size(), 0.0);
-  {
-    const ReadArray u(solution.displacement);
-    for (std::size_t i = 0; i < links.size(); ++i)
-      for (const auto& term : links[i].terms)
-        if (const PetscInt node = mesh_.ownedNode(term.node); node >= 0)
-          lengthening[i] += mesh::dot(term.direction, componentsAt(mesh_, u.data(), node));
-  }
-  mpi::reduce<double>(mesh_.comm, lengthening, MPI_SUM);
+  const auto lengthening = elasticity::formValues(mesh_, links, solution.displacement);
   for (std::size_t first = 0, last = 0; first < links.size(); first = last) {
     const bool isGrounded =
         std::ranges::none_of(links[first].terms, [](const auto& term) { return term.isTo; });
