@@ -133,13 +133,17 @@ std::vector<double> Revolution::moments(const double* values) const {
     const double a = mesh::dot(motion, axes_[0]), b = mesh::dot(motion, axes_[1]);
     const std::array<double, 3> along{cosine * a + sine * b, cosine * b - sine * a,
                                       mesh::dot(motion, axes_[2])};
+    std::array<std::array<double, functions>, 3> weighted;  // [component] m u p
+    for (std::size_t component = 0; component < 3; ++component)
+      for (std::size_t i = 0; i < functions; ++i)
+        weighted[component][i] = body_.mass[k] * along[component] * p[i];
     forEachHarmonic(cosine, sine, [&](int n, double c, double s) {
       for (std::size_t component = 0; component < 3; ++component) {
         double* sum = &sums[placeOf(n, component)];
-        const double weight = body_.mass[k] * along[component];
-        for (std::size_t i = 0; i < functions; ++i) sum[i] += weight * c * p[i];
+        for (std::size_t i = 0; i < functions; ++i) sum[i] += c * weighted[component][i];
         if (n > 0)
-          for (std::size_t i = 0; i < functions; ++i) sum[functions + i] += weight * s * p[i];
+          for (std::size_t i = 0; i < functions; ++i)
+            sum[functions + i] += s * weighted[component][i];
       }
     });
     sums.back() += body_.mass[k] * mesh::dot(motion, motion);
