@@ -88,7 +88,7 @@ class Tables(unittest.TestCase):
                 check=True,
                 stdout=subprocess.DEVNULL,
             )
-        after_flutter.place(PROGRAM, MADE, cls.place / "brake")
+        after_flutter.RUN.place(PROGRAM, MADE, cls.place / "brake")
         cls.runs = {name: squeal.open(cls.place / name) for name in ("brake", *RUNS)}
 
     def test_the_program_writes_what_the_schema_says(self):

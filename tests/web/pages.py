@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""The report of the coarse disc brake, opened in Chromium. The tests of the report derive from
-Pages; their arguments are PROGRAM and RESULTS, the results of coarse_brake.py."""
+"""The report of a run, opened in Chromium. The tests of the report derive from Pages; their
+arguments are PROGRAM and RESULTS, the results of the run."""
 import csv
 import subprocess
 import sys
@@ -23,9 +23,16 @@ PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/sque
 MADE = sys.argv.pop(1) if len(sys.argv) > 1 else None
 
 
+def rows(path):
+    """The rows of a table."""
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
 class Pages(unittest.TestCase):
     """One report and one browser for all tests of a class."""
 
+    RUN = coarse_brake.RUN
     OPEN_PAGES = set()  # the tests that open pages by themselves, whatever page is open
 
     @classmethod
@@ -33,14 +40,13 @@ class Pages(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = Path(cls.temporary.name) / "coarse"
-        coarse_brake.place(PROGRAM, MADE, cls.folder)
+        cls.RUN.place(PROGRAM, MADE, cls.folder)
         subprocess.run(
             [repository / "scripts/squeal-report", cls.folder],
             check=True,
             stdout=subprocess.DEVNULL,
         )
-        with open(cls.folder / "eigenvalues.csv", newline="") as file:
-            cls.rows = list(csv.DictReader(file))
+        cls.rows = rows(cls.folder / "eigenvalues.csv")
         cls.driver = browser(browser="ALL", performance="ALL")
         cls.addClassCleanup(cls.driver.quit)
         cls.page = None

@@ -2,65 +2,29 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """The motion after flutter in the report, opened in Chromium: test_regime.py PROGRAM RESULTS, with
 the results of after_flutter.py."""
-import csv
 import json
 import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
 from selenium.webdriver.common.by import By
-from selenium.webdriver.support.ui import Select, WebDriverWait
+from selenium.webdriver.support.ui import Select
 
-repository = Path(__file__).resolve().parents[2]
-folders = ("python", "scripts/dev", "tests/support/harness", "tests/support/run")
-sys.path[:0] = [str(repository / folder) for folder in folders]
-sys.dont_write_bytecode = True
+from pages import Pages, rows
 import after_flutter
 import squeal
-from report_picture import browser
 from squeal import regime, report
 from changed_tables import reshape
 
-PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
-MADE = sys.argv.pop(1) if len(sys.argv) > 1 else None
 
+class AfterFlutter(Pages):
+    RUN = after_flutter.RUN
 
-def rows(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
-class AfterFlutter(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.folder = Path(cls.temporary.name) / "coarse"
-        after_flutter.place(PROGRAM, MADE, cls.folder)
-        subprocess.run(
-            [repository / "scripts/squeal-report", cls.folder],
-            check=True,
-            stdout=subprocess.DEVNULL,
-        )
+        super().setUpClass()
         cls.run_row = rows(cls.folder / "regime.csv")[0]
-        cls.driver = browser(browser="ALL", performance="ALL")
-        cls.addClassCleanup(cls.driver.quit)
-
-        cls.open_page(cls.folder / "report.html")
-
-    @classmethod
-    def open_page(cls, path):
-        cls.driver.get(path.as_uri())
-        WebDriverWait(cls.driver, 60).until(
-            lambda driver: driver.execute_script("return document.documentElement.dataset.ready")
-        )
-
-    def element(self, name):
-        return self.driver.find_element(By.ID, name)
 
     def drawn(self, name):
         """The first line, or the points, of a diagram as Chart.js has them."""

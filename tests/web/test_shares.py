@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Shares of the components, participation of the free modes and ranked changes in the report:
 test_shares.py PROGRAM RESULTS. The tables of shares are made here."""
-import csv
 import shutil
 import unittest
 from pathlib import Path
@@ -11,17 +10,12 @@ from unittest import mock
 import numpy as np
 from selenium.webdriver.common.by import By
 
-from pages import Pages
+from pages import Pages, rows
 import made_tables
 import squeal
 from squeal import report
 
 BAD = "<b id=bad>shim"
-
-
-def rows(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
 
 
 class Shares(Pages):
