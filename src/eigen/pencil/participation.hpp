@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The free modes that a complex mode is made of.
+#include <span>
 #include <vector>
 
 #include "algebra/factor/associated_system.hpp"
@@ -10,14 +11,20 @@
 
 namespace squeal::pencil {
 
-/// Collective. Returns the participations of all modes in a motion x e^{st} in the unknowns of
-/// K0 and M0, [mode]. With q_i = d_iᵀ M0 x [M.88],
+/// A motion x e^{st} in the unknowns of K0 and M0; x is borrowed.
+struct ComplexMotion {
+  Complex s;
+  const linalg::ComplexVector* x;
+};
+
+/// Collective. Returns the participations of all modes in each motion, [motion][mode]. With
+/// q_i = d_iᵀ M0 x [M.88],
 ///   x = Σ q_i d_i + rest,   energy share = (|s|² + ω_i²) |q_i|² / (|s|² xᴴ M0 x + xᴴ K0 x),
 ///   MAC = |q_i|² / xᴴ M0 x.
 /// The sums of both are at most 1, since the modes are orthogonal in both norms. The amplitudes q_i
 /// are given relative to √(xᴴ M0 x), with the phase in which the largest one is positive.
-std::vector<Participation> participations(const modes::Modes& modes,
-                                          const factor::AssociatedSystem& system, Complex s,
-                                          const linalg::ComplexVector& x);
+std::vector<std::vector<Participation>> participations(const modes::Modes& modes,
+                                                       const factor::AssociatedSystem& system,
+                                                       std::span<const ComplexMotion> motions);
 
 }  // namespace squeal::pencil

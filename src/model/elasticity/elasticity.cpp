@@ -74,20 +74,19 @@ struct CellMatrices {
   std::optional<Assembly> damping;  // C = α M + (β + η / 2πf) K, dashpots
 };
 
-/// Collective. Sums over the cells, with entries for the dashpots of the ground in the damping
-/// matrix if there are any.
-CellMatrices cellMatrices(const mesh::Mesh& mesh, const Bodies& bodies, std::optional<int> group,
-                          const Ground& ground) {
+/// Collective. Sums over the cells that `uses` selects. The damping matrix is formed if a ground is
+/// given, with entries for its dashpots, and if anything damps.
+CellMatrices cellMatrices(const mesh::Mesh& mesh, const Bodies& bodies, const CellFilter& uses,
+                          const Ground* ground) {
   const auto& materials = bodies.materials;
-  const CellFilter uses = cellsOf(group);
   const NodePattern pattern(mesh, uses);
   CellMatrices sums{{mesh, pattern, false}, {mesh, pattern, true}, {}};
   const auto any = [&](double Material::*damping) {
     return std::ranges::any_of(materials, [&](const auto& given) { return given.*damping > 0; });
   };
   const bool stiff = any(&Material::stiffnessDamping);
-  if (!group && (stiff || any(&Material::massDamping) || ground.dashpots))
-    sums.damping.emplace(mesh, pattern, !stiff && !ground.turnedDashpots);
+  if (ground && (stiff || any(&Material::massDamping) || ground->dashpots))
+    sums.damping.emplace(mesh, pattern, !stiff && !ground->turnedDashpots);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     if (!uses(block, e)) return;
@@ -123,7 +122,7 @@ void rejectSections(const mesh::Mesh& mesh, const Settings& settings) {
 
 void assembleMatrices(const mesh::Mesh& mesh, Bodies& bodies) {
   Ground ground = groundOf(mesh, bodies.settings);
-  auto sums = cellMatrices(mesh, bodies, {}, ground);
+  auto sums = cellMatrices(mesh, bodies, cellsOf({}), &ground);
   sums.stiffness.addRows(ground.springs);
   bodies.stiffness = sums.stiffness.finish(SymmetryClass::rounded);
   bodies.mass = sums.mass.finish(SymmetryClass::rounded);
@@ -243,7 +242,7 @@ MaterialPart materialPart(const mesh::Mesh& mesh, const Bodies& bodies, int grou
   const int body = mesh.materialGroups[group].body;
   std::vector<Motion> motions(bodies.motions.size());
   motions[body] = bodies.motions[body];
-  auto sums = cellMatrices(mesh, bodies, group, {});
+  auto sums = cellMatrices(mesh, bodies, cellsOf(group), nullptr);
   // These terms are linear in the densities.
   auto materials = bodies.materials;
   for (int m = 0; m < std::ssize(materials); ++m)
@@ -260,6 +259,36 @@ MaterialPart materialPart(const mesh::Mesh& mesh, const Bodies& bodies, int grou
   part.mass = sums.mass.finish(SymmetryClass::rounded);
   part.massDamping = bodies.materials[group].massDamping;
   part.stiffnessDamping = bodies.materials[group].stiffnessDamping;
+  return part;
+}
+
+MaterialRows materialRows(const mesh::Mesh& mesh, const Bodies& bodies, int group,
+                          const std::vector<PetscInt>& nodes) {
+  const OwnedVec marked = nodalVector(mesh);
+  {
+    const WriteArray values(marked);
+    for (const PetscInt node : nodes) values[mesh.dimension * node] = 1;
+  }
+  const CellFilter uses = [&, marks = localValues(mesh, marked)](const mesh::CellBlock& block,
+                                                                 std::size_t e) {
+    return block.material[e] == group && std::ranges::any_of(block.nodesOf(e), [&](PetscInt node) {
+             return marks[mesh.dimension * node] == 1;
+           });
+  };
+  auto sums = cellMatrices(mesh, bodies, uses, nullptr);
+  std::vector<PetscInt> rows;
+  for (const PetscInt node : nodes)
+    for (int d = 0; d < mesh.dimension; ++d)
+      rows.push_back(mesh.dimension * (mesh.firstNode + node) + d);
+  OwnedIS own;
+  check(ISCreateGeneral(mesh.comm, rows.size(), rows.data(), PETSC_COPY_VALUES, own.out()));
+  MaterialRows part;
+  const auto rowsOf = [&](Assembly& sum, OwnedMat& kept) {
+    const OwnedMat all = sum.finish(SymmetryClass::rounded);
+    check(MatCreateSubMatrix(all, own, nullptr, MAT_INITIAL_MATRIX, kept.out()));
+  };
+  rowsOf(sums.stiffness, part.stiffness);
+  rowsOf(sums.mass, part.mass);
   return part;
 }
 

@@ -77,6 +77,15 @@ struct MaterialPart {
 /// Collective. Returns the contribution of the material group with this index.
 MaterialPart materialPart(const mesh::Mesh& mesh, const Bodies& bodies, int group);
 
+/// Rows of the matrices of one material group at some nodes, on all nodal displacements.
+struct MaterialRows {
+  OwnedMat stiffness, mass;  ///< without grounded springs; (dimension · nodes) × N
+};
+/// Collective. Returns the rows of these owned nodes, in their order. Only the cells at the nodes
+/// are assembled.
+MaterialRows materialRows(const mesh::Mesh& mesh, const Bodies& bodies, int group,
+                          const std::vector<PetscInt>& nodes);
+
 /// Collective. Returns the geometric stiffness [M.6], equal for all components,
 ///   K_σ,ij = ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
 /// for the stress of the given nodal displacements and of their incompatible modes. It is N×N, N/m,

@@ -24,13 +24,6 @@ OwnedVec product(Mat x, Vec u) {
   return y;
 }
 
-/// Collective. Returns these rows of a matrix, with all columns; null if it is.
-OwnedMat rowsOf(Mat matrix, IS rows) {
-  OwnedMat part;
-  if (matrix) check(MatCreateSubMatrix(matrix, rows, nullptr, MAT_INITIAL_MATRIX, part.out()));
-  return part;
-}
-
 /// Collective. Adds factor · X to a sum, which is created if it is null.
 void addScaled(OwnedMat& sum, double factor, Mat x) {
   if (factor == 0) return;
@@ -112,21 +105,15 @@ void Components::findBodies() {
 }
 
 void Components::keepSharedRows() {
-  std::vector<PetscInt> rows;
-  for (const PetscInt node : sharedNodes_)
-    for (int d = 0; d < mesh_.dimension; ++d)
-      rows.push_back(mesh_.dimension * (mesh_.firstNode + node) + d);
-  OwnedIS own;
-  check(ISCreateGeneral(mesh_.comm, rows.size(), rows.data(), PETSC_COPY_VALUES, own.out()));
   shared_.resize(mesh_.bodies.size());
   for (int group = 0; group < std::ssize(mesh_.materialGroups); ++group) {
     auto& sum = shared_[mesh_.materialGroups[group].body];
-    const auto part = elasticity::materialPart(mesh_, bodies_, group);
-    const OwnedMat stiffness = rowsOf(part.stiffness, own), mass = rowsOf(part.mass, own);
-    addScaled(sum.stiffness, 1, stiffness);
-    addScaled(sum.mass, 1, mass);
-    addScaled(sum.damping, part.massDamping, mass);
-    addScaled(sum.damping, part.stiffnessDamping, stiffness);
+    const auto part = elasticity::materialRows(mesh_, bodies_, group, sharedNodes_);
+    const auto& material = bodies_.materials[group];
+    addScaled(sum.stiffness, 1, part.stiffness);
+    addScaled(sum.mass, 1, part.mass);
+    addScaled(sum.damping, material.massDamping, part.mass);
+    addScaled(sum.damping, material.stiffnessDamping, part.stiffness);
   }
 }
 

@@ -123,31 +123,39 @@ Revolution::Revolution(const mesh::Mesh& mesh, LumpedBody body, const Axis& axis
 }
 
 /// Collective. Returns Σ m f u of all functions f and cylindrical components u, and at the end
-/// Σ m |u|².
+/// Σ m |u|². The sums over some nodes are a product of matrices: of cos nθ and sin nθ with m p u.
 std::vector<double> Revolution::moments(const double* values) const {
-  std::vector<double> sums(placeOf(mostDiameters + 1, 0) + 1, 0.0);
-  for (std::size_t k = 0; k < places_.size(); ++k) {
-    const auto& [cosine, sine, p, ring] = places_[k];
-    const double* u = values + 3 * body_.nodes[k];
-    const Point motion{u[0], u[1], u[2]};
-    const double a = mesh::dot(motion, axes_[0]), b = mesh::dot(motion, axes_[1]);
-    const std::array<double, 3> along{cosine * a + sine * b, cosine * b - sine * a,
-                                      mesh::dot(motion, axes_[2])};
-    std::array<std::array<double, functions>, 3> weighted;  // [component] m u p
-    for (std::size_t component = 0; component < 3; ++component)
-      for (std::size_t i = 0; i < functions; ++i)
-        weighted[component][i] = body_.mass[k] * along[component] * p[i];
-    forEachHarmonic(cosine, sine, [&](int n, double c, double s) {
-      for (std::size_t component = 0; component < 3; ++component) {
-        double* sum = &sums[placeOf(n, component)];
-        for (std::size_t i = 0; i < functions; ++i) sum[i] += c * weighted[component][i];
-        if (n > 0)
-          for (std::size_t i = 0; i < functions; ++i)
-            sum[functions + i] += s * weighted[component][i];
-      }
-    });
-    sums.back() += body_.mass[k] * mesh::dot(motion, motion);
+  constexpr std::size_t together = 256;  // nodes: both factors stay in the cache
+  linalg::DenseMatrix products(2 * mostDiameters + 2, 3 * functions);  // [cos, sin of n][u][p]
+  double square = 0;
+  for (std::size_t first = 0; first < places_.size(); first += together) {
+    const std::size_t count = std::min(together, places_.size() - first);
+    linalg::DenseMatrix harmonics(count, products.rows()), weighted(count, products.columns());
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& [cosine, sine, p, ring] = places_[first + k];
+      const double mass = body_.mass[first + k];
+      const double* u = values + 3 * body_.nodes[first + k];
+      const Point motion{u[0], u[1], u[2]};
+      const double a = mesh::dot(motion, axes_[0]), b = mesh::dot(motion, axes_[1]);
+      const std::array<double, 3> along{cosine * a + sine * b, cosine * b - sine * a,
+                                        mesh::dot(motion, axes_[2])};
+      for (std::size_t component = 0; component < 3; ++component)
+        for (std::size_t i = 0; i < functions; ++i)
+          weighted(k, functions * component + i) = mass * along[component] * p[i];
+      forEachHarmonic(cosine, sine, [&](int n, double c, double s) {
+        harmonics(k, 2 * n) = c, harmonics(k, 2 * n + 1) = s;
+      });
+      square += mass * mesh::dot(motion, motion);
+    }
+    linalg::addScaled(products, 1, linalg::transposedProduct(harmonics, weighted));
   }
+  std::vector<double> sums(placeOf(mostDiameters + 1, 0), 0.0);
+  for (int n = 0; n <= mostDiameters; ++n)
+    for (std::size_t component = 0; component < 3; ++component)
+      for (std::size_t i = 0; i < sizeOf(n); ++i)
+        sums[placeOf(n, component) + i] =
+            products(2 * n + i / functions, functions * component + i % functions);
+  sums.push_back(square);
   mpi::sumAlike(mesh_.comm, sums);
   return sums;
 }

@@ -22,10 +22,15 @@ constexpr PetscInt together = 16;  // modes
 void addParticipations(const factor::AssociatedSystem& system,
                        sweep_solver::ModalSegment& segment) {
   if (segment.modes.angularFrequency.empty()) return;
+  std::vector<pencil::ComplexMotion> motions;
+  std::vector<pencil::Shape*> shapes;
   for (auto& point : segment.points)
-    for (auto& shape : point.shapes)
-      shape.participations = pencil::participations(
-          segment.modes, system, point.eigenvalues[shape.index].s, shape.unknowns);
+    for (auto& shape : point.shapes) {
+      motions.push_back({point.eigenvalues[shape.index].s, &shape.unknowns});
+      shapes.push_back(&shape);
+    }
+  auto found = pencil::participations(segment.modes, system, motions);
+  for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i]->participations = std::move(found[i]);
 }
 
 void addComponents(const energies::Components& components, const elasticity::Bodies& bodies,

@@ -35,7 +35,12 @@ TEST(Participation, IsThatOfOscillators) {
   }
   const linalg::ComplexVector x{vectorOf(system.k0(), true, {1, 0, 1}),
                                 vectorOf(system.k0(), true, {0, 2, 0})};
-  const auto found = pencil::participations(modes, system, {0.3, 2}, x);
+  // Nine times the motion, more than one block of columns.
+  const std::vector<pencil::ComplexMotion> motions(9, {{0.3, 2}, &x});
+  const auto all = pencil::participations(modes, system, motions);
+  ASSERT_EQ(all.size(), 9u);
+  for (const auto& one : all) EXPECT_NEAR(one.at(1).energy, all[0].at(1).energy, 1e-15);
+  const auto& found = all[8];
   ASSERT_EQ(found.size(), 2u);
   EXPECT_NEAR(found[0].energy, (4.09 + 1) * 1 / 50.54, 1e-14);
   EXPECT_NEAR(found[1].energy, (4.09 + 4) * 4 / 50.54, 1e-14);
