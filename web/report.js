@@ -27,6 +27,7 @@ async function begin() {
   makeStability();
   makeShares();
   makeChanges();
+  makeCriticalChanges();
   makeLines();
   makeTable();
   makeRegime();

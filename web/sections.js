@@ -89,11 +89,17 @@ function makePoints() {
 function makeCritical() {
   const c = data.critical;
   if (!c || !c.friction.length) return;
-  const head = ["stability", "friction", "frequency Hz", "kind", "estimated error of the friction"];
+  const head = [
+    "stability", "friction", "frequency Hz", "kind", "free modes", "motion",
+    "estimated error of the friction"
+  ];
   const line = (_, i) => {
     const change = c.direction[i] === "loss" ? "lost" : "regained";
     const frequency = digits(c.frequency_hz[i], 8);
-    return [change, digits(c.friction[i], 10), frequency, c.kind[i], errorOf(c, i)];
+    return [
+      change, digits(c.friction[i], 10), frequency, c.kind[i], meetingModes(i),
+      (c.name && c.name[i]) || "", errorOf(c, i)
+    ];
   };
   section("Critical frictions", tableOf(head, c.friction.map(line)));
 }

@@ -144,6 +144,11 @@ class Results:
         return self.table("sensitivities")
 
     @functools.cached_property
+    def critical_sensitivities(self):
+        """Derivatives of critical frictions; None without -flutter_sensitivities and tracking."""
+        return self.table("critical_sensitivities")
+
+    @functools.cached_property
     def free_modes(self):
         """Free modes of the first active set; None without them, as with the direct method."""
         return self.table("modes")

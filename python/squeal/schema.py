@@ -168,7 +168,28 @@ TABLES = {
             number("friction_error_estimate", least=0, open=True, read=False),
             number("backward_error", least=0, open=True, read=False),
             flag("converged", read=False),
-        )
+            whole("free_mode", 1, empty=True, read=False),
+            number("energy_share", least=0, empty=True, read=False),
+            whole("second_free_mode", 1, empty=True, read=False),
+            number("second_energy_share", least=0, empty=True, read=False),
+            word("name", empty=True, read=False),
+        ),
+        together=(("free_mode", "energy_share"), ("second_free_mode", "second_energy_share")),
+    ),
+    "critical_sensitivities": Table(
+        (
+            whole("active_set"),
+            *(whole(name, read=False) for name in ("branch", "partner")),
+            word("kind", "coalescence", "hopf", "divergence", "contact"),
+            word("direction", "loss", "regain"),
+            *POINT,
+            *numbers("frequency_hz"),
+            number("right_backward_error", least=0, empty=True, read=False),
+            number("left_backward_error", least=0, empty=True, read=False),
+            word("parameter"),
+            number("friction_derivative", empty=True),
+        ),
+        together=(("right_backward_error", "left_backward_error"),),
     ),
     "contact_path": Table(
         (*POINT[:3], *PLACE, word("interface"), word("change", "opens", "closes"))

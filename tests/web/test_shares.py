@@ -157,6 +157,30 @@ class Shares(Pages):
         self.assertEqual(self.drawn("growthchange")[0], moved[:15])
         self.assertEqual({line[0] for line in self.cells("changetable")[1:]}, set(order))
 
+    def test_changes_of_a_critical_friction_are_its_derivatives_for_one_per_cent(self):
+        derivatives = rows(self.folder / "critical_sensitivities.csv")
+        criticals = rows(self.folder / "critical.csv")
+        chosen = next(i for i, row in enumerate(criticals) if row["kind"] == "coalescence")
+        critical = criticals[chosen]
+        self.run_script(
+            "const choice = element('criticalchoice'); choice.value = arguments[0];"
+            "choice.dispatchEvent(new Event('change'))",
+            str(chosen),
+        )
+        of_this = ("active_set", "branch", "partner", "friction")
+        wanted = {
+            row["parameter"]: float(row["friction_derivative"]) / 100
+            for row in derivatives
+            if all(row[name] == critical[name] for name in of_this)
+        }
+        labels, sets = self.drawn("criticalchange")
+        order = sorted(wanted, key=lambda name: -abs(wanted[name]))
+        self.assertEqual(labels, [name for name in order if wanted[name]][:15])
+        np.testing.assert_allclose(sets[""], [wanted[name] for name in labels], rtol=1e-12)
+        self.assertEqual(len(self.cells("criticalchangetable")), 1 + len(wanted))
+        for name in ("free_mode", "second_free_mode"):
+            self.assertIn(f"{critical[name]} (", self.text("criticalwords"))
+
     def test_a_mode_without_shares_says_so(self):
         self.select(0, 3)
         self.assertTrue(self.element("noshares").is_displayed())
@@ -186,13 +210,14 @@ class Shares(Pages):
     def test_without_the_tables_their_sections_are_hidden(self):
         less = Path(self.temporary.name) / "less"
         shutil.copytree(self.folder, less, ignore=shutil.ignore_patterns("vtk", "report.html"))
-        run, left = squeal.open(less), {"sensitivities", *made_tables.TABLES}
+        run = squeal.open(less)
+        left = {"sensitivities", "critical_sensitivities", *made_tables.TABLES}
         with mock.patch.object(
             run, "_tables", {k: v for k, v in run._tables.items() if k not in left}
         ):
             (less / "report.html").write_text(report.build(run))
         self.open_page(less / "report.html")
-        for name in ("shares", "changes"):
+        for name in ("shares", "changes", "criticalchanges"):
             self.assertFalse(self.element(name).is_displayed(), name)
         self.assertTrue(self.element("stability").is_displayed())
         self.assertIn("estimated from the surface", self.text("energetic"))

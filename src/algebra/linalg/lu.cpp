@@ -66,7 +66,7 @@ void Lu<Scalar>::raiseZeroPivots() {
   if (pivotRatio_ > 0) return;
   pivotRatio_ = std::numeric_limits<double>::epsilon();
   for (PetscInt i = 0; i < factors_.rows(); ++i)
-    if (factors_(i, i) == 0.0) factors_(i, i) = pivotRatio_ * largest_;
+    if (factors_(i, i) == 0.0) factors_(i, i) = pivotRatio_ * (largest_ > 0 ? largest_ : 1);
 }
 
 template <class Scalar>

@@ -3,6 +3,7 @@
 /// The results of the friction-perturbed eigenproblem (paper, section 4): the unstable modes, the
 /// frictions at which they flutter, and their growth rates.
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -122,6 +123,20 @@ struct Sensitivity {
   /// Returns true if the eigenvalue has derivatives and its left vector was found. Eigenvalues that
   /// meet have no derivatives.
   bool regular() const;
+};
+
+/// The derivative of a critical friction f* with respect to one parameter θ.
+struct CriticalDerivative {
+  std::string parameter;  ///< name of θ
+  double value = 0;       ///< df*/dθ, per unit of the parameter
+};
+
+/// The mode at a critical friction, where two eigenvalues meet or one is i ω.
+struct CriticalMode {
+  std::string name;                                          ///< as of modeName()
+  std::vector<Participation> participations;                 ///< [free mode]
+  double rightBackwardError = NAN, leftBackwardError = NAN;  ///< of the vectors of the derivatives
+  std::vector<CriticalDerivative> derivatives = {};          ///< empty if there are none
 };
 
 /// The results of one point of the sweep.

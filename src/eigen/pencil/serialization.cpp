@@ -9,6 +9,7 @@ namespace squeal::pencil {
 void fields(Stream& stream, Derivative& derivative);
 void fields(Stream& stream, Sensitivity& found);
 void fields(Stream& stream, Component& component);
+void fields(Stream& stream, CriticalDerivative& derivative);
 
 // These list all members: a new one does not compile until it is added here.
 
@@ -25,6 +26,16 @@ void fields(Stream& stream, Sensitivity& found) {
 void fields(Stream& stream, Component& component) {
   auto& [kind, name, strain, kinetic, motion, motionShare, growth] = component;
   stream(kind, name, strain, kinetic, motion, motionShare, growth);
+}
+
+void fields(Stream& stream, CriticalDerivative& derivative) {
+  auto& [parameter, value] = derivative;
+  stream(parameter, value);
+}
+
+void fields(Stream& stream, CriticalMode& found) {
+  auto& [name, participations, rightBackwardError, leftBackwardError, derivatives] = found;
+  stream(name, participations, rightBackwardError, leftBackwardError, derivatives);
 }
 
 void serialise(checkpoint::Archive& archive, ComplexModes& point) {

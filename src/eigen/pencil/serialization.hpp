@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Serialisation of complex modes for checkpoints.
+/// Serialisation of complex modes and of derivatives for checkpoints.
 #include "base/checkpoint/archive.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 
@@ -8,5 +8,7 @@ namespace squeal::pencil {
 
 /// Collective. Writes or reads the results of a point.
 void serialise(checkpoint::Archive& archive, ComplexModes& point);
+/// Writes or reads the mode at a critical friction.
+void fields(Stream& stream, CriticalMode& found);
 
 }  // namespace squeal::pencil

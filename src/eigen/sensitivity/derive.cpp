@@ -26,9 +26,9 @@ void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
   std::vector<RightPair> pairs;
   for (const auto& shape : point.shapes)
     pairs.push_back({point.eigenvalues[shape.index].s, &shape.unknowns});
-  const auto left = leftVectors(pencil, point.at, start, system.solver(), pairs);
+  const auto left = leftVectors(pencil, point.at, start, system.solver(), pairs, {});
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const EigenTriple triple{pairs[i].s, *pairs[i].vector, left[i].y};
+    const EigenTriple triple{pairs[i].s, *pairs[i].vector, left[i].vector};
     const Complex slope = slopeForm(pencil, point.at, triple);
     pencil::Sensitivity result{condition(triple, slope, system.m0()),
                                separation(point.eigenvalues, point.shapes[i].index),
@@ -40,15 +40,47 @@ void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
   }
 }
 
-void deriveParameters(pencil::ComplexModes& point, const pencil::Pencil& pencil,
-                      const StartSpace& start, const factor::AssociatedSystem& system) {
-  deriveShapes(point, pencil, start, system, [&](const EigenTriple& triple) {
+void deriveCritical(const CriticalPoint& point, const pencil::Pencil& pencil,
+                    const StartSpace& start, const factor::AssociatedSystem& system,
+                    const Forms& forms, pencil::CriticalMode& mode) {
+  // Backward errors: those that are sought, since the scale of a residual is ‖K‖ and not the
+  // distance to the next eigenvalue; and the limit of Sensitivity::regular().
+  constexpr double accurate = 1e-7;
+  const Search search{.accuracy = 1e-14, .simple = point.isCrossing};
+  const Complex s{0, point.angularFrequency};
+  const auto right = rightVector(pencil, point.at, start, system.solver(), s, search);
+  const auto left =
+      leftVectors(pencil, point.at, start, system.solver(), {{s, &right.vector}}, search);
+  mode.rightBackwardError = right.backwardError;
+  mode.leftBackwardError = left[0].backwardError;
+  if (!(right.backwardError <= accurate && left[0].backwardError <= accurate)) return;
+  const EigenTriple triple{s, right.vector, left[0].vector};
+  const auto list = forms(triple);
+  const auto friction = std::ranges::find(list, "friction", &pencil::Derivative::parameter);
+  ensure(friction != list.end(), "the forms of a critical point include that of friction");
+  // A crossing keeps Re s = 0. Where two eigenvalues meet, yᴴ P′ x = 0, and they keep meeting if
+  // the sum of the forms vanishes.
+  const Complex unit = point.isCrossing ? slopeForm(pencil, point.at, triple) : friction->value;
+  const double change = (friction->value / unit).real();
+  if (!(std::abs(change) > 0) || !std::isfinite(change)) return;
+  for (const auto& [parameter, form] : list)
+    if (parameter != friction->parameter)
+      mode.derivatives.push_back({parameter, -(form / unit).real() / change});
+}
+
+Forms parameterForms(const pencil::Pencil& pencil, const sweep::Parameters& at) {
+  return [&pencil, at](const EigenTriple& triple) {
     std::vector<pencil::Derivative> found;
     for (const auto& parameter : sweep::allParameters)
       if (parameter.value != &sweep::Parameters::pressure)
-        found.push_back({parameter.name, parameterForm(pencil, point.at, triple, parameter.value)});
+        found.push_back({parameter.name, parameterForm(pencil, at, triple, parameter.value)});
     return found;
-  });
+  };
+}
+
+void deriveParameters(pencil::ComplexModes& point, const pencil::Pencil& pencil,
+                      const StartSpace& start, const factor::AssociatedSystem& system) {
+  deriveShapes(point, pencil, start, system, parameterForms(pencil, point.at));
 }
 
 }  // namespace squeal::sensitivity

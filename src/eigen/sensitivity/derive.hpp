@@ -7,7 +7,7 @@
 #include "algebra/factor/associated_system.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/pencil.hpp"
-#include "eigen/sensitivity/left.hpp"
+#include "eigen/sensitivity/null_vectors.hpp"
 #include "eigen/sensitivity/sensitivity.hpp"
 
 namespace squeal::sensitivity {
@@ -23,8 +23,28 @@ void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                   const StartSpace& start, const factor::AssociatedSystem& system,
                   const Forms& forms);
 
-/// Collective. Does the same for friction, speed and damping, if the coefficients of the terms
-/// depend on them.
+/// A point of a sweep at its critical friction, where i `angularFrequency` is an eigenvalue.
+struct CriticalPoint {
+  sweep::Parameters at;
+  double angularFrequency = 0;  ///< rad/s
+  bool isCrossing = true;       ///< one eigenvalue crosses the axis; otherwise two meet there, or
+                                ///< one at zero
+};
+
+/// Collective. Adds to the mode at a critical friction its derivatives [M.89], all but that by the
+/// friction itself: none if a vector is not found, or if the growth does not depend on the
+/// friction. `forms` contains the one of the parameter "friction". The other arguments are those of
+/// deriveShapes().
+void deriveCritical(const CriticalPoint& point, const pencil::Pencil& pencil,
+                    const StartSpace& start, const factor::AssociatedSystem& system,
+                    const Forms& forms, pencil::CriticalMode& mode);
+
+/// Collective. Returns the forms of friction, speed and damping, if the coefficients of the terms
+/// depend on them. Borrows the pencil.
+Forms parameterForms(const pencil::Pencil& pencil, const sweep::Parameters& at);
+
+/// Collective. Does the same as deriveShapes() for friction, speed and damping, if the coefficients
+/// of the terms depend on them.
 void deriveParameters(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                       const StartSpace& start, const factor::AssociatedSystem& system);
 

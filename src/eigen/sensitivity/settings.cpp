@@ -10,8 +10,7 @@ const FlagOption wantedOption(
     "flutter", "flutter_sensitivities", false,
     "derivatives of the eigenvalues of the stored complex modes (-flutter_shapes) with respect to "
     "friction, speed, pressure, moduli, densities, damping of bodies, springs, bushings and "
-    "masses: "
-    "sensitivities.csv");
+    "masses: sensitivities.csv; and those of the critical frictions: critical_sensitivities.csv");
 
 }  // namespace
 

@@ -23,6 +23,7 @@ struct LinePiece {
   tracking::ProblemSource source;
   std::vector<double> frictions;  ///< ascending, with the ends of the piece
   int activeSet = 1;              ///< its number in the results
+  std::size_t like = 0;           ///< a steady point with this active set
 };
 
 /// The points of one speed, pressure and damping.
@@ -43,6 +44,7 @@ struct TrackedLine {
   double from = 0;    ///< friction below which another active set applies; 0: there is none
   Branches branches;  ///< numbered from 1: renumber()
   std::vector<Critical> criticals;  ///< critical frictions of these branches, ascending
+  std::vector<pencil::CriticalMode> criticalModes;  ///< [critical]
   bool countExact = false;  ///< the Sturm count confirms the number at the first friction, 0
   bool wholeSpace = false;  ///< the basis spans the whole space of the full problem
 

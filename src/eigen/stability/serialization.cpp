@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/stability/serialization.hpp"
 
+#include "eigen/pencil/serialization.hpp"
+
 namespace squeal::tracking {
 
 /// The streams find these by argument-dependent lookup.
@@ -30,10 +32,10 @@ void fields(Stream& stream, Gap& gap) {
 namespace squeal::stability {
 
 void fields(Stream& stream, TrackedLine& tracked) {
-  auto& [line, activeSet, from, branches, criticals, countExact, wholeSpace] = tracked;
+  auto& [line, activeSet, from, branches, criticals, modes, countExact, wholeSpace] = tracked;
   auto& [band, stations, events, gaps, count, entered, left] = branches;
   stream(line, activeSet, from, band, stations, events, gaps, count, entered, left, criticals,
-         countExact, wholeSpace);
+         modes, countExact, wholeSpace);
 }
 
 }  // namespace squeal::stability

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The problem of a sweep: the terms of its points, and the order of their active sets.
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "algebra/factor/associated_system.hpp"
+#include "eigen/modes/modes.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/pencil.hpp"
-#include "eigen/sensitivity/left.hpp"
+#include "eigen/sensitivity/derive.hpp"
+#include "eigen/sensitivity/null_vectors.hpp"
 #include "eigen/subspace/substructure.hpp"
 #include "eigen/sweep/parameters.hpp"
 
@@ -68,6 +71,16 @@ class SweepProblem {
   /// from `start`.
   virtual void examine(std::size_t i, const pencil::Pencil& pencil,
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
+  /// Collective. Adds the name of the complex mode x at s and the parts of these free modes in it,
+  /// all in the unknowns.
+  virtual void describe(Complex /*s*/, const linalg::ComplexVector& /*x*/,
+                        const modes::Modes& /*modes*/, pencil::CriticalMode& /*mode*/) const {}
+  /// Collective. Calls `use` with the forms of all parameters at a point between those of the
+  /// sweep, whose terms are those of `pencil`; not if the point has no steady state, or another
+  /// active set than steadyPoints[like].
+  virtual void withForms(const sweep::Parameters& /*at*/, std::size_t /*like*/,
+                         const pencil::Pencil& /*pencil*/,
+                         const std::function<void(const sensitivity::Forms&)>& /*use*/) {}
 };
 
 }  // namespace squeal::sweep_solver

@@ -13,9 +13,9 @@
 #include "base/system/text.hpp"
 #include "eigen/direct/direct.hpp"
 #include "eigen/pencil/modal_damping.hpp"
-#include "eigen/pencil/pencil.hpp"
 #include "eigen/reduction/reduced.hpp"
 #include "eigen/sweep/parameters.hpp"
+#include "eigen/sweep_solver/critical_modes.hpp"
 #include "eigen/sweep_solver/journal.hpp"
 #include "eigen/sweep_solver/mode_shapes.hpp"
 #include "eigen/sweep_solver/sweep_plan.hpp"
@@ -242,7 +242,8 @@ class SweepSolver {
             std::count_if(problem_.ranges.begin(), problem_.ranges.begin() + *piece.range + 1,
                           [](const auto& one) { return one.first < one.last; });
         const bool isPassed = range.first == range.last;
-        line.pieces.push_back({sourceOf(*piece.range), {piece.from}, isPassed ? 0 : int(number)});
+        line.pieces.push_back(
+            {sourceOf(*piece.range), {piece.from}, isPassed ? 0 : int(number), range.first});
         auto& frictions = line.pieces.back().frictions;
         for (double friction : line.swept)
           if (piece.from < friction && friction < piece.to) frictions.push_back(friction);
@@ -293,13 +294,15 @@ class SweepSolver {
                        "track: omitted because the terms depend on the steady state; "
                        "-flutter_track on enables it");
     Stage stage(pencil_.comm(), "track");
-    auto tracked = stability::trackLines(*reduced_, all, settings, pencil_.comm(),
-                                         [&](const std::string& text) {
-                                           stage.progress(text);
-                                           stopIfRequested(pencil_.comm());
-                                         });
+    const auto progress = [&](const std::string& text) {
+      stage.progress(text);
+      stopIfRequested(pencil_.comm());
+    };
+    auto tracked = stability::trackLines(*reduced_, all, settings, pencil_.comm(), progress);
     std::size_t branches = 0, stations = 0, criticals = 0;
     for (std::size_t i = 0; i < tracked.size(); ++i) {
+      addCriticalModes(problem_, *reduced_, all[i], request_.settings.sensitivity.wanted, progress,
+                       tracked[i]);
       branches += tracked[i].branches.count;
       stations += tracked[i].branches.stations.size();
       criticals += tracked[i].criticals.size();

@@ -52,16 +52,20 @@ void nameMotions(const Components& components, const std::vector<const double*>&
     list[body].motion = names[body].name, list[body].motionShare = names[body].share;
 }
 
+/// A complex motion and its products with the matrices of all bodies, borrowed.
+struct ComplexProducts {
+  const linalg::ComplexVector &u, &stiffness, &mass;
+  const linalg::ComplexVector* damping = nullptr;  // null: its forms are not wanted
+};
+
 /// Collective. Returns the sums of the forms of the real and the imaginary part of a motion.
-std::vector<Forms> formsOf(const Components& components, const ComplexMode& mode) {
+std::vector<Forms> formsOf(const Components& components, const ComplexProducts& motion) {
   std::vector<Forms> sums(components.list().size());
   for (const auto part : {&linalg::ComplexVector::real, &linalg::ComplexVector::imaginary}) {
-    const auto& force = mode.force;
-    const ReadArray u(mode.motion.u.*part), elastic(force.elastic.*part),
-        inertia(force.inertia.*part);
+    const ReadArray u(motion.u.*part), elastic(motion.stiffness.*part), inertia(motion.mass.*part);
     NodalProducts products{u, elastic, inertia};
     std::optional<ReadArray> damped;
-    if (force.damped.real) products.damping = damped.emplace(force.damped.*part);
+    if (motion.damping) products.damping = damped.emplace(motion.damping->*part);
     const auto forms = components.forms(products);
     for (std::size_t i = 0; i < forms.size(); ++i) {
       sums[i].stiffness += forms[i].stiffness;
@@ -70,6 +74,13 @@ std::vector<Forms> formsOf(const Components& components, const ComplexMode& mode
     }
   }
   return sums;
+}
+
+/// Collective. Names the motions of the bodies, the first components, in a complex motion.
+void nameMotions(const Components& components, const linalg::ComplexVector& u,
+                 std::vector<pencil::Component>& list) {
+  const ReadArray real(u.real), imaginary(u.imaginary);
+  nameMotions(components, {real.data(), imaginary.data()}, list);
 }
 
 }  // namespace
@@ -85,19 +96,27 @@ std::vector<pencil::Component> sharesOfFreeMode(const Components& components,
   return list;
 }
 
+std::vector<pencil::Component> sharesOfMotion(const Components& components,
+                                              const elasticity::Bodies& bodies,
+                                              const linalg::ComplexVector& u) {
+  const auto elastic = product(bodies.stiffness, u), inertia = product(bodies.mass, u);
+  auto list = shares(components, {formsOf(components, {u, elastic, inertia}), 0, 0});
+  nameMotions(components, u, list);
+  return list;
+}
+
 std::vector<pencil::Component> sharesOfComplexMode(const Components& components,
                                                    const elasticity::Bodies& bodies,
                                                    const contact::Contact& contact,
                                                    const ComplexMode& mode) {
   const auto& [at, s, u, prestress] = mode.motion;
   const double v = at.speed, energy = mode.force.energy;
-  const MotionForms forms{formsOf(components, mode), form(prestress, u),
-                          v * v * form(bodies.rotationStiffness, u)};
+  const auto& force = mode.force;
+  const MotionForms forms{formsOf(components, {u, force.elastic, force.inertia,
+                                               force.damped.real ? &force.damped : nullptr}),
+                          form(prestress, u), v * v * form(bodies.rotationStiffness, u)};
   auto list = shares(components, forms);
-  {
-    const ReadArray real(u.real), imaginary(u.imaginary);
-    nameMotions(components, {real.data(), imaginary.data()}, list);
-  }
+  nameMotions(components, u, list);
   if (bodies.damping)
     for (std::size_t i = 0; i < list.size(); ++i)
       list[i].growth.damping = -std::norm(s) * at.damping * forms.components[i].damping / energy;

@@ -17,6 +17,12 @@ std::vector<pencil::Component> sharesOfFreeMode(const Components& components,
                                                 const NodalProducts& mode,
                                                 std::optional<double> prestress);
 
+/// Collective. Returns the components with their shares in the energies of a motion u, nodal
+/// displacements, without those of the steady stress and of rotation.
+std::vector<pencil::Component> sharesOfMotion(const Components& components,
+                                              const elasticity::Bodies& bodies,
+                                              const linalg::ComplexVector& u);
+
 /// A complex mode at a point of a sweep, all members borrowed.
 struct ComplexMode {
   const terms::Motion& motion;

@@ -53,11 +53,15 @@ struct Influences::Projected {
 void Influences::derive(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                         const BodyPoint& state, const sensitivity::StartSpace& start) {
   if (point.shapes.empty()) return;
-  const auto list = influences(state);
-  const sensitivity::Forms forms = [&](const sensitivity::EigenTriple& triple) {
+  sensitivity::deriveShapes(point, pencil, start, state.system, forms(pencil, state));
+}
+
+sensitivity::Forms Influences::forms(const pencil::Pencil& pencil, const BodyPoint& state) {
+  const auto list = std::make_shared<const std::vector<Influence>>(influences(state));
+  return [this, list, &pencil, &state](const sensitivity::EigenTriple& triple) {
     const Projected pair = project(state, triple);
     std::vector<pencil::Derivative> found;
-    for (const auto& influence : list) {
+    for (const auto& influence : *list) {
       const Complex form =
           influence.member ? sensitivity::parameterForm(pencil, state.at, triple, influence.member)
                            : 0;
@@ -66,7 +70,6 @@ void Influences::derive(pencil::ComplexModes& point, const pencil::Pencil& penci
     }
     return found;
   };
-  sensitivity::deriveShapes(point, pencil, start, state.system, forms);
 }
 
 std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {

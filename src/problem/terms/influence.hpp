@@ -8,7 +8,7 @@
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/pencil.hpp"
 #include "eigen/sensitivity/derive.hpp"
-#include "eigen/sensitivity/left.hpp"
+#include "eigen/sensitivity/null_vectors.hpp"
 #include "eigen/sensitivity/sensitivity.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "model/contact/coupled.hpp"
@@ -47,6 +47,10 @@ class Influences {
   /// converge.
   void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
+
+  /// Collective. Returns the forms of the same parameters at a point. Borrows all arguments during
+  /// the life of the forms.
+  sensitivity::Forms forms(const pencil::Pencil& pencil, const BodyPoint& state);
 
  private:
   enum class Quantity;

@@ -7,6 +7,7 @@
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
+#include "eigen/pencil/participation.hpp"
 #include "eigen/sensitivity/derive.hpp"
 #include "eigen/sensitivity/settings.hpp"
 #include "eigen/sweep_solver/sweep_solver.hpp"
@@ -38,6 +39,15 @@ class MatrixSweep : public sweep_solver::SweepProblem {
   void examine(std::size_t, const pencil::Pencil& ofPoint, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override {
     if (derives_) sensitivity::deriveParameters(point, ofPoint, start, *system);
+  }
+  void describe(Complex s, const linalg::ComplexVector& x, const modes::Modes& modes,
+                pencil::CriticalMode& mode) const override {
+    const pencil::ComplexMotion motion{s, &x};
+    mode.participations = pencil::participations(modes, *system, {&motion, 1}).front();
+  }
+  void withForms(const sweep::Parameters& at, std::size_t, const pencil::Pencil& ofPoint,
+                 const std::function<void(const sensitivity::Forms&)>& use) override {
+    use(sensitivity::parameterForms(ofPoint, at));
   }
 
  private:

@@ -6,6 +6,7 @@
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/text.hpp"
+#include "eigen/pencil/participation.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "problem/energies/shares.hpp"
 #include "problem/terms/friction_work.hpp"
@@ -223,25 +224,50 @@ std::vector<pencil::Term> MeshSweep::termsOf(const steady::Solution& solution) c
   return terms::pointTerms(brake_.model.contact, *all_, solution, change, brake_.mesh().terms);
 }
 
-std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Parameters& at,
-                                                            std::size_t like) {
+/// Collective. Calls `use` with the steady state at a point; not unless it has the active set of
+/// the point `like`.
+void MeshSweep::withSolution(const sweep::Parameters& at, std::size_t like,
+                             const std::function<void(const steady::Solution&)>& use) {
   sweep::Parameters steady = at;
   steady.damping = 1;
-  const contact::ActiveSet set = steady::activeSet(steadyAt(like));
-  const auto ifShared = [&](const steady::Solution& solution) {
-    std::optional<std::vector<pencil::Term>> terms;
-    if (solution.converged &&
-        contact::sameOnAllRanks(brake_.comm(), steady::activeSet(solution), set))
-      terms = termsOf(solution);
-    return terms;
+  const auto useIfShared = [&](const steady::Solution& solution) {
+    if (solution.converged && contact::sameOnAllRanks(brake_.comm(), steady::activeSet(solution),
+                                                      steady::activeSet(steadyAt(like))))
+      use(solution);
   };
-  const auto known = std::find_if(brake_.states.solutions.begin(), brake_.states.solutions.end(),
-                                  [&](const auto& solution) { return solution.at == steady; });
-  if (known != brake_.states.solutions.end()) return ifShared(*known);
+  const auto& solutions = brake_.states.solutions;
+  const auto known = std::ranges::find(solutions, steady, &steady::Solution::at);
+  if (known != solutions.end()) return useIfShared(*known);
   if (!problem_)
     problem_ = std::make_unique<steady::Problem>(*brake_.model.mesh, brake_.model.bodies,
                                                  brake_.model.contact);
-  return ifShared(problem_->solve(steady, current_.of(anywhere_)));
+  useIfShared(problem_->solve(steady, current_.of(anywhere_)));
+}
+
+std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Parameters& at,
+                                                            std::size_t like) {
+  std::optional<std::vector<pencil::Term>> terms;
+  withSolution(at, like, [&](const steady::Solution& solution) { terms = termsOf(solution); });
+  return terms;
+}
+
+void MeshSweep::describe(Complex s, const linalg::ComplexVector& x, const modes::Modes& modes,
+                         pencil::CriticalMode& mode) const {
+  const pencil::ComplexMotion motion{s, &x};
+  mode.participations = pencil::participations(modes, *all_, {&motion, 1}).front();
+  mode.name = pencil::modeName(
+      energies::sharesOfMotion(components_, brake_.model.bodies, linalg::product(trial, x)));
+}
+
+void MeshSweep::withForms(const sweep::Parameters& at, std::size_t like,
+                          const pencil::Pencil& pencil,
+                          const std::function<void(const sensitivity::Forms&)>& use) {
+  withSolution(at, like, [&](const steady::Solution& solution) {
+    const OwnedMat prestress =
+        steady::prestressOf(*brake_.model.mesh, brake_.model.bodies, solution);
+    const terms::BodyPoint state{at, *interior_, solution, prestress};
+    use(influences_.forms(pencil, state));
+  });
 }
 
 void MeshSweep::addComponents(sweep_solver::ModalSegment& segment) const {

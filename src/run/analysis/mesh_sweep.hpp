@@ -2,6 +2,7 @@
 #pragma once
 /// Steady points whose active sets differ little share one factorisation and one basis: those of
 /// the nodes that are closed at any of the points.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -36,6 +37,10 @@ class MeshSweep : public sweep_solver::SweepProblem {
                                                    std::size_t like) override;
   void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override;
+  void describe(Complex s, const linalg::ComplexVector& x, const modes::Modes& modes,
+                pencil::CriticalMode& mode) const override;
+  void withForms(const sweep::Parameters& at, std::size_t like, const pencil::Pencil& pencil,
+                 const std::function<void(const sensitivity::Forms&)>& use) override;
   /// Collective. Adds to the modes of a segment the shares of the components, and to its complex
   /// modes the parts of the free modes in them.
   void addComponents(sweep_solver::ModalSegment& segment) const;
@@ -63,6 +68,8 @@ class MeshSweep : public sweep_solver::SweepProblem {
   std::optional<double> frictionOfPointBefore() const;
   std::vector<sweep_solver::PathPiece> piecesAfter(std::size_t point);
   std::vector<pencil::Term> termsOf(const steady::Solution& solution) const;
+  void withSolution(const sweep::Parameters& at, std::size_t like,
+                    const std::function<void(const steady::Solution&)>& use);
 
   const SlidingBrake& brake_;
   PointGroup group_;

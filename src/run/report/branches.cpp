@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "run/report/branches.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/system/text.hpp"
 #include "eigen/sweep/parameters.hpp"
+#include "run/report/components.hpp"
 
 namespace squeal::report {
 namespace {
@@ -33,6 +36,29 @@ void forEachTrackedLine(const analysis::Analysis& analysis, const Action& action
 std::string parametersAt(sweep::Parameters at, double friction) {
   at.friction = friction;
   return sweep::parameterValues(at);
+}
+
+/// Returns the columns that name a critical friction.
+std::string criticalColumns() {
+  return "active_set,branch,partner,kind,direction," + sweep::parameterColumns() + ",frequency_hz";
+}
+
+/// Returns their values.
+std::string criticalHead(const stability::TrackedLine& tracked, const stability::Critical& c) {
+  return formatted("%d,%d,%d,%s,%s,", tracked.activeSet[c.piece], c.branch, c.partner,
+                   kindName(c.kind), c.loss ? "loss" : "regain") +
+         parametersAt(tracked.line, c.friction) +
+         formatted(",%.15e", c.angularFrequency / (2 * M_PI));
+}
+
+/// Returns the numbers of the two free modes with the largest shares, and the shares, each followed
+/// by a comma.
+std::string largestParts(std::vector<pencil::Participation> parts) {
+  std::ranges::sort(parts, std::greater{}, &pencil::Participation::energy);
+  std::string text;
+  for (std::size_t i = 0; i < 2; ++i)
+    text += i < parts.size() ? formatted("%zu,%.6f,", parts[i].mode + 1, parts[i].energy) : ",,";
+  return text;
 }
 
 }  // namespace
@@ -68,15 +94,37 @@ std::string branchTable(const analysis::Analysis& analysis) {
 }
 
 std::string criticalTable(const analysis::Analysis& analysis) {
-  std::string table = "active_set,branch,partner,kind,direction," + sweep::parameterColumns() +
-                      ",frequency_hz,slope,friction_error_estimate,backward_error,converged\n";
+  std::string table = criticalColumns() +
+                      ",slope,friction_error_estimate,backward_error,converged,free_mode,"
+                      "energy_share,second_free_mode,second_energy_share,name\n";
   forEachTrackedLine(analysis, [&](const stability::TrackedLine& tracked) {
-    for (const auto& c : tracked.criticals)
-      table += formatted("%d,%d,%d,%s,%s,", tracked.activeSet[c.piece], c.branch, c.partner,
-                         kindName(c.kind), c.loss ? "loss" : "regain") +
-               parametersAt(tracked.line, c.friction) +
-               formatted(",%.15e,%.6e,%.1e,%.1e,%d\n", c.angularFrequency / (2 * M_PI), c.slope,
-                         c.errorEstimate, c.backwardError, c.converged ? 1 : 0);
+    for (std::size_t i = 0; i < tracked.criticals.size(); ++i) {
+      const auto& c = tracked.criticals[i];
+      const auto& mode = tracked.criticalModes[i];
+      table += criticalHead(tracked, c) +
+               formatted(",%.6e,%.1e,%.1e,%d,", c.slope, c.errorEstimate, c.backwardError,
+                         c.converged ? 1 : 0) +
+               largestParts(mode.participations) + nameCell(mode.name) + "\n";
+    }
+  });
+  return table;
+}
+
+std::string criticalSensitivityTable(const analysis::Analysis& analysis) {
+  std::string table = criticalColumns() +
+                      ",right_backward_error,left_backward_error,parameter,friction_derivative\n";
+  forEachTrackedLine(analysis, [&](const stability::TrackedLine& tracked) {
+    for (std::size_t i = 0; i < tracked.criticals.size(); ++i) {
+      const auto& mode = tracked.criticalModes[i];
+      const std::string head =
+          criticalHead(tracked, tracked.criticals[i]) +
+          (std::isnan(mode.rightBackwardError)
+               ? ",,,"
+               : formatted(",%.1e,%.1e,", mode.rightBackwardError, mode.leftBackwardError));
+      if (mode.derivatives.empty()) table += head + "none,\n";
+      for (const auto& [parameter, value] : mode.derivatives)
+        table += head + parameter + formatted(",%.9e\n", value);
+    }
   });
   return table;
 }

@@ -19,6 +19,10 @@ std::string branchTable(const analysis::Analysis& analysis);
 /// Returns the text of critical.csv, with a row for each critical friction.
 std::string criticalTable(const analysis::Analysis& analysis);
 
+/// Returns the text of critical_sensitivities.csv, with a row for each parameter of each critical
+/// friction.
+std::string criticalSensitivityTable(const analysis::Analysis& analysis);
+
 /// Returns the terminal text on both: the critical frictions, and the completeness of the count.
 std::string trackingText(const analysis::Analysis& analysis);
 

@@ -87,4 +87,6 @@ std::string participationTable(const analysis::Analysis& analysis) {
   return table;
 }
 
+std::string nameCell(const std::string& name) { return name.empty() ? "" : "\"" + name + "\""; }
+
 }  // namespace squeal::report

@@ -15,4 +15,7 @@ std::string modeComponentTable(const analysis::Analysis& analysis);
 /// norm of a stored complex mode, largest share of the energy first, and a row `0` for the rest.
 std::string participationTable(const analysis::Analysis& analysis);
 
+/// Returns a cell with the name of a mode, which may contain commas; empty without a name.
+std::string nameCell(const std::string& name);
+
 }  // namespace squeal::report

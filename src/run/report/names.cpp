@@ -14,6 +14,7 @@ namespace {
 const std::set<std::string> fixedNames{"eigenvalues.csv",
                                        "branches.csv",
                                        "critical.csv",
+                                       "critical_sensitivities.csv",
                                        "contact_path.csv",
                                        "onset.csv",
                                        "regime.csv",

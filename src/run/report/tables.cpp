@@ -27,9 +27,6 @@
 namespace squeal::report {
 namespace {
 
-/// Returns a cell with the name of a mode, which may contain commas; empty without a name.
-std::string inQuotes(const std::string& name) { return name.empty() ? "" : "\"" + name + "\""; }
-
 std::string eigenvalueTable(const analysis::Analysis& analysis) {
   std::string table = sweep::parameterColumns() +
                       ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_"
@@ -45,7 +42,7 @@ std::string eigenvalueTable(const analysis::Analysis& analysis) {
             formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d,%s,%d,", e.s.real(), e.s.imag(),
                       e.s.imag() / (2 * M_PI), e.dampingRatio(), e.backwardError, e.errorEstimate(),
                       e.certified ? 1 : 0, text(e.verdict), e.unstable ? 1 : 0) +
-            inQuotes(names[i]) + "\n";
+            nameCell(names[i]) + "\n";
       }
     }
   return table;
@@ -82,7 +79,7 @@ std::string modeTable(const sweep_solver::ModalSegment& segment) {
   for (std::size_t i = 0; i < modes.angularFrequency.size(); ++i)
     table += formatted("%zu,%.15e,%.15e,%.3e,", i + 1, modes.angularFrequency[i],
                        modes.angularFrequency[i] / (2 * M_PI), modes.relativeResidual[i]) +
-             (i < segment.components.size() ? inQuotes(modeName(segment.components[i])) : "") +
+             (i < segment.components.size() ? nameCell(modeName(segment.components[i])) : "") +
              "\n";
   return table;
 }
@@ -153,6 +150,8 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
                   [](const auto& segment) { return !segment.trackedLines.empty(); })) {
     writeText(comm, folder / "branches.csv", branchTable(analysis));
     writeText(comm, folder / "critical.csv", criticalTable(analysis));
+    if (analysis.settings.solver.sensitivity.wanted)
+      writeText(comm, folder / "critical_sensitivities.csv", criticalSensitivityTable(analysis));
   }
   for (std::size_t s = 0; s < analysis.flutter.segments.size(); ++s) {
     if (analysis.flutter.segments[s].modes.angularFrequency.empty()) continue;

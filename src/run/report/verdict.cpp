@@ -15,6 +15,7 @@ namespace {
 struct UnstableModes {
   const pencil::Eigenvalue* fastest = nullptr;  ///< borrowed
   sweep::Parameters at;                         ///< its point
+  std::string name;                             ///< of its motion; empty if unclear
   double lowestFriction = INFINITY;             ///< of a point with an unstable mode
   int eigenvalues = 0;                          ///< of all points, stable ones included
 };
@@ -44,9 +45,13 @@ UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
       if (unstable == 0) continue;
       ++verdict.pointsUnstable;
       modes.lowestFriction = std::min(modes.lowestFriction, point.at.friction);
-      for (const auto& e : point.eigenvalues)
-        if (e.unstable && (!modes.fastest || e.s.real() > modes.fastest->s.real()))
-          modes.fastest = &e, modes.at = point.at;
+      for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
+        const auto& e = point.eigenvalues[i];
+        if (!e.unstable || (modes.fastest && e.s.real() <= modes.fastest->s.real())) continue;
+        const auto shape = std::ranges::find(point.shapes, i, &pencil::Shape::index);
+        modes.fastest = &e, modes.at = point.at;
+        modes.name = shape == point.shapes.end() ? "" : pencil::modeName(shape->components);
+      }
     }
   return modes;
 }
@@ -105,7 +110,7 @@ std::string unstableSentence(const std::vector<sweep::Parameters>& points,
              verdict.mostUnstable, verdict.mostUnstable > 1 ? "s" : "",
              fastest.s.imag() / (2 * M_PI), fastest.s.real(), 100 * fastest.dampingRatio(),
              modes.at.friction) +
-         others + ".";
+         others + (modes.name.empty() ? "" : ": " + modes.name) + ".";
 }
 
 std::string interruptedSentence(const RunVerdict& verdict, const UnstableModes& modes) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Left eigenvectors of full problems against LAPACK, and derivatives of two coupled oscillators in
 // closed form.
-#include "eigen/sensitivity/left.hpp"
+#include "eigen/sensitivity/null_vectors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,11 +58,11 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
     }
     for (std::size_t i = 0; i < right.size(); ++i) pairs.push_back({full[4 * i].s, &right[i]});
     const auto found = sensitivity::leftVectors(
-        pencil, at, {modes.vectors.share(), system.m0(), {}}, system.solver(), pairs);
+        pencil, at, {modes.vectors.share(), system.m0(), {}}, system.solver(), pairs, {});
     EXPECT_EQ(found.size(), pairs.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      const double cosine = std::abs(linalg::dot(found[i].y, left[i])) /
-                            (linalg::length(found[i].y) * linalg::length(left[i]));
+      const double cosine = std::abs(linalg::dot(found[i].vector, left[i])) /
+                            (linalg::length(found[i].vector) * linalg::length(left[i]));
       test::print("s = %.4f%+.4fi: backward error %.0e, cosine less 1: %.0e\n", pairs[i].s.real(),
                   pairs[i].s.imag(), found[i].backwardError, cosine - 1);
       EXPECT_LT(found[i].backwardError, 1e-10);
@@ -124,9 +124,9 @@ TEST(Left, DerivativesOfCoupledOscillators) {
                     s = std::sqrt(-((k1 + k2) / 2 + sign * root));
       const auto right = vectorOf(stiffness, {f * k3, -(k1 + s * s)});
       const sweep::Parameters at{f};
-      const auto left =
-          sensitivity::leftVectors(pencil, at, {whole.share(), mass, {}}, solver, {{s, &right}});
-      const sensitivity::EigenTriple triple{s, right, left[0].y};
+      const auto left = sensitivity::leftVectors(pencil, at, {whole.share(), mass, {}}, solver,
+                                                 {{s, &right}}, {});
+      const sensitivity::EigenTriple triple{s, right, left[0].vector};
       const Complex slope = sensitivity::slopeForm(pencil, at, triple);
       const double condition = sensitivity::condition(triple, slope, mass);
       const pencil::Sensitivity sensitivity{condition, 1, left[0].backwardError, {}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "eigen/sensitivity/left.hpp"
+#include "eigen/sensitivity/null_vectors.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/columns.hpp"
-#include "algebra/linalg/lu.hpp"
+#include "algebra/linalg/null_vectors.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
 #include "eigen/sweep/parameters.hpp"
@@ -15,70 +15,19 @@
 namespace squeal::sensitivity {
 namespace {
 
-constexpr double wanted = 1e-10;
 constexpr int mostRounds = 20;
 
-/// Returns cᴴ A q; zero for an empty A.
-Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a,
-             const std::vector<Complex>& q) {
-  Complex sum = 0;
-  for (PetscInt j = 0; j < a.columns(); ++j) {
-    Complex column = 0;
-    for (PetscInt i = 0; i < a.rows(); ++i) column += std::conj(c[i]) * a(i, j);
-    sum += column * q[j];
-  }
-  return sum;
-}
-
-/// Returns c with
-///   cᴴ H(s) = 0,   H = Σ s^p h_p,
-/// by inverse iteration. s has only a few exact digits, and the two-sided Rayleigh quotient
-/// corrects it:
-///   δs = −cᴴ H q / cᴴ H′ q.
-std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, Complex s) {
-  const PetscInt m = h[0].rows();
-  std::vector<Complex> c(m);
-  for (PetscInt i = 0; i < m; ++i) c[i] = {std::sin(12.9898 * (i + 1)), std::cos(78.233 * (i + 1))};
-  const auto solve = [](const linalg::Lu<Complex>& factors, std::vector<Complex> x, bool adjoint) {
-    factors.solve(std::span(x), adjoint);
-    double sum = 0;
-    for (const auto& entry : x) sum += std::norm(entry);
-    for (auto& entry : x) entry /= std::sqrt(sum);
-    return x;
-  };
-  for (int step = 0; step < 3; ++step) {
-    linalg::ComplexMatrix sum(m, m);
-    Complex power = 1;
-    for (const auto& matrix : h) {
-      for (PetscInt j = 0; j < matrix.columns(); ++j)
-        for (PetscInt i = 0; i < m; ++i) sum(i, j) += power * matrix(i, j);
-      power *= s;
-    }
-    linalg::Lu<Complex> factors(std::move(sum));
-    factors.raiseZeroPivots();  // s may be an eigenvalue to the last digit
-    auto q = c;
-    for (int cycle = 0; cycle < 2; ++cycle) {
-      q = solve(factors, std::move(q), false);
-      c = solve(factors, q, true);
-      if (cycle == 0) q = c;
-    }
-    const Complex value = form(c, h[0], q) + s * form(c, h[1], q) + s * s * form(c, h[2], q),
-                  slope = form(c, h[1], q) + 2.0 * s * form(c, h[2], q), change = -value / slope;
-    if (!(std::abs(change) > 1e-14 * std::abs(s) && std::abs(change) < 1e-6 * std::abs(s))) break;
-    s += change;
-  }
-  return c;
-}
-
-class LeftIteration {
+/// The vectors of one side.
+class NullIteration {
  public:
-  LeftIteration(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start,
-                KSP solver)
+  NullIteration(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start,
+                KSP solver, pencil::Side side)
       : pencil_(pencil),
         at_(at),
+        side_(side),
         norms_{pencil.norm(0, at), pencil.norm(1, at), pencil.norm(2, at)},
         solver_(solver),
-        projected_{start.projected.stiffness, start.projected.damping, start.projected.mass},
+        projected_(start.projected),
         known_(start.projected.order()) {
     check(BVGetSizes(start.columns, nullptr, nullptr, &size_));
     check(BVDuplicateResize(start.columns, size_, basis_.out()));
@@ -86,24 +35,26 @@ class LeftIteration {
     check(BVSetMatrix(basis_, start.inner, PETSC_FALSE));
   }
 
-  std::vector<LeftVector> vectors(const std::vector<RightPair>& pairs) {
-    add(partsOf(pairs));
-    std::vector<LeftVector> found(pairs.size());
-    std::vector<std::size_t> open(pairs.size());
+  /// Returns the vectors of these eigenvalues; the search also starts from `more`.
+  std::vector<NullVector> vectors(const std::vector<Complex>& s, const std::vector<Vec>& more,
+                                  const Search& search) {
+    add(more);
+    std::vector<NullVector> found(s.size());
+    std::vector<std::size_t> open(s.size());
     std::iota(open.begin(), open.end(), 0);
     for (int round = 0;; ++round) {
       std::vector<Complex> values;
-      for (std::size_t i : open) values.push_back(pairs[i].s);
-      const auto coordinates = nullVectors(values);
+      for (std::size_t i : open) values.push_back(s[i]);
+      const auto coordinates = nullVectors(values, search.simple);
       std::vector<std::size_t> bad;
       std::vector<linalg::ComplexVector> residuals;
       for (std::size_t k = 0; k < open.size(); ++k) {
-        auto& left = found[open[k]];
-        left.y = expand(coordinates[k]);
-        linalg::ComplexVector residual =
-            pencil::residual(pencil_, at_, values[k], left.y, pencil::Side::left);
-        left.backwardError = length(residual) / (scale(values[k]) * length(left.y));
-        if (left.backwardError > wanted)
+        auto& [vector, backwardError] = found[open[k]];
+        vector = expand(coordinates[k]);
+        linalg::ComplexVector residual = pencil::residual(pencil_, at_, values[k], vector, side_);
+        const double size = length(residual);
+        backwardError = size > 0 ? size / (scale(values[k]) * length(vector)) : 0;
+        if (backwardError > search.accuracy)
           bad.push_back(open[k]), residuals.push_back(std::move(residual));
       }
       if (bad.empty() || round == mostRounds) return found;
@@ -114,13 +65,6 @@ class LeftIteration {
   }
 
  private:
-  static std::vector<Vec> partsOf(const std::vector<RightPair>& pairs) {
-    std::vector<Vec> parts;
-    for (const auto& pair : pairs)
-      parts.insert(parts.end(), {pair.vector->real.get(), pair.vector->imaginary.get()});
-    return parts;
-  }
-
   double scale(Complex s) const {
     const double size = std::abs(s);
     return norms_[0] + size * norms_[1] + size * size * norms_[2];
@@ -184,6 +128,8 @@ class LeftIteration {
   void extend() {
     const PetscInt old = known_, added = size_ - old;
     if (added == 0) return;
+    constexpr std::array matrices{&linalg::DenseProblem::stiffness, &linalg::DenseProblem::damping,
+                                  &linalg::DenseProblem::mass};  // [power of s]
     const linalg::ReadColumns all(basis_);
     for (int power = 0; power <= 2; ++power) {
       if (!pencil_.hasPower(power)) continue;
@@ -192,7 +138,7 @@ class LeftIteration {
                      linalg::transposedProduct(pencil_.comm(), v, productsWithV(power, old, false)),
                  below = linalg::transposedProduct(pencil_.comm(), productsWithV(power, old, true),
                                                    v.columnRange(0, old));
-      auto& matrix = projected_[power];
+      auto& matrix = projected_.*matrices[power];
       matrix = linalg::bordered(matrix, right, below);
     }
     known_ = size_;
@@ -217,13 +163,16 @@ class LeftIteration {
     return values;
   }
 
-  /// Returns the left null vectors in coordinates of the basis, [value]. The work is distributed
+  /// Returns the null vectors in coordinates of the basis, [value]. The work is distributed
   /// over the ranks, and all ranks get the same results, so round-off cannot make them disagree.
-  std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values) const {
+  std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values,
+                                                bool simple) const {
     const int rank = mpi::rank(pencil_.comm()), ranks = mpi::size(pencil_.comm());
     std::vector<std::vector<Complex>> vectors(values.size(), std::vector<Complex>(size_));
-    for (std::size_t i = rank; i < values.size(); i += ranks)
-      vectors[i] = nullVector(projected_, values[i]);
+    for (std::size_t i = rank; i < values.size(); i += ranks) {
+      auto [right, left] = linalg::nullVectors(projected_, values[i], simple);
+      vectors[i] = std::move(side_ == pencil::Side::left ? left : right);
+    }
     for (std::size_t i = 0; i < values.size(); ++i)
       mpi::broadcastEntries<Complex>(pencil_.comm(), vectors[i], i % ranks);
     return vectors;
@@ -245,21 +194,35 @@ class LeftIteration {
 
   const pencil::Pencil& pencil_;
   const sweep::Parameters at_;
+  const pencil::Side side_;
   const std::array<double, 3> norms_;  // [power of s] 2-norms of the full matrices
   KSP solver_;
   OwnedBV basis_;
   PetscInt size_ = 0;
-  std::array<linalg::DenseMatrix, 3> projected_;  // [power of s] Vᵀ A V
-  PetscInt known_ = 0;                            // columns of V that it covers
+  linalg::DenseProblem projected_;  // Vᵀ P V
+  PetscInt known_ = 0;              // columns of V that it covers
 };
 
 }  // namespace
 
-std::vector<LeftVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
+std::vector<NullVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                     const StartSpace& start, KSP solver,
-                                    const std::vector<RightPair>& pairs) {
+                                    const std::vector<RightPair>& pairs, const Search& search) {
   if (pairs.empty()) return {};
-  return LeftIteration(pencil, at, start, solver).vectors(pairs);
+  std::vector<Complex> values;
+  std::vector<Vec> parts;
+  for (const auto& [s, vector] : pairs) {
+    values.push_back(s);
+    parts.insert(parts.end(), {vector->real.get(), vector->imaginary.get()});
+  }
+  return NullIteration(pencil, at, start, solver, pencil::Side::left)
+      .vectors(values, parts, search);
+}
+
+NullVector rightVector(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                       const StartSpace& start, KSP solver, Complex s, const Search& search) {
+  NullIteration iteration(pencil, at, start, solver, pencil::Side::right);
+  return std::move(iteration.vectors({s}, {}, search).front());
 }
 
 }  // namespace squeal::sensitivity

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Null vectors of the full-order problem, P(s) x = 0 and yᴴ P(s) = 0, for known eigenvalues.
+#include <vector>
+
+#include "algebra/linalg/complexvector.hpp"
+#include "algebra/linalg/quadratic.hpp"
+#include "eigen/pencil/pencil.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::sensitivity {
+
+/// An eigenvalue and its right vector in the unknowns x.
+struct RightPair {
+  Complex s;
+  const linalg::ComplexVector* vector;  ///< borrowed
+};
+
+/// A right or left vector z and its backward error.
+struct NullVector {
+  linalg::ComplexVector vector;  ///< in the unknowns, 2-norm 1
+  /// The backward error, with P(s)ᴴ for a left vector,
+  ///   ‖P(s) z‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖z‖).
+  double backwardError = 0;
+};
+
+/// The start space of the search for null vectors.
+struct StartSpace {
+  OwnedBV columns;      ///< V: the free modes, or the basis of the reduced problem
+  Mat inner = nullptr;  ///< the matrix in which V is nearly orthonormal, M0 or K0; borrowed
+  linalg::DenseProblem projected;  ///< Vᵀ P V at the point, if known, which saves products
+                                   ///< with V; otherwise empty
+};
+
+/// How null vectors are sought.
+struct Search {
+  double accuracy = 1e-10;  ///< backward error
+  bool simple = true;       ///< false: eigenvalues may meet at s, which is exact to its last digits
+};
+
+/// Collective. Returns the left vectors of all pairs, [pair], by Rayleigh–Ritz on a basis that
+/// starts with V and the right vectors. Each round extends it by
+///   K0⁻¹ Re l, K0⁻¹ Im l,   l = P(s)ᴴ y,
+/// for the left residuals l of all pairs together, with `solver`, a borrowed factorisation of K0. A
+/// round gains about a decade. The rounds end when all backward errors are at most the requested
+/// one, when the basis no longer grows, or after 20 rounds. The caller must check the remaining
+/// error.
+std::vector<NullVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                                    const StartSpace& start, KSP solver,
+                                    const std::vector<RightPair>& pairs, const Search& search);
+
+/// Collective. Returns the right vector at an eigenvalue s in the same way, from V. Like the left
+/// vector, it is the one of the smallest singular value of P(s), so it is well defined where two
+/// eigenvalues and their vectors meet.
+NullVector rightVector(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                       const StartSpace& start, KSP solver, Complex s, const Search& search);
+
+}  // namespace squeal::sensitivity

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The modes at the critical frictions of a tracked line.
+#include <functional>
+#include <string>
+
+#include "eigen/reduction/reduced.hpp"
+#include "eigen/stability/followed.hpp"
+#include "eigen/sweep_solver/sweep_problem.hpp"
+
+namespace squeal::sweep_solver {
+
+/// Collective. Adds to a tracked line the mode at each critical friction that is the root of a
+/// function: its name and the parts of the free modes in it, and, if `derives`, the derivatives of
+/// the friction. The derivatives of each call `progress` before, which may throw.
+void addCriticalModes(SweepProblem& problem, const reduction::ReducedProblem& reduced,
+                      const stability::Line& line, bool derives,
+                      const std::function<void(const std::string&)>& progress,
+                      stability::TrackedLine& tracked);
+
+}  // namespace squeal::sweep_solver
