@@ -7,35 +7,83 @@
 #include "eigen/sensitivity/derive.hpp"
 
 namespace squeal::sweep_solver {
+namespace {
+
+constexpr std::size_t together = 16;  // critical frictions, whose problems are in memory
+
+/// A critical friction with its problem.
+struct Place {
+  std::size_t index;  // in the list of the line
+  sensitivity::CriticalPoint point;
+  const stability::LinePiece* piece;
+  reduction::PointProblem problem;
+  linalg::DenseProblem projected;  // on the basis
+  Complex s() const { return {0, point.angularFrequency}; }
+};
+
+/// Collective. Returns critical frictions from one on that are roots of a function, and sets it to
+/// the next one. Equal eigenvalues that split at an end of the sweep have no slope, and neither has
+/// a jump.
+std::vector<Place> nextPlaces(const reduction::ReducedProblem& reduced, const stability::Line& line,
+                              const stability::TrackedLine& tracked, std::size_t& next) {
+  std::vector<Place> places;
+  while (next < tracked.criticals.size() && places.size() < together) {
+    const std::size_t i = next++;
+    const auto& critical = tracked.criticals[i];
+    if (!critical.converged || critical.slope == 0) continue;
+    const auto& piece = line.pieces.at(critical.piece);
+    sweep::Parameters at = line.at;
+    at.friction = critical.friction;
+    auto problem = piece.source.at(at);
+    if (!problem) continue;
+    auto projected = reduced.project(*problem);
+    const bool isCrossing = critical.kind == tracking::Event::Kind::crossing;
+    places.push_back({i,
+                      {at, critical.angularFrequency, isCrossing},
+                      &piece,
+                      std::move(*problem),
+                      std::move(projected)});
+  }
+  return places;
+}
+
+/// Collective. Returns the modes there in the unknowns, [place].
+std::vector<linalg::ComplexVector> vectorsOf(const reduction::ReducedProblem& reduced,
+                                             const std::vector<Place>& places) {
+  std::vector<std::vector<Complex>> lifted;
+  for (const auto& place : places) {
+    auto q = linalg::nullVectors(place.projected, place.s(), place.point.isCrossing).right;
+    mpi::broadcastEntries<Complex>(reduced.basis().comm(), q, 0);
+    lifted.push_back(reduced.lifted(place.piece->source.set, q));
+  }
+  return reduced.basis().expand(lifted);
+}
+
+}  // namespace
 
 void addCriticalModes(SweepProblem& problem, const reduction::ReducedProblem& reduced,
                       const stability::Line& line, bool derives,
                       const std::function<void(const std::string&)>& progress,
                       stability::TrackedLine& tracked) {
-  for (const auto& critical : tracked.criticals) {
-    auto& mode = tracked.criticalModes.emplace_back();
-    // Equal eigenvalues that split at an end of the sweep have no slope, and neither has a jump.
-    if (!critical.converged || critical.slope == 0) continue;
-    const auto& [source, frictions, activeSet, like] = line.pieces.at(critical.piece);
-    sweep::Parameters at = line.at;
-    at.friction = critical.friction;
-    const auto there = source.at(at);
-    if (!there) continue;
-    const sensitivity::CriticalPoint point{at, critical.angularFrequency,
-                                           critical.kind == tracking::Event::Kind::crossing};
-    const Complex s{0, point.angularFrequency};
-    auto projected = reduced.project(*there);
-    auto q = linalg::nullVectors(projected, s, point.isCrossing).right;
-    mpi::broadcastEntries<Complex>(problem.system->comm(), q, 0);
-    const auto& basis = reduced.basis();
-    problem.describe(s, basis.expand({reduced.lifted(source.set, q)}).front(), *line.modes, mode);
-    if (!derives) continue;
-    progress(formatted("derivatives of the critical friction %.6g", critical.friction));
-    const sensitivity::StartSpace start{basis.vectors(), problem.system->k0(),
-                                        std::move(projected)};
-    problem.withForms(at, like, there->pencil, [&](const sensitivity::Forms& forms) {
-      sensitivity::deriveCritical(point, there->pencil, start, *problem.system, forms, mode);
-    });
+  tracked.criticalModes.resize(tracked.criticals.size());
+  for (std::size_t next = 0; next < tracked.criticals.size();) {
+    auto places = nextPlaces(reduced, line, tracked, next);
+    if (places.empty()) return;
+    const auto vectors = vectorsOf(reduced, places);
+    std::vector<pencil::ComplexMotion> motions;
+    for (std::size_t i = 0; i < places.size(); ++i) motions.push_back({places[i].s(), &vectors[i]});
+    auto found = problem.describe(motions, *line.modes);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      auto& [index, point, piece, at, projected] = places[i];
+      auto& mode = tracked.criticalModes[index] = std::move(found[i]);
+      if (!derives) continue;
+      progress(formatted("derivatives of the critical friction %.6g", point.at.friction));
+      const sensitivity::StartSpace start{reduced.basis().vectors(), problem.system->k0(),
+                                          std::move(projected)};
+      problem.withForms(point.at, piece->like, at.pencil, [&](const sensitivity::Forms& forms) {
+        sensitivity::deriveCritical(point, at.pencil, start, *problem.system, forms, mode);
+      });
+    }
   }
 }
 

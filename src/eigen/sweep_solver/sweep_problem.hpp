@@ -8,6 +8,7 @@
 #include "algebra/factor/associated_system.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/participation.hpp"
 #include "eigen/pencil/pencil.hpp"
 #include "eigen/sensitivity/derive.hpp"
 #include "eigen/sensitivity/null_vectors.hpp"
@@ -71,10 +72,12 @@ class SweepProblem {
   /// from `start`.
   virtual void examine(std::size_t i, const pencil::Pencil& pencil,
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
-  /// Collective. Adds the name of the complex mode x at s and the parts of these free modes in it,
-  /// all in the unknowns.
-  virtual void describe(Complex /*s*/, const linalg::ComplexVector& /*x*/,
-                        const modes::Modes& /*modes*/, pencil::CriticalMode& /*mode*/) const {}
+  /// Collective. Returns the names of complex modes, in the unknowns, and the parts of these free
+  /// modes in them, [motion].
+  virtual std::vector<pencil::CriticalMode> describe(
+      const std::vector<pencil::ComplexMotion>& motions, const modes::Modes& /*modes*/) const {
+    return std::vector<pencil::CriticalMode>(motions.size());
+  }
   /// Collective. Calls `use` with the forms of all parameters at a point between those of the
   /// sweep, whose terms are those of `pencil`; not if the point has no steady state, or another
   /// active set than steadyPoints[like].

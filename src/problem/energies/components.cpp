@@ -151,12 +151,14 @@ void Components::addBodies(const NodalProducts& products, Vec u, std::vector<For
   const auto remove = [&](Mat part, double Forms::*form) {
     if (const OwnedVec y = product(part, u); y) add(ReadArray(y).data(), -1, form);
   };
-  add(products.stiffness.data(), 1, &Forms::stiffness);
-  for (const Mat part :
-       {bodies_.linkStiffness.get(), bodies_.layerStiffness.get(), bodies_.springs.get()})
-    remove(part, &Forms::stiffness);
   add(products.mass.data(), 1, &Forms::mass);
   remove(pointMass_, &Forms::mass);
+  if (!products.stiffness.empty()) {
+    add(products.stiffness.data(), 1, &Forms::stiffness);
+    for (const Mat part :
+         {bodies_.linkStiffness.get(), bodies_.layerStiffness.get(), bodies_.springs.get()})
+      remove(part, &Forms::stiffness);
+  }
   if (products.damping.empty()) return;
   add(products.damping.data(), 1, &Forms::damping);
   for (const Mat part : {linkDamping_.get(), groundDashpots_.get()}) remove(part, &Forms::damping);

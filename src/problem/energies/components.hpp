@@ -26,8 +26,9 @@ struct Forms {
 
 /// A nodal vector u and its products with the matrices of all bodies, this rank's rows; borrowed.
 struct NodalProducts {
-  std::span<const double> u, stiffness, mass;  ///< u, K u, M u
-  std::span<const double> damping = {};        ///< C u; empty: the forms of C are not wanted
+  std::span<const double> u, mass;         ///< u, M u
+  std::span<const double> stiffness = {};  ///< K u; empty: the forms of K are not wanted
+  std::span<const double> damping = {};    ///< C u; empty: the forms of C are not wanted
 };
 
 /// What stores or dissipates energy: bodies, springs, bushings, point masses, the springs and

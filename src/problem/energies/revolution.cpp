@@ -15,7 +15,8 @@ namespace {
 constexpr int mostDiameters = 12;
 constexpr std::size_t functions = 12, degrees = 6;  // of ρ and ζ together; of ρ
 constexpr int rings = 24;
-constexpr double clear = 0.6;  // share from which a name is given
+constexpr double clear = 0.6;         // share from which a name is given
+constexpr std::size_t together = 64;  // nodes: factors of products stay in the cache
 
 /// Returns the vectors across the axis, and the one along it.
 std::array<Point, 3> axesOf(const Axis& axis) {
@@ -38,18 +39,6 @@ std::size_t sizeOf(int n) { return n == 0 ? functions : 2 * functions; }
 std::size_t placeOf(int n, std::size_t component) {
   const std::size_t before = n == 0 ? 0 : 3 * (functions + 2 * functions * (n - 1));
   return before + component * sizeOf(n);
-}
-
-/// Calls `action(n, cos nθ, sin nθ)`.
-template <class Action>
-void forEachHarmonic(double cosine, double sine, const Action& action) {
-  double c = 1, s = 0;
-  for (int n = 0; n <= mostDiameters; ++n) {
-    action(n, c, s);
-    const double next = c * cosine - s * sine;
-    s = s * cosine + c * sine;
-    c = next;
-  }
 }
 
 /// Returns the name of a motion of a bar; empty if it has none.
@@ -88,7 +77,8 @@ Revolution::Revolution(const mesh::Mesh& mesh, LumpedBody body, const Axis& axis
     const double a = mesh::dot(x, axes_[0]), b = mesh::dot(x, axes_[1]), z = mesh::dot(x, axes_[2]);
     const double r = std::hypot(a, b);
     meridian.emplace_back(r, z);
-    places_.push_back({.cosine = r > 0 ? a / r : 1, .sine = r > 0 ? b / r : 0});
+    cosine_.push_back(r > 0 ? a / r : 1);
+    sine_.push_back(r > 0 ? b / r : 0);
     limits = {std::max(limits[0], -r), std::max(limits[1], r), std::max(limits[2], -z),
               std::max(limits[3], z)};
   }
@@ -98,55 +88,80 @@ Revolution::Revolution(const mesh::Mesh& mesh, LumpedBody body, const Axis& axis
   const auto scaled = [](double x, double from, double to) {
     return to > from ? (2 * x - from - to) / (to - from) : 0.0;
   };
-  for (std::size_t k = 0; k < places_.size(); ++k) {
+  polynomials_ = linalg::DenseMatrix(meridian.size(), functions);
+  for (std::size_t k = 0; k < meridian.size(); ++k) {
     const double rho = scaled(meridian[k].first, inner, outer),
                  zeta = scaled(meridian[k].second, bottom, top);
     const auto p = legendre(rho);
     for (std::size_t i = 0; i < degrees; ++i)
-      places_[k].p[i] = p[i], places_[k].p[degrees + i] = p[i] * zeta;
-    places_[k].ring = std::min(rings - 1, int((rho + 1) / 2 * rings));
+      polynomials_(k, i) = p[i], polynomials_(k, degrees + i) = p[i] * zeta;
+    ring_.push_back(std::min(rings - 1, int((rho + 1) / 2 * rings)));
   }
   std::vector<linalg::DenseMatrix> grams;
   for (int n = 0; n <= mostDiameters; ++n) grams.emplace_back(sizeOf(n), sizeOf(n));
-  for (std::size_t k = 0; k < places_.size(); ++k)
-    forEachHarmonic(places_[k].cosine, places_[k].sine, [&](int n, double c, double s) {
-      const auto f = [&](std::size_t i) {
-        return i < functions ? places_[k].p[i] * c : places_[k].p[i - functions] * s;
-      };
-      for (std::size_t j = 0; j < sizeOf(n); ++j)
-        for (std::size_t i = j; i < sizeOf(n); ++i) grams[n](i, j) += body_.mass[k] * f(i) * f(j);
-    });
+  for (std::size_t first = 0; first < meridian.size(); first += together) {
+    const std::size_t count = std::min(together, meridian.size() - first);
+    const auto harmonics = harmonicsOf(first, count);
+    for (int n = 0; n <= mostDiameters; ++n) {
+      linalg::DenseMatrix values(count, sizeOf(n)), weighted(count, sizeOf(n));
+      for (std::size_t i = 0; i < sizeOf(n); ++i)
+        for (std::size_t k = 0; k < count; ++k) {
+          values(k, i) =
+              polynomials_(first + k, i % functions) * harmonics(k, 2 * n + i / functions);
+          weighted(k, i) = body_.mass[first + k] * values(k, i);
+        }
+      linalg::addScaled(grams[n], 1, linalg::transposedProduct(values, weighted));
+    }
+  }
   for (int n = 0; n <= mostDiameters; ++n) {
     mpi::sumAlike(mesh.comm, {grams[n].data(), sizeOf(n) * sizeOf(n)});
     fits_.emplace_back(std::move(grams[n]));
   }
 }
 
+/// Returns cos nθ and sin nθ of some nodes, node × [n][cos, sin].
+linalg::DenseMatrix Revolution::harmonicsOf(std::size_t first, std::size_t count) const {
+  linalg::DenseMatrix harmonics(count, 2 * mostDiameters + 2);
+  const double *cosine = &cosine_[first], *sine = &sine_[first];
+  std::ranges::fill(harmonics.column(0), 1.0);
+  for (int n = 1; n <= mostDiameters; ++n) {
+    const double *c = harmonics.column(2 * n - 2).data(), *s = harmonics.column(2 * n - 1).data();
+    double *nextC = harmonics.column(2 * n).data(), *nextS = harmonics.column(2 * n + 1).data();
+    for (std::size_t k = 0; k < count; ++k) {
+      nextC[k] = c[k] * cosine[k] - s[k] * sine[k];
+      nextS[k] = s[k] * cosine[k] + c[k] * sine[k];
+    }
+  }
+  return harmonics;
+}
+
 /// Collective. Returns Σ m f u of all functions f and cylindrical components u, and at the end
 /// Σ m |u|². The sums over some nodes are a product of matrices: of cos nθ and sin nθ with m p u.
 std::vector<double> Revolution::moments(const double* values) const {
-  constexpr std::size_t together = 256;  // nodes: both factors stay in the cache
   linalg::DenseMatrix products(2 * mostDiameters + 2, 3 * functions);  // [cos, sin of n][u][p]
   double square = 0;
-  for (std::size_t first = 0; first < places_.size(); first += together) {
-    const std::size_t count = std::min(together, places_.size() - first);
-    linalg::DenseMatrix harmonics(count, products.rows()), weighted(count, products.columns());
+  for (std::size_t first = 0; first < body_.nodes.size(); first += together) {
+    const std::size_t count = std::min(together, body_.nodes.size() - first);
+    const double *cosine = &cosine_[first], *sine = &sine_[first];
+    const auto harmonics = harmonicsOf(first, count);
+    linalg::DenseMatrix weighted(count, products.columns()), along(count, 3);  // m u
     for (std::size_t k = 0; k < count; ++k) {
-      const auto& [cosine, sine, p, ring] = places_[first + k];
       const double mass = body_.mass[first + k];
       const double* u = values + 3 * body_.nodes[first + k];
       const Point motion{u[0], u[1], u[2]};
       const double a = mesh::dot(motion, axes_[0]), b = mesh::dot(motion, axes_[1]);
-      const std::array<double, 3> along{cosine * a + sine * b, cosine * b - sine * a,
-                                        mesh::dot(motion, axes_[2])};
-      for (std::size_t component = 0; component < 3; ++component)
-        for (std::size_t i = 0; i < functions; ++i)
-          weighted(k, functions * component + i) = mass * along[component] * p[i];
-      forEachHarmonic(cosine, sine, [&](int n, double c, double s) {
-        harmonics(k, 2 * n) = c, harmonics(k, 2 * n + 1) = s;
-      });
+      along(k, 0) = mass * (cosine[k] * a + sine[k] * b);
+      along(k, 1) = mass * (cosine[k] * b - sine[k] * a);
+      along(k, 2) = mass * mesh::dot(motion, axes_[2]);
       square += mass * mesh::dot(motion, motion);
     }
+    for (std::size_t component = 0; component < 3; ++component)
+      for (std::size_t i = 0; i < functions; ++i) {
+        const double *u = along.column(component).data(),
+                     *p = polynomials_.column(i).data() + first;
+        double* product = weighted.column(functions * component + i).data();
+        for (std::size_t k = 0; k < count; ++k) product[k] = u[k] * p[k];
+      }
     linalg::addScaled(products, 1, linalg::transposedProduct(harmonics, weighted));
   }
   std::vector<double> sums(placeOf(mostDiameters + 1, 0), 0.0);
@@ -178,10 +193,10 @@ int Revolution::circles(int diameters, const std::vector<std::vector<double>>& m
   }
   if (best.empty()) return 0;
   std::array<double, 2 * rings> sums{};  // Σ m u, Σ m
-  for (std::size_t k = 0; k < places_.size(); ++k) {
+  for (std::size_t k = 0; k < ring_.size(); ++k) {
     double u = 0;
-    for (std::size_t i = 0; i < functions; ++i) u += best[i] * places_[k].p[i];
-    sums[places_[k].ring] += body_.mass[k] * u, sums[rings + places_[k].ring] += body_.mass[k];
+    for (std::size_t i = 0; i < functions; ++i) u += best[i] * polynomials_(k, i);
+    sums[ring_[k]] += body_.mass[k] * u, sums[rings + ring_[k]] += body_.mass[k];
   }
   mpi::sumAlike(mesh_.comm, sums);
   double most = 0;

@@ -52,11 +52,7 @@ class Revolution {
   NamedMotion name(const std::vector<const double*>& parts) const;
 
  private:
-  struct Place {
-    double cosine, sine;
-    std::array<double, 12> p = {};  // P_i(ρ) P_j(ζ)
-    int ring = 0;                   // bin of the radius
-  };
+  linalg::DenseMatrix harmonicsOf(std::size_t first, std::size_t count) const;
   std::vector<double> moments(const double* values) const;
   int circles(int diameters, const std::vector<std::vector<double>>& moments) const;
 
@@ -64,8 +60,10 @@ class Revolution {
   LumpedBody body_;
   std::array<Point, 3> axes_;  // e_x, e_y across the axis, and along it
   bool isBar_ = false;
-  std::vector<Place> places_;      // [node]
-  std::vector<WeightedFit> fits_;  // [n]
+  std::vector<double> cosine_, sine_;  // [node]
+  linalg::DenseMatrix polynomials_;    // P_i(ρ) P_j(ζ), node × 12
+  std::vector<int> ring_;              // [node] bin of the radius
+  std::vector<WeightedFit> fits_;      // [n]
 };
 
 }  // namespace squeal::energies

@@ -52,20 +52,16 @@ void nameMotions(const Components& components, const std::vector<const double*>&
     list[body].motion = names[body].name, list[body].motionShare = names[body].share;
 }
 
-/// A complex motion and its products with the matrices of all bodies, borrowed.
-struct ComplexProducts {
-  const linalg::ComplexVector &u, &stiffness, &mass;
-  const linalg::ComplexVector* damping = nullptr;  // null: its forms are not wanted
-};
-
 /// Collective. Returns the sums of the forms of the real and the imaginary part of a motion.
-std::vector<Forms> formsOf(const Components& components, const ComplexProducts& motion) {
+std::vector<Forms> formsOf(const Components& components, const ComplexMode& mode) {
   std::vector<Forms> sums(components.list().size());
   for (const auto part : {&linalg::ComplexVector::real, &linalg::ComplexVector::imaginary}) {
-    const ReadArray u(motion.u.*part), elastic(motion.stiffness.*part), inertia(motion.mass.*part);
-    NodalProducts products{u, elastic, inertia};
+    const auto& force = mode.force;
+    const ReadArray u(mode.motion.u.*part), elastic(force.elastic.*part),
+        inertia(force.inertia.*part);
+    NodalProducts products{u, inertia, elastic};
     std::optional<ReadArray> damped;
-    if (motion.damping) products.damping = damped.emplace(motion.damping->*part);
+    if (force.damped.real) products.damping = damped.emplace(force.damped.*part);
     const auto forms = components.forms(products);
     for (std::size_t i = 0; i < forms.size(); ++i) {
       sums[i].stiffness += forms[i].stiffness;
@@ -74,13 +70,6 @@ std::vector<Forms> formsOf(const Components& components, const ComplexProducts& 
     }
   }
   return sums;
-}
-
-/// Collective. Names the motions of the bodies, the first components, in a complex motion.
-void nameMotions(const Components& components, const linalg::ComplexVector& u,
-                 std::vector<pencil::Component>& list) {
-  const ReadArray real(u.real), imaginary(u.imaginary);
-  nameMotions(components, {real.data(), imaginary.data()}, list);
 }
 
 }  // namespace
@@ -96,13 +85,30 @@ std::vector<pencil::Component> sharesOfFreeMode(const Components& components,
   return list;
 }
 
-std::vector<pencil::Component> sharesOfMotion(const Components& components,
-                                              const elasticity::Bodies& bodies,
-                                              const linalg::ComplexVector& u) {
-  const auto elastic = product(bodies.stiffness, u), inertia = product(bodies.mass, u);
-  auto list = shares(components, {formsOf(components, {u, elastic, inertia}), 0, 0});
-  nameMotions(components, u, list);
-  return list;
+std::string nameOfMotion(const Components& components, const elasticity::Bodies& bodies,
+                         const linalg::ComplexVector& u) {
+  auto list = components.list();
+  const ReadArray real(u.real), imaginary(u.imaginary);
+  std::vector<const double*> values;
+  double whole = 0;
+  const auto add = [&](Vec part, const ReadArray& entries) {
+    PetscReal size = 0;
+    check(VecNorm(part, NORM_INFINITY, &size));
+    if (size == 0) return;  // a mode without damping is real
+    OwnedVec product;
+    check(VecDuplicate(part, product.out()));
+    check(MatMult(bodies.mass, part, product));
+    const ReadArray inertia(product);
+    const auto forms = components.forms({entries, inertia});
+    for (std::size_t i = 0; i < list.size(); ++i)
+      list[i].kinetic += forms[i].mass, whole += forms[i].mass;
+    values.push_back(entries.data());
+  };
+  add(u.real, real);
+  add(u.imaginary, imaginary);
+  for (auto& one : list) one.kinetic /= whole;
+  nameMotions(components, values, list);
+  return pencil::modeName(list);
 }
 
 std::vector<pencil::Component> sharesOfComplexMode(const Components& components,
@@ -111,12 +117,13 @@ std::vector<pencil::Component> sharesOfComplexMode(const Components& components,
                                                    const ComplexMode& mode) {
   const auto& [at, s, u, prestress] = mode.motion;
   const double v = at.speed, energy = mode.force.energy;
-  const auto& force = mode.force;
-  const MotionForms forms{formsOf(components, {u, force.elastic, force.inertia,
-                                               force.damped.real ? &force.damped : nullptr}),
-                          form(prestress, u), v * v * form(bodies.rotationStiffness, u)};
+  const MotionForms forms{formsOf(components, mode), form(prestress, u),
+                          v * v * form(bodies.rotationStiffness, u)};
   auto list = shares(components, forms);
-  nameMotions(components, u, list);
+  {
+    const ReadArray real(u.real), imaginary(u.imaginary);
+    nameMotions(components, {real.data(), imaginary.data()}, list);
+  }
   if (bodies.damping)
     for (std::size_t i = 0; i < list.size(); ++i)
       list[i].growth.damping = -std::norm(s) * at.damping * forms.components[i].damping / energy;

@@ -2,6 +2,7 @@
 #pragma once
 /// The shares of the components in the energies of a mode, and in its growth.
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "eigen/pencil/complex_modes.hpp"
@@ -17,11 +18,9 @@ std::vector<pencil::Component> sharesOfFreeMode(const Components& components,
                                                 const NodalProducts& mode,
                                                 std::optional<double> prestress);
 
-/// Collective. Returns the components with their shares in the energies of a motion u, nodal
-/// displacements, without those of the steady stress and of rotation.
-std::vector<pencil::Component> sharesOfMotion(const Components& components,
-                                              const elasticity::Bodies& bodies,
-                                              const linalg::ComplexVector& u);
+/// Collective. Returns the name of a motion u, nodal displacements, as of pencil::modeName().
+std::string nameOfMotion(const Components& components, const elasticity::Bodies& bodies,
+                         const linalg::ComplexVector& u);
 
 /// A complex mode at a point of a sweep, all members borrowed.
 struct ComplexMode {

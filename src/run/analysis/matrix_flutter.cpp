@@ -7,7 +7,6 @@
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
-#include "eigen/pencil/participation.hpp"
 #include "eigen/sensitivity/derive.hpp"
 #include "eigen/sensitivity/settings.hpp"
 #include "eigen/sweep_solver/sweep_solver.hpp"
@@ -40,10 +39,9 @@ class MatrixSweep : public sweep_solver::SweepProblem {
                pencil::ComplexModes& point) override {
     if (derives_) sensitivity::deriveParameters(point, ofPoint, start, *system);
   }
-  void describe(Complex s, const linalg::ComplexVector& x, const modes::Modes& modes,
-                pencil::CriticalMode& mode) const override {
-    const pencil::ComplexMotion motion{s, &x};
-    mode.participations = pencil::participations(modes, *system, {&motion, 1}).front();
+  std::vector<pencil::CriticalMode> describe(const std::vector<pencil::ComplexMotion>& motions,
+                                             const modes::Modes& modes) const override {
+    return analysis::describe(*system, motions, modes);
   }
   void withForms(const sweep::Parameters& at, std::size_t, const pencil::Pencil& ofPoint,
                  const std::function<void(const sensitivity::Forms&)>& use) override {

@@ -6,7 +6,6 @@
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/text.hpp"
-#include "eigen/pencil/participation.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "problem/energies/shares.hpp"
 #include "problem/terms/friction_work.hpp"
@@ -251,12 +250,13 @@ std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Paramet
   return terms;
 }
 
-void MeshSweep::describe(Complex s, const linalg::ComplexVector& x, const modes::Modes& modes,
-                         pencil::CriticalMode& mode) const {
-  const pencil::ComplexMotion motion{s, &x};
-  mode.participations = pencil::participations(modes, *all_, {&motion, 1}).front();
-  mode.name = pencil::modeName(
-      energies::sharesOfMotion(components_, brake_.model.bodies, linalg::product(trial, x)));
+std::vector<pencil::CriticalMode> MeshSweep::describe(
+    const std::vector<pencil::ComplexMotion>& motions, const modes::Modes& modes) const {
+  auto found = analysis::describe(*all_, motions, modes);
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    found[i].name = energies::nameOfMotion(components_, brake_.model.bodies,
+                                           linalg::product(trial, *motions[i].x));
+  return found;
 }
 
 void MeshSweep::withForms(const sweep::Parameters& at, std::size_t like,

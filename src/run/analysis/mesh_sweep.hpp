@@ -37,8 +37,8 @@ class MeshSweep : public sweep_solver::SweepProblem {
                                                    std::size_t like) override;
   void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override;
-  void describe(Complex s, const linalg::ComplexVector& x, const modes::Modes& modes,
-                pencil::CriticalMode& mode) const override;
+  std::vector<pencil::CriticalMode> describe(const std::vector<pencil::ComplexMotion>& motions,
+                                             const modes::Modes& modes) const override;
   void withForms(const sweep::Parameters& at, std::size_t like, const pencil::Pencil& pencil,
                  const std::function<void(const sensitivity::Forms&)>& use) override;
   /// Collective. Adds to the modes of a segment the shares of the components, and to its complex

@@ -9,7 +9,6 @@
 #include "algebra/linalg/columns.hpp"
 #include "base/petsc/object.hpp"
 #include "base/system/mpi.hpp"
-#include "eigen/pencil/participation.hpp"
 #include "problem/energies/shares.hpp"
 
 namespace squeal::analysis {
@@ -31,6 +30,15 @@ void addParticipations(const factor::AssociatedSystem& system,
     }
   auto found = pencil::participations(segment.modes, system, motions);
   for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i]->participations = std::move(found[i]);
+}
+
+std::vector<pencil::CriticalMode> describe(const factor::AssociatedSystem& system,
+                                           const std::vector<pencil::ComplexMotion>& motions,
+                                           const modes::Modes& modes) {
+  std::vector<pencil::CriticalMode> found;
+  for (auto& parts : pencil::participations(modes, system, motions))
+    found.emplace_back().participations = std::move(parts);
+  return found;
 }
 
 void addComponents(const energies::Components& components, const elasticity::Bodies& bodies,
@@ -61,7 +69,7 @@ void addComponents(const energies::Components& components, const elasticity::Bod
         stress = mpi::sum(commOf(trial), std::inner_product(x.begin(), x.end(), y.begin(), 0.0));
       }
       segment.components.push_back(energies::sharesOfFreeMode(
-          components, {u.column(i), elastic.column(i), inertia.column(i)}, stress));
+          components, {u.column(i), inertia.column(i), elastic.column(i)}, stress));
     }
   }
 }

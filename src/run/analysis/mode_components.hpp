@@ -2,6 +2,7 @@
 #pragma once
 /// What the modes of a segment are made of: the components of the model, and the free modes.
 #include "algebra/factor/associated_system.hpp"
+#include "eigen/pencil/participation.hpp"
 #include "eigen/sweep_solver/results.hpp"
 #include "problem/energies/components.hpp"
 
@@ -15,5 +16,11 @@ void addParticipations(const factor::AssociatedSystem& system, sweep_solver::Mod
 /// segment, or in all of them without a band. `trial` is T; `prestress` is K_σ, null: none.
 void addComponents(const energies::Components& components, const elasticity::Bodies& bodies,
                    Mat trial, Mat prestress, sweep_solver::ModalSegment& segment);
+
+/// Collective. Returns modes at critical frictions with the parts of these free modes in them,
+/// [motion].
+std::vector<pencil::CriticalMode> describe(const factor::AssociatedSystem& system,
+                                           const std::vector<pencil::ComplexMotion>& motions,
+                                           const modes::Modes& modes);
 
 }  // namespace squeal::analysis

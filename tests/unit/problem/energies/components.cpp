@@ -60,7 +60,7 @@ TEST(Components, HaveTheFormsOfTheirMatrices) {
   std::vector<energies::Forms> found;
   {
     const ReadArray x(u), k(elastic), m(inertia), c(damped);
-    found = components.forms({x, k, m, c});
+    found = components.forms({.u = x, .mass = m, .stiffness = k, .damping = c});
   }
   const double stiffness = form(bodies.stiffness, u), mass = form(bodies.mass, u),
                damping = form(bodies.damping, u);
