@@ -10,5 +10,6 @@ _squeal_run() {
     return
   fi
   _squeal
+  if [[ -n $word && "-what_if" == "$word"* ]]; then COMPREPLY+=(-what_if); fi
 }
 complete -o default -F _squeal_run squeal-run

@@ -33,7 +33,8 @@ function meetingModes(i) {
 function showCriticalChanges() {
   const c = data.critical, s = data.criticalSensitivities;
   const i = Number(element("criticalchoice").value);
-  const list = criticalChanges.get(criticalKey(c, i)), change = (k) => s.friction_derivative[k] / 100;
+  const list = criticalChanges.get(criticalKey(c, i));
+  const change = (k) => s.friction_derivative[k] / 100;
   const modes = meetingModes(i), name = (c.name && c.name[i]) || "";
   element("criticalwords").textContent = [
     `${c.kind[i]}, stability is ${c.direction[i] === "loss" ? "lost" : "regained"}`,
