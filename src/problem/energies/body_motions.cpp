@@ -103,15 +103,36 @@ BodyMotions::Body BodyMotions::bodyOf(const LumpedBody& lumped,
     for (std::size_t j = 0; j < 6; ++j) gram(i, j) /= (i < 3 ? 1 : arm) * (j < 3 ? 1 : arm);
   body.arm = arm;
   body.rigid = WeightedFit(std::move(gram));
-  if (const auto axis = axisOf(mesh_, lumped, body.centre, motion))
+  if (const auto axis = axisOf(mesh_, lumped, body.centre, motion)) {
     body.revolution = std::make_unique<Revolution>(mesh_, lumped, *axis);
+    body.axis = axis->direction;
+  }
   return body;
+}
+
+/// Returns the rigid motion of a body of revolution: along or about its axis, or across. The energy
+/// of the motions across is the rest, since those of the axis are orthogonal to them.
+NamedMotion BodyMotions::revolvedName(const Body& body, const std::array<double, 6>& shares,
+                                      const std::array<double, 2>& axial, double total) const {
+  constexpr double aligned = 1 - 1e-6;
+  std::string axis = "its axis";
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(body.axis[i]) > aligned) axis = "xyz"[i];
+  const double along = shares[0] + shares[1] + shares[2], about = shares[3] + shares[4] + shares[5];
+  const std::array<std::pair<double, std::string>, 4> all{{{axial[0], "along " + axis},
+                                                           {along - axial[0], "along a diameter"},
+                                                           {axial[1], "about " + axis},
+                                                           {about - axial[1], "about a diameter"}}};
+  const auto& largest = *std::ranges::max_element(all, {}, &std::pair<double, std::string>::first);
+  if (largest.first < 0.5 * (along + about)) return {"rigid", (along + about) / total};
+  return {"rigid " + largest.second, (along + about) / total};
 }
 
 /// Collective. Returns the rigid motion in a motion, with its share.
 NamedMotion BodyMotions::rigidName(const Body& body,
                                    const std::vector<const double*>& parts) const {
   std::array<double, 6> shares{};
+  std::array<double, 2> axial{};  // of the motions along and about the axis of revolution
   double total = 0;
   for (const double* values : parts) {
     std::array<double, 7> sums{};
@@ -127,9 +148,15 @@ NamedMotion BodyMotions::rigidName(const Body& body,
     const std::span<const double> b(sums.data(), 6);
     const auto c = body.rigid.coefficients(b);
     for (std::size_t i = 0; i < 6; ++i) shares[i] += c[i] * b[i];
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+      const Point x{c[3 * kind], c[3 * kind + 1], c[3 * kind + 2]},
+          y{b[3 * kind], b[3 * kind + 1], b[3 * kind + 2]};
+      axial[kind] += mesh::dot(x, body.axis) * mesh::dot(y, body.axis);
+    }
     total += sums[6];
   }
   if (!(total > 0)) return {};
+  if (body.revolution) return revolvedName(body, shares, axial, total);
   double sum = 0;
   std::size_t largest = 0;
   for (std::size_t i = 0; i < 6; ++i) {

@@ -84,11 +84,20 @@ TEST(BodyMotions, HaveDiametersAndCircles) {
 
 TEST(BodyMotions, AreRigid) {
   const Named ring(test::ring + "n_theta=20");
-  EXPECT_EQ(ring.name([](const Point&) { return Point{0, 1, 0}; }).name, "rigid along y");
-  const auto turned = ring.name([](const Point& x) { return mesh::cross({1, 0, 0}, x); });
-  EXPECT_EQ(turned.name, "rigid about x");
-  EXPECT_NEAR(turned.share, 1, 1e-12);
-  EXPECT_EQ(ring.name([](const Point& x) { return mesh::cross({1, 1, 1}, x); }).name, "rigid");
+  // Across its axis the motions of a body of revolution come in pairs of one name.
+  for (const double phase : {0.0, 0.4, M_PI / 2}) {
+    const Point across{std::cos(phase), std::sin(phase), 0};
+    EXPECT_EQ(ring.name([&](const Point&) { return across; }).name, "rigid along a diameter");
+    const auto turned = ring.name([&](const Point& x) { return mesh::cross(across, x); });
+    EXPECT_EQ(turned.name, "rigid about a diameter");
+    EXPECT_NEAR(turned.share, 1, 1e-12);
+  }
+  EXPECT_EQ(ring.name([](const Point&) { return Point{0, 0, 1}; }).name, "rigid along z");
+  EXPECT_EQ(ring.name([](const Point& x) {
+                  return mesh::cross({0, 0, 1}, x);
+                })
+                .name,
+            "rigid about z");
 }
 
 TEST(BodyMotions, OfABlockHaveNoDiameters) {
