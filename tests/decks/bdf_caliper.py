@@ -42,10 +42,10 @@ def stiffness(options):
 
 class Caliper:
     """`case`: the options of the brake; `mesh`: its mesh of tetrahedra (`places`, `bodies`,
-    `faces`)."""
+    `faces`); `slaves`: interface -> "pad" or "disc", the side that a deck has first."""
 
-    def __init__(self, case, mesh):
-        self.case, self.mesh = case, mesh
+    def __init__(self, case, mesh, slaves):
+        self.case, self.mesh, self.slaves = case, mesh, slaves
         self.bodies = {name: number for number, name in enumerate(sorted(mesh.bodies), 1)}
         self.regions = {name: 100 + number for number, name in enumerate(sorted(mesh.faces))}
         self.owners, self.cells = {}, []
@@ -113,8 +113,7 @@ class Caliper:
         text += small("BRKPROP", 71, None, "AVSTIF", 1.0e16, "FRICT", friction)
         brakes, pairs, used = [], [], set()
         for name, one in self.case["contact"].items():
-            # The finer side is the slave of the program; a deck has it first.
-            sides = ("disc", "pad") if name == "finger" else ("pad", "disc")
+            sides = sorted(("disc", "pad"), key=lambda side: side != self.slaves[name])
             slave, master = (self.regions[one[side]] for side in sides)
             geometry = CLOSED if "gap" in one else None
             pairs.append((geometry, GRIP if one["role"] == "sticking" else None, slave, master))

@@ -146,10 +146,11 @@ def _material(name, options):
 
 
 class Caliper:
-    """`case`: the options of the brake; `mesh`: its mesh."""
+    """`case`: the options of the brake; `mesh`: its mesh; `slaves`: interface -> "pad" or "disc",
+    the side that a deck has first."""
 
-    def __init__(self, case, mesh):
-        self.case = case
+    def __init__(self, case, mesh, slaves):
+        self.case, self.slaves = case, slaves
         self.parts = {
             name: Part(number, name, cells, mesh.places)
             for number, (name, cells) in enumerate(sorted(mesh.bodies.items()))
@@ -216,8 +217,8 @@ class Caliper:
             text += (
                 f"*Contact Pair, interaction={INTERACTIONS[one['role']]}, small sliding{adjust}\n"
             )
-            # The program takes the finer side as the slave; a deck has it first.
-            slave, master = ("disc", "pad") if name == "finger" else ("pad", "disc")
+            slave = self.slaves[name]
+            master = {"pad": "disc", "disc": "pad"}[slave]
             text += f"{self._name(one[slave])}, {self._name(one[master])}\n"
         return text + "*Boundary\nHeld, ENCASTRE\n"
 

@@ -22,7 +22,7 @@ class FloatingCaliper(CaliperCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        (cls.folder / "brake.bdf").write_text(Caliper(cls.options, cls.mesh).deck(0.6))
+        (cls.folder / "brake.bdf").write_text(Caliper(cls.options, cls.mesh, cls.slaves).deck(0.6))
         cls.journal = import_deck(cls.folder / "brake.bdf", cls.folder / "case", speed=5.0)
         cls.case = yaml.safe_load((cls.folder / "case/case.yaml").read_text())
 

@@ -27,7 +27,7 @@ class FloatingCaliper(CaliperCase):
     @classmethod
     def imported(cls, name, **words):
         """Writes the deck and imports it into a folder; returns the options."""
-        text, files = caliper.Caliper(cls.options, cls.mesh).deck(0.6, **words)
+        text, files = caliper.Caliper(cls.options, cls.mesh, cls.slaves).deck(0.6, **words)
         (cls.folder / "Parts").mkdir(exist_ok=True)
         for file, content in {"brake.inp": text, **files}.items():
             (cls.folder / file).write_text(content)
