@@ -187,6 +187,27 @@ class Results(unittest.TestCase):
         moved = vtk_to_numpy(mode.grid(0.3).GetPointData().GetArray("displacement"))
         np.testing.assert_array_equal(moved, mode.displacement(0.3))
 
+    def test_shares_of_the_components_are_those_of_the_tables(self):
+        table = self.run_.components
+        table = table[(table["friction"] == 0.5) & (table["pressure"] == 2)]
+        with h5py.File(self.folder / "results.h5") as file:
+            found = file["flutter/friction_0.5_pressure_2/components"]
+            names = found.attrs["components"].decode().split(",")
+            columns = found.attrs["columns"].decode().split(",")
+            rows = [dict(zip(columns, row)) for row in found[()]]
+            free = file["modes/active_set_1/components"][()]
+        self.assertEqual(len(rows), len(table))
+        for row, wanted in zip(rows, table.to_dict("records")):
+            name = f"{wanted['kind']} {wanted['component']}"
+            self.assertEqual(names[int(row["component"])], name)
+            self.assertEqual(int(row["mode"]), wanted["mode"])
+            for column in ("strain_share", "kinetic_share", "follower_1_per_s"):
+                # The table has ten digits of the growth rates.
+                np.testing.assert_allclose(row[column], wanted[column], rtol=1e-9, atol=1e-15)
+        for mode in np.unique(free[:, 0]):
+            for column in (2, 3):
+                self.assertAlmostEqual(free[free[:, 0] == mode, column].sum(), 1, delta=1e-12)
+
     def test_matrices_have_vectors_but_no_mesh(self):
         run = squeal.open(self.matrices)
         mode = run.fastest_mode(friction=1.2)

@@ -208,6 +208,37 @@ void writeFields(const analysis::Analysis& analysis, const Settings& settings,
   writeRegimeFields(analysis, ghosts, vtk, settings.pieces);
 }
 
+/// The shares of the components in some modes, [mode], with their numbers.
+struct ShareTable {
+  std::vector<int> mode;
+  std::vector<const std::vector<pencil::Component>*> components;  // borrowed
+};
+
+/// Writes the shares as the dataset `components` of a group: a row for each mode and component. Its
+/// attribute `components` names these, "body disc,interface pad".
+void writeShares(Hdf5File& file, const std::string& group, const ShareTable& table) {
+  std::vector<std::vector<double>> rows;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < table.mode.size(); ++i)
+    for (const auto& one : *table.components[i]) {
+      const std::string name = one.kind + " " + one.name;
+      const auto known = std::ranges::find(names, name);
+      const double index = double(known - names.begin());
+      if (known == names.end()) names.push_back(name);
+      const auto& growth = one.growth;
+      rows.push_back({double(table.mode[i]), index, one.strain, one.kinetic, growth.damping,
+                      growth.follower, growth.turning, growth.slope, growth.convective,
+                      growth.gyroscopic});
+    }
+  if (rows.empty()) return;
+  file.writeTable(
+      group, "components",
+      {"mode", "component", "strain_share", "kinetic_share", "damping_1_per_s", "follower_1_per_s",
+       "friction_damping_1_per_s", "law_slope_1_per_s", "convective_1_per_s", "gyroscopic_1_per_s"},
+      rows);
+  file.writeAttribute(group + "/components", "components", joined(names, ","));
+}
+
 void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   Hdf5File file(analysis.comm, folder / "results.h5", folderOption);
   if (analysis.model.mesh) file.writeMesh(*analysis.model.mesh);
@@ -226,6 +257,10 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
       frequencies.push_back({segment.modes.angularFrequency[i], segment.modes.relativeResidual[i]});
     file.writeTable(modesGroup, "frequencies", {"angular_frequency_rad_per_s", "relative_residual"},
                     frequencies);
+    ShareTable free;
+    for (std::size_t i = 0; i < segment.components.size(); ++i)
+      free.mode.push_back(i + 1), free.components.push_back(&segment.components[i]);
+    writeShares(file, modesGroup, free);
     for (std::size_t i = 0; i < segment.shapes.size(); ++i)
       file.writeNodeVector(modesGroup, formatted("mode_%03zu", i + 1), segment.shapes[i]);
     for (const auto& point : segment.points) {
@@ -242,6 +277,10 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
       for (const auto verdict : pencil::allVerdicts) verdicts.push_back(text(verdict));
       file.writeAttribute(group + "/eigenvalues", "verdicts", joined(verdicts, ","));
       writeParameters(file, group, point.at);
+      ShareTable stored;
+      for (const auto& shape : point.shapes)
+        stored.mode.push_back(shape.index + 1), stored.components.push_back(&shape.components);
+      writeShares(file, group, stored);
       for (const auto& shape : point.shapes) {
         file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);
         file.writeNodeVector(group, formatted("mode_%03zu_imaginary", shape.index + 1),
