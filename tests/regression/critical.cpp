@@ -57,7 +57,8 @@ void expectSameOnAllRanks(const Law& law) {
     EXPECT_EQ(table.header,
               "active_set,branch,partner,kind,direction,friction,speed,pressure,damping,frequency_"
               "hz,slope,"
-              "friction_error_estimate,backward_error,converged");
+              "friction_error_estimate,backward_error,converged,free_mode,energy_share,"
+              "second_free_mode,second_energy_share,name");
     const auto friction = table.column("friction"),
                estimate = table.column("friction_error_estimate"),
                error = table.column("backward_error"), converged = table.column("converged");

@@ -89,12 +89,12 @@ TEST(FloatingCaliper, SameOnAllRanks) {
 
 // A hub on a bearing, guide pins bolted to the bracket, and bushings between pins and caliper.
 TEST(FloatingCaliper, JointsAreTheSameOnAllRanks) {
-  expectSameOnAllRanks(joints, jointed.fromGeometry(), 120, 12, jointed.fromMesh());
+  expectSameOnAllRanks(joints, jointed.fromGeometry(), 120, 12);
 }
 
 // The audit comes before the bolts are tightened, the first solution; a dry run solves nothing.
 TEST(FloatingCaliper, AuditComesFirst) {
-  const std::string options = jointed.fromMesh();
+  const std::string options = jointed.fromGeometry();
   const ProgramRun whole = runProgram("floating_caliper_joints/order", 1,
                                       options + " -modes_count 5 -report_fields off", 120),
                    dry = runProgram("floating_caliper_joints/dry", 1, options + " -dry_run", 120);
@@ -159,7 +159,7 @@ TEST(FloatingCaliper, ReactionsAreTheSameOnAllRanks) {
   EXPECT_EQ(kinds["interface"], 15);
   EXPECT_EQ(kinds["tie"], 4);
   for (const int ranks : {1, 2, 3}) {
-    const auto other = reactionsOf(runOnRanks(joints, jointed.fromMesh(), ranks, 120));
+    const auto other = reactionsOf(runOnRanks(joints, jointed.fromGeometry(), ranks, 120));
     ASSERT_EQ(other.size(), one.size());
     double worst = 0, sum = 0;
     for (const auto& [row, values] : one)
