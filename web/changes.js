@@ -12,6 +12,13 @@ function changesOf(k) {
       (value) => (value * whole) / 100);
 }
 
+/** The change of the parameter of row k, in per cent, up to which the growth rate is linear. */
+function holdsTo(k) {
+  const s = data.sensitivities, range = s.growth_holds_to ? s.growth_holds_to[k] : null;
+  const whole = s.parameter[k] === "friction" ? s.friction[k] : 1;
+  return range === null || !whole ? "" : digits((100 * range) / whole, 2);
+}
+
 /** The rows of the selected mode with derivatives, the largest change of growth first. */
 function rankedChanges() {
   const s = data.sensitivities, list = sensitivityRows.get(modeKey(eigen, state.selected)) || [];
@@ -34,11 +41,14 @@ function showChanges() {
         const backgroundColor = values.map((value) => (value > 0 ? more : less));
         setBars(id, shown.map((k) => s.parameter[k]), [{unit, data: values, backgroundColor}]);
       });
-  const head = ["parameter, 1 % more", "growth rate 1/s", "frequency Hz"];
+  const head =
+      ["parameter, 1 % more", "growth rate 1/s", "frequency Hz", "growth rate holds to ± %"];
   element("changetable")
       .replaceChildren(tableOf(
           head,
-          order.map((k) => [s.parameter[k], ...changesOf(k).map((value) => digits(value, 4))])));
+          order.map(
+              (k) =>
+                  [s.parameter[k], ...changesOf(k).map((value) => digits(value, 4)), holdsTo(k)])));
 }
 
 function makeChanges() {

@@ -254,6 +254,7 @@ TABLES = {
             ),
             word("parameter"),
             *numbers("growth_rate_derivative_1_per_s frequency_derivative_hz", empty=True),
+            number("growth_holds_to", least=0, empty=True, read=False),
         ),
         together=(("growth_rate_derivative_1_per_s", "frequency_derivative_hz"),),
     ),

@@ -35,6 +35,10 @@ bool isolated(const ComplexModes& point, const Eigenvalue& e) {
 
 }  // namespace
 
+double Derivative::growthHoldsTo() const {
+  return 0.2 * std::abs(value.real()) / std::abs(second.real());
+}
+
 bool Sensitivity::regular() const {
   return leftBackwardError < worstLeftError && condition < worstCondition && separation > closest;
 }

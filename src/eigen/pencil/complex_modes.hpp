@@ -109,6 +109,12 @@ struct Shape {
 struct Derivative {
   std::string parameter;  ///< name of θ
   Complex value;          ///< ds/dθ, 1/s per unit of the parameter
+  /// d²s/dθ² by the nearest eigenvalue [M.90], 1/s per unit²; NaN: unknown
+  Complex second = {NAN, NAN};
+
+  /// Returns the change of θ at which the second derivative changes the growth rate by a tenth of
+  /// what the first one does; NaN if the second is unknown.
+  double growthHoldsTo() const;
 };
 
 /// Condition number and derivatives of one eigenvalue.

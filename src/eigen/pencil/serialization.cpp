@@ -14,8 +14,8 @@ void fields(Stream& stream, CriticalDerivative& derivative);
 // These list all members: a new one does not compile until it is added here.
 
 void fields(Stream& stream, Derivative& derivative) {
-  auto& [parameter, value] = derivative;
-  stream(parameter, value);
+  auto& [parameter, value, second] = derivative;
+  stream(parameter, value, second);
 }
 
 void fields(Stream& stream, Sensitivity& found) {

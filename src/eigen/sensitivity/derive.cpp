@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "algebra/linalg/null_vectors.hpp"
+#include "base/system/mpi.hpp"
 #include "eigen/sweep/parameters.hpp"
 
 namespace squeal::sensitivity {
@@ -15,6 +18,46 @@ double separation(const std::vector<pencil::Eigenvalue>& eigenvalues, std::size_
   for (std::size_t i = 0; i < eigenvalues.size(); ++i)
     if (i != index) smallest = std::min(smallest, std::abs(eigenvalues[i].s - s));
   return smallest / std::abs(s);
+}
+
+/// The eigenvalue next to another one, with vectors of the reduced problem.
+struct Neighbour {
+  Complex s;
+  linalg::ComplexVector x, y;
+};
+
+/// Collective. Returns the eigenvalue nearest to one of a point: another one of its list, or the
+/// mirror image in the imaginary axis of a problem in s². None without a reduced problem.
+std::optional<Neighbour> neighbour(const pencil::ComplexModes& point, std::size_t index,
+                                   const pencil::Pencil& pencil, const StartSpace& start) {
+  if (start.projected.order() == 0) return {};
+  const Complex s = point.eigenvalues[index].s;
+  Complex nearest{INFINITY, 0};
+  const auto consider = [&](Complex other) {
+    if (std::abs(other - s) < std::abs(nearest - s)) nearest = other;
+  };
+  for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
+    if (i != index) consider(point.eigenvalues[i].s);
+  if (!pencil.hasPower(1)) consider(-std::conj(s));
+  if (!std::isfinite(nearest.real()) || nearest == s) return {};
+  auto vectors = linalg::nullVectors(start.projected, nearest, true);
+  for (auto* vector : {&vectors.right, &vectors.left})
+    mpi::broadcastEntries<Complex>(pencil.comm(), *vector, 0);
+  return Neighbour{nearest, expanded(start.columns, vectors.right),
+                   expanded(start.columns, vectors.left)};
+}
+
+/// Collective. Adds the second derivatives by one neighbour [M.90],
+///   s'' = 2 p_ij p_ji / (n_i n_j (s_i − s_j)),
+/// with the forms p_ij = y_iᴴ (∂P/∂θ) x_j and n_i = y_iᴴ P′ x_i = `slope`.
+void addSecond(const EigenTriple& triple, Complex slope, const Neighbour& next,
+               const pencil::Pencil& pencil, const sweep::Parameters& at, const Forms& forms,
+               std::vector<pencil::Derivative>& derivatives) {
+  const auto there = forms({triple.s, next.x, triple.y}), back = forms({next.s, triple.x, next.y});
+  const Complex ofNext = slopeForm(pencil, at, {next.s, next.x, next.y});
+  for (std::size_t k = 0; k < derivatives.size(); ++k)
+    derivatives[k].second =
+        2.0 * there[k].value * back[k].value / (slope * ofNext * (triple.s - next.s));
 }
 
 }  // namespace
@@ -34,8 +77,12 @@ void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                                separation(point.eigenvalues, point.shapes[i].index),
                                left[i].backwardError,
                                {}};
-    if (result.regular()) result.derivatives = forms(triple);
-    for (auto& derivative : result.derivatives) derivative.value /= -slope;
+    if (result.regular()) {
+      result.derivatives = forms(triple);
+      for (auto& derivative : result.derivatives) derivative.value /= -slope;
+      if (const auto next = neighbour(point, point.shapes[i].index, pencil, start))
+        addSecond(triple, slope, *next, pencil, point.at, forms, result.derivatives);
+    }
     point.sensitivities.push_back(std::move(result));
   }
 }
@@ -63,9 +110,9 @@ void deriveCritical(const CriticalPoint& point, const pencil::Pencil& pencil,
   const Complex unit = point.isCrossing ? slopeForm(pencil, point.at, triple) : friction->value;
   const double change = (friction->value / unit).real();
   if (!(std::abs(change) > 0) || !std::isfinite(change)) return;
-  for (const auto& [parameter, form] : list)
-    if (parameter != friction->parameter)
-      mode.derivatives.push_back({parameter, -(form / unit).real() / change});
+  for (const auto& form : list)
+    if (form.parameter != friction->parameter)
+      mode.derivatives.push_back({form.parameter, -(form.value / unit).real() / change});
 }
 
 Forms parameterForms(const pencil::Pencil& pencil, const sweep::Parameters& at) {

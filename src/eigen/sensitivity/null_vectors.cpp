@@ -50,7 +50,7 @@ class NullIteration {
       std::vector<linalg::ComplexVector> residuals;
       for (std::size_t k = 0; k < open.size(); ++k) {
         auto& [vector, backwardError] = found[open[k]];
-        vector = expand(coordinates[k]);
+        vector = expanded(basis_, coordinates[k]);
         linalg::ComplexVector residual = pencil::residual(pencil_, at_, values[k], vector, side_);
         const double size = length(residual);
         backwardError = size > 0 ? size / (scale(values[k]) * length(vector)) : 0;
@@ -178,20 +178,6 @@ class NullIteration {
     return vectors;
   }
 
-  /// Returns V c, scaled to the 2-norm 1.
-  linalg::ComplexVector expand(const std::vector<Complex>& c) const {
-    linalg::ComplexVector y;
-    check(MatCreateVecs(pencil_.terms().at(0).matrix, y.real.out(), y.imaginary.out()));
-    std::vector<double> real, imaginary;
-    for (const auto& entry : c) real.push_back(entry.real()), imaginary.push_back(entry.imag());
-    check(BVMultVec(basis_, 1, 0, y.real, real.data()));
-    check(BVMultVec(basis_, 1, 0, y.imaginary, imaginary.data()));
-    const double size = length(y);
-    check(VecScale(y.real, 1 / size));
-    check(VecScale(y.imaginary, 1 / size));
-    return y;
-  }
-
   const pencil::Pencil& pencil_;
   const sweep::Parameters at_;
   const pencil::Side side_;
@@ -204,6 +190,23 @@ class NullIteration {
 };
 
 }  // namespace
+
+linalg::ComplexVector expanded(BV columns, const std::vector<Complex>& c) {
+  OwnedVec like;
+  Vec first = nullptr;
+  check(BVGetColumn(columns, 0, &first));
+  check(VecDuplicate(first, like.out()));
+  check(BVRestoreColumn(columns, 0, &first));
+  linalg::ComplexVector y = linalg::ComplexVector::like(like);
+  std::vector<double> real, imaginary;
+  for (const auto& entry : c) real.push_back(entry.real()), imaginary.push_back(entry.imag());
+  check(BVMultVec(columns, 1, 0, y.real, real.data()));
+  check(BVMultVec(columns, 1, 0, y.imaginary, imaginary.data()));
+  const double size = length(y);
+  check(VecScale(y.real, 1 / size));
+  check(VecScale(y.imaginary, 1 / size));
+  return y;
+}
 
 std::vector<NullVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                     const StartSpace& start, KSP solver,

@@ -32,6 +32,9 @@ struct StartSpace {
                                    ///< with V; otherwise empty
 };
 
+/// Collective. Returns V c, scaled to the 2-norm 1.
+linalg::ComplexVector expanded(BV columns, const std::vector<Complex>& c);
+
 /// How null vectors are sought.
 struct Search {
   double accuracy = 1e-10;  ///< backward error

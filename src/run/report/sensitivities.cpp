@@ -33,7 +33,7 @@ std::string sensitivityTable(const analysis::Analysis& analysis) {
   std::string table =
       sweep::parameterColumns() +
       ",mode,growth_rate_1_per_s,frequency_hz,condition,separation,left_backward_error,parameter,"
-      "growth_rate_derivative_1_per_s,frequency_derivative_hz\n";
+      "growth_rate_derivative_1_per_s,frequency_derivative_hz,growth_holds_to\n";
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       for (std::size_t i = 0; i < point.sensitivities.size(); ++i) {
@@ -41,10 +41,14 @@ std::string sensitivityTable(const analysis::Analysis& analysis) {
         const std::string head = modeHead(point, point.shapes[i]) +
                                  formatted("%.3e,%.3e,%.3e,", sensitivity.condition,
                                            sensitivity.separation, sensitivity.leftBackwardError);
-        if (sensitivity.derivatives.empty()) table += head + "none,,\n";
-        for (const auto& [parameter, value] : sensitivity.derivatives)
-          table +=
-              head + parameter + formatted(",%.9e,%.9e\n", value.real(), value.imag() / (2 * M_PI));
+        if (sensitivity.derivatives.empty()) table += head + "none,,,\n";
+        for (const auto& derivative : sensitivity.derivatives) {
+          const auto& value = derivative.value;
+          const double range = derivative.growthHoldsTo();
+          table += head + derivative.parameter +
+                   formatted(",%.9e,%.9e,", value.real(), value.imag() / (2 * M_PI)) +
+                   (std::isfinite(range) ? formatted("%.2e", range) : "") + "\n";
+        }
       }
   return table;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Derivatives of critical frictions of small oscillators in closed form.
+// Derivatives of critical frictions of small oscillators, and second derivatives, in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,23 +11,29 @@
 namespace squeal::test {
 namespace {
 
-/// Returns the derivative of the critical friction by the speed; NaN without derivatives.
-double bySpeed(std::vector<pencil::Term> terms, const sensitivity::CriticalPoint& point,
-               pencil::CriticalMode& mode) {
+/// Returns the unit vectors, distributed like the matrix.
+OwnedBV unitVectors(Mat like) {
   PetscInt size = 0;
-  check(MatGetSize(terms[0].matrix, &size, nullptr));
-  const factor::AssociatedSystem system(terms[0].matrix.share(), terms[1].matrix.share(), "K0");
+  check(MatGetSize(like, &size, nullptr));
   OwnedBV whole;
-  OwnedVec like;
-  check(MatCreateVecs(system.k0(), like.out(), nullptr));
+  OwnedVec layout;
+  check(MatCreateVecs(like, layout.out(), nullptr));
   check(BVCreate(PETSC_COMM_WORLD, whole.out()));
   check(BVSetType(whole, BVSVEC));
-  check(BVSetSizesFromVec(whole, like, size));
+  check(BVSetSizesFromVec(whole, layout, size));
   for (PetscInt j = 0; j < size; ++j) {
     std::vector<double> unit(size, 0.0);
     unit[j] = 1;
-    check(BVInsertVec(whole, j, vectorOf(system.k0(), true, unit)));
+    check(BVInsertVec(whole, j, vectorOf(like, true, unit)));
   }
+  return whole;
+}
+
+/// Returns the derivative of the critical friction by the speed; NaN without derivatives.
+double bySpeed(std::vector<pencil::Term> terms, const sensitivity::CriticalPoint& point,
+               pencil::CriticalMode& mode) {
+  const factor::AssociatedSystem system(terms[0].matrix.share(), terms[1].matrix.share(), "K0");
+  const OwnedBV whole = unitVectors(system.k0());
   const pencil::Pencil pencil(std::move(terms));
   sensitivity::deriveCritical(point, pencil, {whole.share(), system.m0(), {}}, system,
                               sensitivity::parameterForms(pencil, point.at), mode);
@@ -93,6 +99,50 @@ TEST(Critical, NoDerivativeWithoutInfluenceOfFriction) {
   pencil::CriticalMode mode;
   EXPECT_TRUE(std::isnan(bySpeed(std::move(terms), {{0.3}, std::sqrt(2.0), true}, mode)));
   EXPECT_TRUE(mode.derivatives.empty());
+}
+
+// Beyond the critical friction of K = diag(k1, k2) + f k3 [0 1; −1 0], M = 1,
+//   s² = −(k1 + k2)/2 ± r,   r² = ((k2 − k1)/2)² − f² k3²,   r' = −f k3²/r,   r'' = −(k3² + r'²)/r,
+// so that 2 s s' = ± r' and 2 s s'' = ± r'' − 2 s'². The neighbour is the decaying eigenvalue. The
+// two with Im s < 0, farther away by 2 |s| / |s1 − s2| = 70, are left out.
+TEST(SecondDerivative, OfTwoOscillatorsThatHaveMerged) {
+  const double k1 = 1, k2 = 1.5, k3 = 0.8, f = 1.01 * (k2 - k1) / (2 * k3);
+  std::vector<pencil::Term> terms;
+  terms.push_back({matrixOf(2, {{0, 0, k1}, {1, 1, k2}})});
+  terms.push_back({.matrix = matrixOf(2, {{0, 0, 1.0}, {1, 1, 1.0}}), .power = 2});
+  terms.push_back({.matrix = matrixOf(2, {{0, 1, k3}, {1, 0, -k3}}), .frictionExponent = 1});
+  const factor::AssociatedSystem system(terms[0].matrix.share(), terms[1].matrix.share(), "K0");
+  const pencil::Pencil pencil(std::move(terms));
+  const Complex r(0, std::sqrt(f * f * k3 * k3 - (k2 - k1) * (k2 - k1) / 4)),
+      s = std::sqrt(r - (k1 + k2) / 2);
+  pencil::ComplexModes point;
+  point.at.friction = f;
+  ASSERT_GT(s.real(), 0);
+  ASSERT_GT(s.imag(), 0);
+  point.eigenvalues = {{.s = s}, {.s = -std::conj(s)}};
+  // (k1 + s²) x1 + f k3 x2 = 0.
+  const Complex x2 = -(k1 + s * s) / (f * k3);
+  point.shapes.push_back({.index = 0});
+  point.shapes[0].unknowns = {vectorOf(system.k0(), true, {1, x2.real()}),
+                              vectorOf(system.k0(), true, {0, x2.imag()})};
+  const linalg::DenseProblem projected{denseCopy(system.m0()), {}, [&] {
+                                         linalg::DenseMatrix k = denseCopy(system.k0());
+                                         k(0, 1) += f * k3, k(1, 0) -= f * k3;
+                                         return k;
+                                       }()};
+  sensitivity::deriveParameters(point, pencil, {unitVectors(system.k0()), system.m0(), projected},
+                                system);
+  const auto& found = point.sensitivities.at(0).derivatives.at(0);
+  ASSERT_EQ(found.parameter, "friction");
+  const Complex slope = -f * k3 * k3 / r, first = slope / (2.0 * s),
+                second = (-(k3 * k3 + slope * slope) / r - 2.0 * first * first) / (2.0 * s);
+  print("s' = %.6f, exact %.6f; s'' = %.4f, exact %.4f; 10 %% at %.2e of friction\n",
+        found.value.real(), first.real(), found.second.real(), second.real(),
+        found.growthHoldsTo());
+  EXPECT_NEAR(std::abs(found.value - first), 0, 1e-9 * std::abs(first));
+  EXPECT_NEAR(std::abs(found.second - second), 0, 0.05 * std::abs(second));
+  // Where a tenth of the change is of second order, f rises by 0.4 of its distance to f*.
+  EXPECT_NEAR(found.growthHoldsTo(), 0.4 * (f - f / 1.01), 0.04 * (f - f / 1.01));
 }
 
 }  // namespace
