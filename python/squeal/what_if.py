@@ -57,47 +57,27 @@ def changes_of(words):
     return found
 
 
-def _first(count):
-    """Scales the first numbers of a list."""
-    return lambda values, factor: [
-        value * factor if k < count else value for k, value in enumerate(values)
-    ]
-
-
-def _all(values, factor):
-    return [value * factor for value in values]
-
-
-# What scales all moduli of an orthotropic body: E1, E2, E3 and G12, G13, G23 of nine constants;
-# Ep, Et and Gt of five.
-def _engineering(values, factor):
-    return [value if k in (3, 4, 5) else value * factor for k, value in enumerate(values)]
-
-
-def _transverse(values, factor):
-    return [value if k in (2, 3) else value * factor for k, value in enumerate(values)]
-
-
-# By the parameter of a sensitivity: options, and how a factor changes their values.
+# By the parameter of a sensitivity: options, and the places of Poisson's ratios in their values,
+# which keep theirs.
 SCALED = {
     "young_{}": {
-        "material_{}_young": _first(1),
-        "material_{}_engineering_constants": _engineering,
-        "material_{}_transverse": _transverse,
-        "material_{}_orthotropic": _all,
-        "material_{}_anisotropic": _all,
+        "material_{}_young": (),
+        "material_{}_engineering_constants": (3, 4, 5),
+        "material_{}_transverse": (2, 3),
+        "material_{}_orthotropic": (),
+        "material_{}_anisotropic": (),
     },
-    "density_{}": {"material_{}_density": _first(1)},
+    "density_{}": {"material_{}_density": ()},
     "damping_{}": {
-        "material_{}_rayleigh_mass": _first(1),
-        "material_{}_rayleigh_stiffness": _first(1),
-        "material_{}_loss_factor": _first(1),
+        "material_{}_rayleigh_mass": (),
+        "material_{}_rayleigh_stiffness": (),
+        "material_{}_loss_factor": (),
     },
-    "spring_{}_stiffness": {"spring_{}_stiffness": _first(1)},
-    "spring_{}_damping": {"spring_{}_damping": _first(1)},
-    "bushing_{}_stiffness": {"bushing_{}_stiffness": _all},
-    "bushing_{}_damping": {"bushing_{}_damping": _all},
-    "mass_{}": {"mass_{}_total": _first(1), "mass_{}_inertia": _all},
+    "spring_{}_stiffness": {"spring_{}_stiffness": ()},
+    "spring_{}_damping": {"spring_{}_damping": ()},
+    "bushing_{}_stiffness": {"bushing_{}_stiffness": ()},
+    "bushing_{}_damping": {"bushing_{}_damping": ()},
+    "mass_{}": {"mass_{}_total": (), "mass_{}_inertia": ()},
 }
 
 
@@ -153,8 +133,8 @@ def options_of(results, changes):
             continue
         pattern = next(one for one in SCALED if one.format(change.name) == parameter)
         options = {
-            option.format(change.name): scale
-            for option, scale in SCALED[pattern].items()
+            option.format(change.name): kept
+            for option, kept in SCALED[pattern].items()
             if option.format(change.name) in given
         }
         if not options:
@@ -162,9 +142,10 @@ def options_of(results, changes):
                 f"-what_if {change.word}: no option of the run gives this value; change"
                 " those of the body of this section"
             )
-        for name, scale in options.items():
+        for name, kept in options.items():
             numbers = [float(word) for word in values[name].split(",")]
-            found.append((name, ",".join(f"{x:.17g}" for x in scale(numbers, change.factor))))
+            scaled = [x if k in kept else x * change.factor for k, x in enumerate(numbers)]
+            found.append((name, ",".join(f"{x:.17g}" for x in scaled)))
     return found
 
 
