@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Translates a deck, or matrices of other programs, into the folder of a case."""
 import argparse
+import contextlib
+import gc
 import os
 import time
 from pathlib import Path
@@ -20,6 +22,20 @@ from squeal.matrices import importer as matrices
 NASTRAN = (".bdf", ".dat", ".nas")  # endings of decks of Nastran
 
 
+@contextlib.contextmanager
+def _without_collections():
+    """Stops the search for cycles of objects: among millions of lines it takes seconds, and there
+    are none."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
+
+
+@_without_collections()
 def _read(deck, dialect, subcase, journal):
     """Returns the model of a deck."""
     if Path(deck).suffix.lower() in NASTRAN:

@@ -123,11 +123,12 @@ class Deck:
         self.sources = {}  # name -> (number of the first card with it, source) of each entry
         self._long = []
         last, counts = None, []
-        for chain in self._assemble():
+        one_file = lines.files[0] if len(lines.files) == 1 else None
+        for head, chain in self._assemble():
             at = chain[0]
-            name = head_of(lines.texts[at]).rstrip("*").rstrip().upper()
+            name = head.rstrip("*").rstrip().upper()
             known = self.chains.setdefault(name, [])
-            file = lines.file(at)
+            file = one_file or lines.file(at)
             if last is None or last.card != name or last.file != file or name not in blocks:
                 last = lines.source(at, name)
                 journal.open(last)
@@ -187,17 +188,19 @@ class Deck:
             yield Card(name, source, line, fields)
 
     def _assemble(self):
-        """Returns the places of the lines of each card."""
-        chains, loose = [], {}
+        """Returns the first field of each card and the places of its lines."""
+        chains, heads, loose = [], [], {}
         nameless = {"replicated cards": [], "a card without a name": []}
         chain, marker = None, ""
         for at, text in enumerate(self.lines.texts):
-            if len(text) > LAST + WIDTH and "," not in text:
+            length = len(text)
+            if length > LAST + WIDTH and "," not in text:
                 self._long.append(at)
             head = head_of(text)
             if head and head[0].isalpha():
                 chain = [at]
                 chains.append(chain)
+                heads.append(head)
             elif head and head[0] not in "+*":
                 if chain is None or not self._goes_on(at, chain[-1]):
                     nameless["replicated cards" if head[0] == "=" else "a card without a name"] += [
@@ -216,13 +219,13 @@ class Deck:
                 else:
                     before, chain = chain, [at]
                     loose[key] = chain, before
-            marker = marker_of(text) if len(text) > LAST or "," in text else ""
+            marker = marker_of(text) if length > LAST or "," in text else ""
         self._attach(chains, loose)
         for what, places in nameless.items():
             if places:
                 more = f" ({len(places)} lines)" if len(places) > 1 else ""
                 self._refuse(places[0], f"{what}{more}")
-        return chains
+        return zip(heads, chains)
 
     def _goes_on(self, at, before):
         """Returns whether a free-field line without a marker continues one that ends with a comma;

@@ -27,12 +27,11 @@ class Lines:
     starts: list = field(default_factory=list)
     files: list = field(default_factory=list)
 
-    def add(self, file, number, text):
+    def begin(self, file):
+        """The next lines belong to this file."""
         if not self.files or self.files[-1] != file:
             self.starts.append(len(self.texts))
             self.files.append(file)
-        self.texts.append(text)
-        self.numbers.append(number)
 
     def file(self, at):
         return self.files[bisect.bisect_right(self.starts, at) - 1]
@@ -72,21 +71,31 @@ class Gathering:
 
     def _file(self, path, name, above):
         texts = read_texts(path, name, self.journal)
-        add, at = self.lines.add, 0
+        add_text, add_number = self.lines.texts.append, self.lines.numbers.append
+        at, begun = 0, False
         while at < len(texts) and self.end is None:
-            text = without_comment(texts[at]).rstrip()
+            text = texts[at]
+            at += 1
+            if "$" in text:
+                text = without_comment(text)
+            text = text.rstrip()
             if "\t" in text:
                 text = text.expandtabs(8).rstrip()
-            at += 1
             if not text:
                 continue
-            first = text.lstrip()[:8].upper()
-            if first.startswith("INCLUDE") and not first[7:].strip(" '\"="):
-                at = self._included(texts, at, text, path, name, above)
-            elif first.startswith("ENDDATA"):
-                self._name_rest(name, at, texts, above)
-            else:
-                add(name, at, text)
+            if text.lstrip()[0] in "IiEe":
+                first = text.lstrip()[:8].upper()
+                if first.startswith("INCLUDE") and not first[7:].strip(" '\"="):
+                    at, begun = self._included(texts, at, text, path, name, above), False
+                    continue
+                if first.startswith("ENDDATA"):
+                    self._name_rest(name, at, texts, above)
+                    continue
+            if not begun:
+                self.lines.begin(name)
+                begun = True
+            add_text(text)
+            add_number(at)
 
     def _name_rest(self, name, number, texts, above):
         source = self.end = Source(name, number, "ENDDATA", "")
@@ -136,7 +145,9 @@ def read_sections(path, journal):
         raise DeckError(f"{error.filename or path}: {error.strerror}") from None
     lines, marks = whole.lines, [whole.end] if whole.end else []
     begins = [
-        at for at, text in enumerate(lines.texts) if text.lstrip()[:6].upper().rstrip() == "BEGIN"
+        at
+        for at, text in enumerate(lines.texts)
+        if ("B" in text or "b" in text) and text.lstrip()[:6].upper().rstrip() == "BEGIN"
     ]
     for at in begins:
         source = lines.source(at, "BEGIN BULK")

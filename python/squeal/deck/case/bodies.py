@@ -55,7 +55,7 @@ def _pieces(model, solids, numbers, journal):
     loads = model.state.body_loads
     acting = [np.isin(numbers, load.elements) for load in loads]
     columns = [sections, reduced, instances_of(model, numbers), *acting]
-    kinds, inverse = np.unique(np.column_stack(columns), axis=0, return_inverse=True)
+    kinds, inverse = _kinds(columns)
     pieces = []
     for number, (section, fully, instance, *acts) in enumerate(kinds.tolist()):
         if section < 0:
@@ -68,6 +68,18 @@ def _pieces(model, solids, numbers, journal):
             piece.density = material.density if material and material.density else 1.0
         pieces.append(piece)
     return pieces
+
+
+def _kinds(columns):
+    """Returns the different rows of columns in ascending order, and the number of each row among
+    them. Most columns have one value, so that sorting whole rows is slow."""
+    number = np.zeros(len(columns[0]), np.int64)
+    for column in columns:
+        if np.any(column != column[0]):
+            values, place = np.unique(column, return_inverse=True)
+            _, number = np.unique(number * len(values) + place, return_inverse=True)
+    _, first = np.unique(number, return_index=True)
+    return np.column_stack([column[first] for column in columns]), number
 
 
 def _body(pieces, wanted, model, case, journal):

@@ -54,18 +54,23 @@ class Faces:
 
     def require_outer(self, rows):
         """Raises Fault if a face lies between two cells."""
-        wanted = {}
+        wanted, known = {}, [np.zeros(0, np.uint64)]
         for places, table in self.tables(rows):
             corners = np.sort(table[:, : corners_of(table.shape[1])], axis=1)
+            known.append(hashes(corners))
             for place, key in zip(places.tolist(), map(tuple, corners.tolist())):
                 if key in wanted:
                     raise Fault(self._inside(rows[place]))
                 wanted[key] = place
-        known = np.array([hashes(np.array([key]))[0] for key in wanted], np.uint64)
+        known = np.unique(np.concatenate(known))
+        if not len(known):
+            return
         for block in self.model.blocks:
             for number, face in enumerate(block.shape.faces if block.shape else ()):
                 corners = block.nodes[:, face[: corners_of(len(face))]]
-                near = np.flatnonzero(np.isin(hashes(corners), known))
+                found = hashes(corners)
+                places = np.minimum(np.searchsorted(known, found), len(known) - 1)
+                near = np.flatnonzero(known[places] == found)
                 for at, key in zip(near.tolist(), map(tuple, np.sort(corners[near]).tolist())):
                     if key in wanted and rows[wanted[key]] != (block.numbers[at], number):
                         raise Fault(self._inside(rows[wanted[key]]))

@@ -41,6 +41,8 @@ def bodies_of(pieces, model):
 
 
 def _connected(pieces, model):
+    if len(pieces) == 1:
+        return [pieces]
     tables = [model.nodes_of_elements(piece.cells) for piece in pieces]
     owners = np.repeat(np.arange(len(pieces)), [len(table) for table in tables])
     nodes = np.concatenate([EMPTY, *tables])

@@ -79,22 +79,20 @@ def key_of(name):
 
 def read_cards(lines, dialect, journal):
     """Returns the cards of lines. Refuses lines that belong to no card."""
-    cards = []
-    position = 0
+    cards, position = [], 0
+    add, own = None, ""  # of the last card: appends a line, and its file
     while position < len(lines):
-        line = lines[position]
+        file, number, text = line = lines[position]
         position += 1
-        if line.text.startswith("*"):
-            text, position = _continued(lines, position, line.text, dialect, journal)
+        if text[0] == "*":
+            text, position = _continued(lines, position, text, dialect, journal)
             cards.append(_card(line, text, dialect, journal))
             journal.open(cards[-1].source)
-        elif cards:
-            number = line.number
-            if line.file != cards[-1].source.file:
-                number = LineOfFile(number, line.file)
-            cards[-1].data.append((number, line.text))
+            add, own = cards[-1].data.append, file
+        elif add:
+            add((number if file == own else LineOfFile(number, file), text))
         else:
-            source = Source(line.file, line.number, "(no card)")
+            source = Source(file, number, "(no card)")
             journal.refuse(source, "a line of data before the first card")
     return cards
 

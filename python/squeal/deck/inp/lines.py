@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Lines of a deck, with those of included files in their place."""
 import re
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from squeal.deck.journal import DeckError, Source
 from squeal.deck.texts import find_included, read_texts
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(NamedTuple):
+    """A tuple, since there are millions."""
+
     file: str
     number: int
     text: str
@@ -19,30 +20,33 @@ class Line:
 WITH_INPUT = re.compile(r"\*\s*(NODE|ELEMENT|NSET|ELSET)\s*,(.*,)?\s*INPUT\s*=", re.IGNORECASE)
 
 
-class Lines:
-    """The lines of a deck. Comments (two stars after blanks) and blank lines are omitted; the texts
-    have no blanks at their ends."""
+INCLUDE = re.compile(r"\*\s*INCLUDE\s*(,|$)", re.IGNORECASE)
+
+
+class Gathering:
+    """The `lines` of a deck. Comments (two stars after blanks) and blank lines are omitted; the
+    texts have no blanks at their ends."""
 
     def __init__(self, path, journal):
         self.root = Path(path)
         self.journal = journal
-        self.files = 0
-
-    def __iter__(self):
-        yield from self._file(self.root, " ".join(self.root.name.split()), ())
+        self.lines = []
+        self._file(self.root, " ".join(self.root.name.split()), ())
 
     def _file(self, path, name, above):
-        self.files += 1
+        add = self.lines.append
         for number, text in enumerate(read_texts(path, name, self.journal), 1):
             text = text.strip()
-            if not text or text.startswith("**"):
-                continue
-            if text.startswith("*") and re.match(r"\*\s*INCLUDE\s*(,|$)", text, re.IGNORECASE):
-                yield from self._included(Line(name, number, text), path, (*above, path))
-            else:
-                yield Line(name, number, text)
-                if text.startswith("*") and WITH_INPUT.match(text):
-                    yield from self._included(Line(name, number, text), path, (*above, path))
+            if text[:1] != "*":
+                if text:
+                    add(Line(name, number, text))
+            elif text[:2] != "**":
+                line = Line(name, number, text)
+                include = INCLUDE.match(text)
+                if not include:
+                    add(line)
+                if include or WITH_INPUT.match(text):
+                    self._included(line, path, (*above, path))
 
     def _included(self, line, path, above):
         keyword = re.match(r"\*\s*(\w+)", line.text)[1].upper()
@@ -55,12 +59,12 @@ class Lines:
             return
         found = find_included(name, path, self.root, above, self.journal, source)
         if found is not None:
-            yield from self._file(found, name, above)
+            self._file(found, name, above)
 
 
 def read_lines(path, journal):
     """Returns the lines of a deck. Raises DeckError if its file cannot be read."""
     try:
-        return list(Lines(path, journal))
+        return Gathering(path, journal).lines
     except OSError as error:
         raise DeckError(f"{error.filename or path}: {error.strerror}") from None

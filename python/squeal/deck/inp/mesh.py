@@ -3,7 +3,7 @@
 import numpy as np
 
 from squeal.deck.axes import orthonormal
-from squeal.deck.inp.cards import fields_of, key_of
+from squeal.deck.inp.cards import key_of
 from squeal.deck.inp.dialect import ABAQUS
 from squeal.deck.inp.handlers import handles
 from squeal.deck.inp.types import ADVICE, BECOMES, DISCRETE, SOLIDS
@@ -122,11 +122,7 @@ def element(card, reader):
 def _records(card, size, reader):
     """Returns the elements of a card, one row each: number and nodes. A record goes on in the next
     line until it has all nodes, with a comma at the end of the line or without."""
-    counts, words = [], []
-    for _, text in card.data:
-        fields = fields_of(text)
-        counts.append(len(fields))
-        words.extend(fields)
+    counts, words = _words(card)
     try:
         flat = table(words, np.int64) if words else np.zeros(0, np.int64)
         of_nodes = np.arange(len(flat)) % (size + 1) != 0
@@ -134,7 +130,7 @@ def _records(card, size, reader):
     except (ValueError, OverflowError):
         flat = [
             reader.node_number(word) if at % (size + 1) else integer(word)
-            for at, word in enumerate(words)
+            for at, word in enumerate(word.strip() for word in words)
         ]
         flat = np.array(flat, np.int64)
     flat[:: size + 1] = reader.scope.element_numbers.shifted(flat[:: size + 1])
@@ -147,6 +143,17 @@ def _records(card, size, reader):
         line = card.data[int(np.searchsorted(starts, (at - 1) * (size + 1)))][0]
         raise Fault(f"an element of this type has {size} nodes", line=line)
     return flat.reshape(-1, size + 1)
+
+
+def _words(card):
+    """Returns the numbers of fields of the lines, and all fields, which may have blanks around
+    them. Faster than fields_of(), for millions of lines."""
+    texts = [text[:-1] if text[-1] == "," else text for _, text in card.data]
+    whole = ",".join(texts)
+    if '"' in whole:
+        rows = [fields for _, fields in card.rows()]
+        return [len(fields) for fields in rows], [word for fields in rows for word in fields]
+    return [text.count(",") + 1 for text in texts], whole.split(",") if texts else []
 
 
 @handles(

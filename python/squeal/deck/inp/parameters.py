@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Parameters of Abaqus decks: *PARAMETER defines them, <name> stands for their values."""
 import re
-from dataclasses import replace
 
 from squeal.deck.inp.expression import evaluate
 from squeal.deck.inp.handlers import handles
@@ -28,7 +27,7 @@ def substitute(lines, journal):
         if line.text.startswith("*"):
             inside = line if CARD.match(line.text) else None
         if inside is None and "<" in line.text:
-            line = replace(line, text=_with_values(line.text, values))
+            line = line._replace(text=_with_values(line.text, values))
         found.append(line)
     return found
 
