@@ -4,6 +4,7 @@
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / one) for one in ("python", "tests/support/deck", "tests/decks")]
@@ -103,6 +104,18 @@ class ClosedForms(unittest.TestCase):
         shear = 0.01 * LENGTH / (YOUNG / 2 * 5 / 6)
         tip = one.at([BAR.nodes[number] for number in BAR.at(0, LENGTH)])[:, 2].mean()
         self.near(tip, end + shear, 0.01)
+
+    def test_a_distributing_coupling_of_distorted_faces(self):
+        """Its forces are those of an even traction, and the reference node has the mean over the
+        area, in which the nodes of a trapezium have different parts."""
+        (centre,) = [one for one in BAR.at(0, LENGTH) if BAR.nodes[one][1:].tolist() == [0.5, 0.5]]
+        cards = f"*NODE\n1, {LENGTH + 2}, 0.5, 0.5\n*NSET, NSET=R\n1\n"
+        cards += "*COUPLING, CONSTRAINT NAME=C, REF NODE=R, SURFACE=Bar-1.End\n*DISTRIBUTING\n"
+        with mock.patch.dict(BAR.nodes, {centre: np.array([LENGTH, 0.7, 0.4])}):
+            one = Solved(PROGRAM, bar(cards, static("*CLOAD\nR, 1, 8.\n")))
+            tip = one.at([BAR.nodes[number] for number in BAR.at(0, LENGTH)])
+        self.near(tip[:, 0], np.full(len(tip), 8 * LENGTH / YOUNG))
+        self.near(one.references()[0, 0], [8 * LENGTH / YOUNG, 0, 0])
 
     def test_a_kinematic_coupling_keeps_the_end_plane(self):
         """A moment about y on a rigid end: the angle M L / E I."""

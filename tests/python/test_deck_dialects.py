@@ -161,6 +161,20 @@ class Different(unittest.TestCase):
                 wanted = area * np.repeat([corner, middle], half)
                 self.assertTrue(np.allclose(shares(nodes[list(face)][None])[0], wanted, 1e-14, 0))
 
+    def test_areas_of_any_faces(self):
+        """Without nodes on edges: the integrals of the shape functions of a trapezium, by hand. On
+        a cylinder of radius 1, a piece of 30 by 30 degrees has its area up to that of parabolas."""
+        trapezium = np.array([[[0, 0, 0], [2, 0, 0], [1, 1, 0], [0, 1, 0]]], float)
+        self.assertTrue(np.allclose(shares(trapezium)[0] * 12, [5, 5, 4, 4], 1e-14, 0))
+        triangle = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
+        square = [[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0], [1, 0.5], [0.5, 1], [0, 0.5]]
+        for plane, area in ((triangle, 1 / 2), (np.array(square), 1)):
+            angle, height = np.pi / 6 * plane.T
+            face = np.stack([np.cos(angle), np.sin(angle), height], axis=1)
+            found = shares(face[None])[0] / (area * (np.pi / 6) ** 2)
+            self.assertLess(abs(found.sum() - 1), 1e-4)
+            self.assertGreater(found.min(), 1 / 30)
+
     def test_many_weights_are_sums_of_powers_of_two(self):
         nodes = 100 + np.arange(50)
         weights = np.random.default_rng(5).random(50) + 0.1

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Weights of the nodes of a distributed coupling of Abaqus."""
+from functools import cache
+
 import numpy as np
 
+from squeal.deck.case.projection import shape_functions
 from squeal.deck.journal import Fault
 
 # Of the distance to the reference node over that of the furthest node.
@@ -11,13 +14,17 @@ METHODS = {
     "QUADRATIC": lambda r: 1 - r**2,
     "CUBIC": lambda r: 1 - 3 * r**2 + 2 * r**3,
 }
-SUBTRIANGLES = {
-    3: ((0, 1, 2),),
-    4: (),
-    6: ((0, 3, 5), (1, 4, 3), (2, 5, 4), (3, 4, 5)),
-    8: ((0, 4, 7), (1, 5, 4), (2, 6, 5), (3, 7, 6)),
+# Nodes in the plane of the reference coordinates, corners first, by number of corners.
+TRIANGLE = ((0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5))
+SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0))
+# Pieces of a face between its nodes, as quadrangles; a triangle has its last node twice.
+PIECES = {
+    3: ((0, 1, 2, 2),),
+    4: ((0, 1, 2, 3),),
+    6: ((0, 3, 5, 5), (1, 4, 3, 3), (2, 5, 4, 4), (3, 4, 5, 5)),
+    8: ((0, 4, 7, 7), (1, 5, 4, 4), (2, 6, 5, 5), (3, 7, 6, 6), (4, 5, 6, 7)),
 }
-QUADRANGLES = {4: (0, 1, 2, 3), 8: (4, 5, 6, 7)}
+POINTS = 3  # of the quadrature in each direction of a piece
 
 
 def coupling_weights(rigid, nodes, model, faces, journal):
@@ -40,8 +47,7 @@ def coupling_weights(rigid, nodes, model, faces, journal):
 
 
 def _areas(surface, nodes, model, faces):
-    """Returns for each node the part of the surface that is nearest to it. Faces with nodes on
-    their edges are divided into triangles and quadrangles between their nodes."""
+    """Returns for each node its share of the areas of the faces of a surface."""
     numbers, areas = np.unique(nodes), np.zeros(len(np.unique(nodes)))
     for _, table in faces.tables(surface.rows):
         found = shares(model.nodes.at(table.ravel()).reshape(*table.shape, 3))
@@ -51,18 +57,31 @@ def _areas(surface, nodes, model, faces):
 
 
 def shares(places):
-    """Returns the areas that belong to the nodes of faces (face, node, coordinate)."""
-    count = places.shape[1]
+    """Returns the areas that belong to the nodes of faces (face, node, coordinate): the integrals
+    of functions that are 1 at their node, 0 at the others, and linear on the pieces of the face.
+    Without nodes on edges these are the shape functions, so that the weighted mean is that of the
+    face. With them all areas are positive, which those of the shape functions are not."""
     areas = np.zeros(places.shape[:2])
-    for triangle in SUBTRIANGLES[count]:
-        a, b, c = (places[:, at] for at in triangle)
-        area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-        areas[:, triangle] += area[:, None] / 3
-    corners = QUADRANGLES.get(count, ())
-    centre = places[:, corners].mean(axis=1) if corners else None
-    for at, corner in enumerate(corners):
-        # The quadrangle of the corner, the centre, and the middles of both edges.
-        after, before = (places[:, corners[(at + step) % 4]] for step in (1, -1))
-        diagonals = centre - places[:, corner], (after - before) / 2
-        areas[:, corner] += np.linalg.norm(np.cross(*diagonals), axis=1) / 2
+    for weight, values, by_xi, by_eta in _quadrature(places.shape[1]):
+        tangents = (np.einsum("n,fnc->fc", slopes, places) for slopes in (by_xi, by_eta))
+        area = weight * np.linalg.norm(np.cross(*tangents), axis=1)
+        areas += area[:, None] * values
     return areas
+
+
+@cache
+def _quadrature(size):
+    """Returns the points of a face with 3, 4, 6 or 8 nodes: weight, values of the functions of
+    shares(), and derivatives of the shape functions."""
+    nodes = np.array(TRIANGLE if size in (3, 6) else SQUARE, float)[:size]
+    found = []
+    gauss = list(zip(*np.polynomial.legendre.leggauss(POINTS)))
+    for piece in PIECES[size]:
+        for (a, weight), (b, other) in ((one, two) for one in gauss for two in gauss):
+            bilinear, *slopes = shape_functions(4, a, b)
+            scale = np.linalg.det([slope @ nodes[list(piece)] for slope in slopes])
+            values = np.zeros(size)
+            np.add.at(values, list(piece), bilinear)
+            _, by_xi, by_eta = shape_functions(size, *(bilinear @ nodes[list(piece)]))
+            found.append((weight * other * scale, values, by_xi, by_eta))
+    return found
