@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-2-Clause
 """The coarse disc brake after flutter, with periodic motions: after_flutter.py PROGRAM FOLDER runs
-it. Two tests read it, from copies of FOLDER; without one they make the run themselves."""
+it. The tests of tables and of its report read it from copies of FOLDER; without one they make the
+run themselves."""
 from made_run import MadeRun
 
 RUN = MadeRun(
