@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What a run leaves behind: tables, summary, recipe, fields.
+// What a run leaves behind: tables, summary, audit, fields.
 #include <hdf5.h>
 
 #include <numeric>
 #include <regex>
 
-#include "base/options/options.hpp"
 #include "base/session/session.hpp"
 #include "support/harness/largest_error.hpp"
 #include "support/harness/same_on_ranks.hpp"
+#include "support/run/layer_run.hpp"
 
 namespace squeal::test {
 namespace {
 
-// The case in options/, on a coarser mesh with fewer modes.
-const std::string layer = "-options_file options/layer.yaml -mesh_set nx=12,ny=4 -modes_count 21 ";
-const std::string frictions = "-flutter_friction 0.4,0,0.2 ";
 constexpr double period = 3;  // m
 constexpr double pressure =
     0.01 * (1 - 0.3) / ((1 + 0.3) * (1 - 0.6));  // (λ + 2μ) times the strain, Pa
 
 /// One run that several tests read.
 const ProgramRun& layerRun() {
-  static const ProgramRun run = runProgram("outputs/layer", 2, layer + frictions);
+  static const ProgramRun run = runLayer("outputs");
   return run;
 }
 
@@ -258,22 +255,6 @@ TEST(Outputs, Summary) {
   }
 }
 
-// PETSc's own profile names the stages of the method, and the kinds of work that are not PETSc's.
-TEST(Outputs, ProfileOfPetsc) {
-  const fs::path profile = placeFor("outputs") / "profile.txt";
-  fs::create_directories(profile.parent_path());
-  const auto run =
-      runProgram("outputs/profile", 1,
-                 layer + frictions + "-report_fields off -log_view :" + profile.string());
-  ASSERT_EQ(run.exitCode, 0) << run.error;
-  const std::string text = contentOf(profile);
-  for (const std::string stage :
-       {"mesh", "elasticity", "contact", "factor", "steady", "modes", "flutter"})
-    EXPECT_TRUE(std::regex_search(text, std::regex("\n *\\d+: +" + stage + ": "))) << stage;
-  for (const char* work : {"BlockSolve", "BlockProduct", "InnerProduct", "DenseEigen", "Sketch"})
-    EXPECT_NE(text.find("\n" + std::string(work)), std::string::npos) << work;
-}
-
 TEST(Outputs, Audit) {
   EXPECT_NE(layerRun().out.find(" s  no finding (audit.md)"), std::string::npos) << layerRun().out;
   const std::string text = contentOf(layerRun().folder / "audit.md");
@@ -282,22 +263,6 @@ TEST(Outputs, Audit) {
         "| layer | support 'bottom': 12, interface 'plate': 12, periodic images: 10 | supported |"})
     EXPECT_NE(text.find(piece), std::string::npos) << piece << "\n" << text;
   EXPECT_NE(contentOf(layerRun().folder / "manifest.txt").find("\naudit.md\n"), std::string::npos);
-}
-
-TEST(Outputs, TerminalTable) {
-  for (const char* stage :
-       {"mesh", "elasticity", "contact", "steady", "modes", "flutter", "report"})
-    EXPECT_NE(("\n" + layerRun().out).find("\n" + std::string(stage) + " "), std::string::npos)
-        << stage;
-  const auto begin = layerRun().out.find("friction  unstable modes");
-  ASSERT_NE(begin, std::string::npos) << layerRun().out;
-  const auto zero = layerRun().out.find("\n       0  none: steady sliding is stable", begin),
-             low = layerRun().out.find("\n     0.2  ", begin),
-             high = layerRun().out.find("\n     0.4  ", begin);
-  ASSERT_NE(zero, std::string::npos) << layerRun().out;
-  ASSERT_NE(low, std::string::npos);
-  ASSERT_NE(high, std::string::npos);
-  EXPECT_TRUE(zero < low && low < high) << "not by friction";
 }
 
 std::vector<std::string> matches(const fs::path& file, const std::string& pattern) {
@@ -352,109 +317,11 @@ TEST(Outputs, Hdf5) {
   H5Fclose(file);
 }
 
-// --- the recipe ---
-
-TEST(Outputs, RecipeRepeatsTheRun) {
-  const ProgramRun layers = runProgram(
-      "outputs/two_layers", 1,
-      "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 21 "
-      "-flutter_friction 0.1:0.5:0.2 -report_fields off");
-  ASSERT_EQ(layers.exitCode, 0) << layers.error;
-  for (const auto& [run, ranks] : {std::pair{&layerRun(), 2}, {&layers, 1}}) {
-    SCOPED_TRACE(run->folder.string());
-    const std::string recipe = (run->folder / "options.txt").string();
-    const ProgramRun again = runProgram("outputs/recipe", ranks, "-options_file '" + recipe + "'");
-    EXPECT_EQ(again.exitCode, 0) << again.error;
-    if (again.exitCode != 0) continue;
-    // Not to the letter: on two ranks MUMPS adds in the order in which messages arrive.
-    const auto first = readCsv(run->folder / "eigenvalues.csv"),
-               second = readCsv(again.folder / "eigenvalues.csv");
-    const auto size = first.column("angular_frequency_rad_per_s");
-    for (const char* column : {"friction", "growth_rate_1_per_s", "angular_frequency_rad_per_s"}) {
-      const auto a = first.column(column), b = second.column(column);
-      ASSERT_GE(a.size(), 30U);
-      ASSERT_EQ(a.size(), b.size());
-      for (std::size_t i = 0; i < a.size(); ++i)
-        EXPECT_NEAR(a[i], b[i], 1e-9 * size[i]) << column << " of row " << i;
-    }
-    EXPECT_EQ(contentOf(again.folder / "options.txt"), contentOf(recipe));
-  }
-}
-
-TEST(Outputs, RecipeHoldsEveryOption) {
-  const ProgramRun run = runProgram(
-      "outputs/recipe_solver", 1,
-      layer +
-          "-flutter_friction 0.4 -modes_eps_ncv 60 -steady_snes_max_it 7 -report_fields off "
-          "-report_frames 8 -steady_full -quiet");
-  ASSERT_EQ(run.exitCode, 0) << run.error;
-  const std::string recipe = contentOf(run.folder / "options.txt");
-  for (const char* line : {"-modes_eps_ncv 60\n", "-steady_snes_max_it 7\n", "-report_fields off\n",
-                           "-report_frames 8\n", "-mesh_set nx=12,ny=4\n", "-modes_count 21\n"})
-    EXPECT_NE(recipe.find(line), std::string::npos) << line;
-  EXPECT_NE(recipe.find("\n-steady_full"), std::string::npos);
-  EXPECT_EQ(recipe.find("\n-steady_full off"), std::string::npos);
-  EXPECT_FALSE(fs::exists(run.folder / "vtk"));
-  EXPECT_FALSE(fs::exists(run.folder / "results.h5"));
-}
-
-TEST(Outputs, CommandLineOverridesTheFile) {
-  const ProgramRun run =
-      runProgram("outputs/override", 1,
-                 layer + "-flutter_friction 0.1 -material_layer_young 4 -quiet -report_fields off");
-  ASSERT_EQ(run.exitCode, 0) << run.error;
-  const auto modes = readCsv(run.folder / "modes.csv").column("frequency_hz"),
-             before = readCsv(layerRun().folder / "modes.csv").column("frequency_hz");
-  ASSERT_EQ(modes.size(), 21U);  // the file says 200
-  for (std::size_t i = 0; i < modes.size(); ++i)
-    EXPECT_NEAR(modes[i], 2 * before[i], 1e-9 * modes[i]);  // stiffness times 4
-  const auto friction = readCsv(run.folder / "eigenvalues.csv").column("friction");
-  EXPECT_GE(friction.size(), 10U);
-  EXPECT_EQ(std::count(friction.begin(), friction.end(), 0.1), static_cast<long>(friction.size()));
-}
-
-// --- the terminal ---
-
-TEST(Outputs, Help) {
-  for (int ranks : {1, 2}) {
-    const ProgramRun run = runProgram("outputs/help_np" + std::to_string(ranks), ranks, "-help");
-    EXPECT_EQ(run.exitCode, 0) << run.error;
-    EXPECT_EQ(run.error, "");
-    EXPECT_FALSE(fs::exists(run.folder));
-    ASSERT_GE(Option::all().size(), 25U);
-    for (const auto* option : Option::all()) {
-      const auto line = run.out.find("\n  -" + option->name + " ");
-      EXPECT_NE(line, std::string::npos) << option->name;
-      EXPECT_EQ(run.out.find("\n  -" + option->name + " ", line + 1), std::string::npos)
-          << option->name << " twice";
-      const std::string text = run.out.substr(line + 1, run.out.find('\n', line + 1) - line - 1);
-      EXPECT_NE(text.find(option->meaning), std::string::npos) << text;
-      EXPECT_NE(text.find("[" + option->unit + "]"), option->unit.empty() ? 0 : std::string::npos)
-          << text;
-      EXPECT_TRUE(text.find("(default ") != std::string::npos ||
-                  text.find("(required") != std::string::npos)
-          << text;
-    }
-    EXPECT_FALSE(SolverPrefix::all().empty());
-    for (const auto* solver : SolverPrefix::all())
-      EXPECT_NE(run.out.find("-" + solver->prefix + "*"), std::string::npos) << solver->prefix;
-  }
-}
-
-TEST(Outputs, Quiet) {
-  const ProgramRun run =
-      runProgram("outputs/quiet", 2, layer + "-flutter_friction 0.4 -quiet -report_fields off");
-  EXPECT_EQ(run.exitCode, 0);
-  EXPECT_EQ(run.out, "");
-  EXPECT_EQ(run.error, "");
-  EXPECT_TRUE(fs::exists(run.folder / "summary.json"));
-}
-
 // The direct method has no free modes: their file and fields are left out, the rest is there.
 TEST(Outputs, DirectMethod) {
   const ProgramRun run = runProgram(
       "outputs/direct", 1,
-      layer + "-flutter_friction 0.4 -quiet -flutter_method direct -flutter_direct_count 10");
+      coarseLayer + "-flutter_friction 0.4 -quiet -flutter_method direct -flutter_direct_count 10");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   EXPECT_FALSE(fs::exists(run.folder / "modes.csv"));
   EXPECT_EQ(nlohmann::json::parse(contentOf(run.folder / "summary.json")).at("method"), "direct");
