@@ -37,8 +37,8 @@ const RealOption factorOption("contact", "contact_<interface>_friction_factor", 
                               "-flutter_friction");
 const RealOption frictionOption(
     "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
-    "sliding interface: fixed coefficient of friction that replaces -flutter_friction if given; "
-    "sticking interface: limit of the ratio of tangential to normal force of each node");
+    "fixed coefficient of friction of a sliding interface, in place of -flutter_friction; sticking "
+    "interface: largest ratio of tangential to normal force of a node, unlimited if not given");
 const FlagOption releaseOption("contact", "contact_<interface>_release", false,
                                "release of the nodes of a sticking interface that exceed the limit "
                                "-contact_<interface>_friction; on: they slide, with this limit as "
@@ -48,14 +48,14 @@ const WordOrRealOption gapOption(
     "initial gap, without load; measured: the distance between the two "
     "surfaces of the mesh; negative: interference fit");
 const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
-                               "side whose nodes carry the gaps; finer: the pad if the two meshes "
-                               "match, otherwise the side with the finer mesh");
+                               "side with one gap unknown per node; finer: the pad if the two "
+                               "meshes match, otherwise the side with the finer mesh");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance between two faces that the program pairs if the "
                               "two meshes do not match; 0 = automatic (half the size of a face)");
 const FlagOption separationOption("contact", "contact_<interface>_separation", true,
                                   "separation of the two sides; off: they stay in contact, also "
-                                  "under tension, which friction forbids");
+                                  "under tension, and nodes with friction need pressure");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
