@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The reduced problem [4.19], corrected until its eigenvalues agree with those of the full one.
+/// docs/method.md has the equation in brackets, src/README.md explains the symbols, and
+/// subspace::Substructure defines interior and boundary unknowns.
 #include <functional>
 #include <optional>
 #include <utility>
@@ -25,26 +27,25 @@
 
 namespace squeal::reduction {
 
-/// The result of an improvement of the basis for some eigenpairs.
+/// The result of ReducedProblem::improve(). Its lists have an entry for each entry of the argument.
 struct Improvement {
-  /// True if the basis has grown, or an estimate has become more accurate, so that the pairs must
-  /// be solved for again.
+  /// True if the basis has grown, or an estimate has become more accurate: compute the pairs again.
   bool changed = false;
-  /// [located] The largest backward error of its pairs in the full problem; NaN if the problem is
-  /// not defined at this friction. Empty if the reduced problem is the full one.
+  /// Largest backward error of the pairs of the point in the full problem; NaN if the problem is
+  /// not defined at its friction. The list is empty if the reduced problem is the full one.
   std::vector<double> backwardError;
-  /// Upper bound of the round-off in yᴴP(s)x with unit vectors x and y of the reduced problem,
-  /// [located].
+  /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
+  /// reduced problem.
   std::vector<double> roundOff;
 };
 
 /// The Rayleigh–Ritz method in the space of the free modes and, unless `-flutter_basis modal`, of
 /// static responses to the friction forces and to the residuals of Ritz pairs. With only the modes
 /// it would miss unstable eigenvalues and report spurious ones. Each round adds K0⁻¹ r for the
-/// residuals r of all inaccurate pairs, by one block solve with the real symmetric factorisation of
-/// the modes, and reduces the errors to about a tenth. A pair is certified if its full-order
-/// backward error is at most `-flutter_accuracy` and the estimate of |δs|/|s| at most
-/// `-flutter_tolerance`. The whole sweep shares one basis.
+/// residuals r of all inaccurate pairs. One block solve computes all these vectors, with the real
+/// symmetric factorisation that the modes were computed with. A round reduces the errors to about a
+/// tenth. A pair is certified if its full-order backward error is at most `-flutter_accuracy` and
+/// the estimate of |δs|/|s| at most `-flutter_tolerance`. The whole sweep shares one basis.
 class ReducedProblem {
  public:
   /// Collective. Borrows the system of the interior unknowns during the lifetime of the object and
@@ -53,15 +54,15 @@ class ReducedProblem {
   ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                  const modes::Modes& modes, const Settings& settings,
                  Substructure substructure = {});
-  /// Collective. Adds a set of points; has[i] states whether its points have boundary unknown i
-  /// (numbered over all ranks). Returns the index of the set. The set shares the terms of `pencil`
-  /// that come after those passed to the constructor; they hold for all parameters. Throws Error if
-  /// their stiffness is not positive definite.
+  /// Collective. Adds a set of points with the same boundary unknowns: unknown i, numbered over all
+  /// ranks, is one of them if has[i] is 1. Returns the index of the set. The set shares the terms
+  /// of `pencil` that come after those passed to the constructor; they hold for all parameters.
+  /// Throws Error if their stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
   /// Collective. Returns the free modes in the band of a set, corrected in the same way as the
   /// complex modes. Their vectors have the entries of all unknowns. Only K and M of `pencil` are
-  /// used. The number of modes is confirmed if the number for the interior is confirmed and the two
-  /// bounds of ModeCount agree. From then on, these modes set the top of the band at the points of
+  /// used. The number of modes is verified if that of the interior problem is and the two bounds of
+  /// subspace::ModeCount agree. From then on, these modes set the top of the band at the points of
   /// the set, so the list of solve() does not depend on the other sets of the basis.
   modes::Modes freeModes(int set, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns their complex modes, [point]: the dense
@@ -77,18 +78,19 @@ class ReducedProblem {
   /// of solve(). After reading, the next solve() must be of that batch. All sets must have been
   /// added. An archive being written borrows the basis.
   void serialise(checkpoint::Archive& archive);
-  /// Collective. Returns the watched eigenpairs, with left and right vectors, of the point with
-  /// these parameters and boundary unknowns, in coordinates of the basis at the time when the point
-  /// was solved. Pairs in the band are those of solve(); pairs in the guard zone may be less
-  /// accurate. Returns none if the point has not been solved, or if there was not enough memory to
-  /// store the pairs.
+  /// Collective. Returns the eigenpairs in the band and in the guard zone around it (see
+  /// pencil::WatchedBand), with left and right vectors, of the point with these parameters and
+  /// boundary unknowns. The coordinates are those of the basis when the point was solved. Pairs in
+  /// the band are those of solve(); pairs in the guard zone may be less accurate. Returns none if
+  /// the point has not been solved, or if there was not enough memory to store the pairs.
   std::optional<std::vector<linalg::DensePair>> watchedPairs(const sweep::Parameters& at,
                                                              int set) const {
     return solved_.at(at, set);
   }
   /// Collective. Returns the projection of the problem at this point on the basis as it is.
   linalg::DenseProblem project(const PointProblem& point) const;
-  /// Collective. Returns the same with all boundary unknowns, in coordinates common to all points.
+  /// Collective. Returns the projection with all boundary unknowns, even if the point has only some
+  /// of them. Its coordinates are the same for all points.
   linalg::DenseProblem projectOnAll(const PointProblem& point) const;
   /// Converts a vector from the coordinates of the points of a set to those of the basis.
   std::vector<Complex> lifted(int set, const std::vector<Complex>& q) const {

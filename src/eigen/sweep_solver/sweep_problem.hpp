@@ -27,9 +27,9 @@ struct PointRange {
   std::vector<pencil::Term> terms = {};  ///< of these points, in addition to those of all points
 };
 
-/// A part of a path along the friction with one active set; the other parameters are fixed.
+/// An interval of friction with one active set; the other parameters are fixed.
 struct PathPiece {
-  std::optional<std::size_t> range;  ///< of SweepProblem::ranges; none: unknown
+  std::optional<std::size_t> range;  ///< index in SweepProblem::ranges; none: unknown
   double from = 0, to = 0;           ///< friction
 };
 
@@ -43,19 +43,19 @@ class SweepProblem {
   /// The boundary unknowns: the gaps, and tangential displacements, of the contact nodes that are
   /// active at only some of the points.
   subspace::Substructure substructure;
-  Mat trial = nullptr;                          ///< T, from all unknowns to what is reported
-  std::vector<sweep::Parameters> steadyPoints;  ///< with damping 1
-  std::vector<PointRange> ranges;               ///< by active sets
+  Mat trial = nullptr;                          ///< T: maps all unknowns to the reported vectors
+  std::vector<sweep::Parameters> steadyPoints;  ///< points with a steady state; their damping is 1
+  std::vector<PointRange> ranges;               ///< one for each active set
   std::optional<pencil::Pencil> pencil;         ///< the terms that hold at all points; always set
-  /// [steady point] the path to it from the preceding point of its line; the last piece has the
-  /// active set of the point. Empty if all points have one active set.
+  /// [steady point] the path to it from the preceding point, if the two differ only in friction.
+  /// The last piece has the active set of the point. Empty if all points have one active set.
   std::vector<std::vector<PathPiece>> steps;
-  /// The friction of the point before the first one, if the two differ only in friction and the
-  /// preceding point belongs to another problem.
+  /// The friction of the last point of the preceding problem, if that point and the first one here
+  /// differ only in friction.
   std::optional<double> frictionBefore;
 
-  /// Returns the path along the friction of the `count` points that differ from steadyPoints[first]
-  /// only in friction. All ranges must be known.
+  /// Returns the path through `count` consecutive points, from steadyPoints[first] on, which must
+  /// differ only in friction. All ranges must be known.
   std::vector<PathPiece> path(std::size_t first, std::size_t count) const;
 
   /// Collective. Returns the terms that belong only to steadyPoints[i].
@@ -72,15 +72,15 @@ class SweepProblem {
   /// from `start`.
   virtual void examine(std::size_t i, const pencil::Pencil& pencil,
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
-  /// Collective. Returns the names of complex modes, in the unknowns, and the parts of these free
-  /// modes in them, [motion].
+  /// Collective. Returns, for each of these complex modes, its name and the shares of the free
+  /// modes in it. The vectors of `motions` consist of the unknowns.
   virtual std::vector<pencil::CriticalMode> describe(
       const std::vector<pencil::ComplexMotion>& motions, const modes::Modes& /*modes*/) const {
     return std::vector<pencil::CriticalMode>(motions.size());
   }
-  /// Collective. Calls `use` with the forms of all parameters at a point between those of the
-  /// sweep, whose terms are those of `pencil`; not if the point has no steady state, or another
-  /// active set than steadyPoints[like].
+  /// Collective. Calls `use` with the forms yᴴ (∂P/∂θ) x of all parameters θ at a point between
+  /// those of the sweep. The terms of the point are those of `pencil`. Does not call it if the
+  /// point has no steady state, or another active set than steadyPoints[like].
   virtual void withForms(const sweep::Parameters& /*at*/, std::size_t /*like*/,
                          const pencil::Pencil& /*pencil*/,
                          const std::function<void(const sensitivity::Forms&)>& /*use*/) {}

@@ -78,24 +78,25 @@ struct Contact {
   /// projected on the tangent plane. Without convective terms, or if `displacement` u is null, it
   /// is w = −v V.
   std::vector<Slip> slip(double speed, Vec displacement) const;
-  /// Collective. Returns the normal components E⁻ᵀ R_N of the nodal contact forces, N, from normal
-  /// forces R_N, N; both [contact node]. They are equal on faces whose E is the identity.
+  /// Collective. Returns the normal components E⁻ᵀ R_N of the nodal contact forces, given the
+  /// normal forces R_N. Both lists are [contact node], in newtons. They are equal on faces whose E
+  /// is the identity.
   std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
   /// Collective. Returns the same, with R_N = 0 at the nodes that are not closed.
   std::vector<double> nodalForce(std::vector<double> normalForce, const Mask& closed) const;
-  /// Collective. Returns the gaps E h at the nodes, m, from the gap unknowns h, m; both [contact
-  /// node].
+  /// Collective. Returns the gaps E h at the nodes, given the gap coefficients h. Both lists are
+  /// [contact node], in metres.
   std::vector<double> nodalGap(const std::vector<double>& gap) const;
   /// Collective. Returns Eᵀ v for forces v at the nodes; both [contact node].
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
   /// Collective. Returns E⁻¹ v for gaps v at the nodes; both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
-  /// Collective. Returns nodal forces, N entries, N, with those on layer nodes moved to the nodes
-  /// on the faces, with which they move along the face. The normal forces of a layer on its two
-  /// sides then cancel.
+  /// Collective. Returns the nodal forces after each force on a node of a soft layer has been moved
+  /// to its node on the face. Tangentially, the two nodes move together. The normal forces of a
+  /// layer on its two sides then cancel.
   OwnedVec movedFromLayers(Vec forces) const;
-  /// Returns the powers of the swept friction in the coefficients of the interfaces: 0 if any
-  /// coefficient is fixed, 1 if any is swept. The same on all ranks.
+  /// Returns the exponents of the swept friction that occur in the coefficients of the interfaces:
+  /// the list contains 0 if any coefficient is fixed, and 1 if any is swept. The same on all ranks.
   std::vector<int> frictionExponents() const;
   /// Returns true if any interface sticks. The same on all ranks.
   bool hasSticking() const;

@@ -29,13 +29,13 @@ class Directory : public output::Folder {
 };
 
 /// Collective. Writes all reports, which then replace those of an earlier run, and prints the
-/// stability table. The reports of an interrupted run go to interrupted() instead, if it has
-/// eigenvalues, and the results of an earlier run stay. Throws Error, naming -report_dir, if a file
+/// stability table. If the run was interrupted and has eigenvalues, its reports go to interrupted()
+/// instead, and the results of an earlier run stay. Throws Error, naming -report_dir, if a file
 /// cannot be written; the earlier results then stay.
 void write(const analysis::Analysis& analysis, const Settings& settings, Directory& directory);
 
-/// Collective. Removes the results of an interrupted run in interrupted(), except its checkpoint. A
-/// failure is a warning.
+/// Collective. Removes the results of an interrupted run in interrupted(), except its checkpoint.
+/// Prints a warning if that fails.
 void removeInterrupted(MPI_Comm comm, const Directory& directory);
 
 /// Collective. Writes the file on rank 0. Throws Error on all ranks, naming -report_dir, if that

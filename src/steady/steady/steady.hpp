@@ -5,8 +5,8 @@
 /// where g is the gap, R_N and R_T the normal and the friction force, f the coefficient of
 /// friction, φ the friction law and τ the sliding direction. src/README.md explains the other
 /// symbols, and docs/method.md has the equations in brackets. Nodal vectors have N entries, one per
-/// component of each node; [contact node] or [owned contact node] marks a list with one entry per
-/// contact node of this rank.
+/// component of each node. [contact node] and [owned contact node] both mark a list with one entry
+/// per contact node of this rank.
 #include <string>
 #include <vector>
 
@@ -55,8 +55,8 @@ struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< why SNES, PETSc's nonlinear solver, stopped, or why no solution exists
-  /// Set if no solution exists here, and a path of solutions from another point of the sweep ends
-  /// on the way: the parameters at its end.
+  /// The parameters at which a path of solutions, followed from another point of the sweep, ends
+  /// before it reaches this point. Set only if no solution exists here.
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES
   int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
@@ -90,10 +90,10 @@ contact::ActiveSet activeSet(const Solution& solution);
 /// T maps the unknowns x to displacements, N extracts normal forces from nodal forces, and S gives
 /// the slip weighted by φ. The factors v and p scale speed and pressure.
 ///
-/// Convective terms are those of matter that carries its displacement along. Without them
-/// (approximation A, -motion_convective off) the problem is linear except for the inequalities.
-/// With them, S depends on u through the relative velocity w = −v (V + D u_D), where V is the base
-/// velocity of the disc and D u_D = (V·∇) u_D the convected part.
+/// Convective terms arise because moving matter carries its displacement along. Without them
+/// (-motion_convective off, the paper's approximation A) the problem is linear except for the
+/// inequalities. With them, S depends on u through the relative velocity w = −v (V + D u_D), where
+/// V is the base velocity of the disc and D u_D = (V·∇) u_D the convected part.
 ///
 /// A node of a sticking interface may be held (it sticks), free or released. A free node has
 /// tangential unknowns and no friction. A released node has tangential unknowns and slides: its row
@@ -130,25 +130,27 @@ class Problem {
   /// update is needed but impossible, or if the final state has friction under tension, the
   /// solution is marked as not converged.
   std::optional<Sticking> nextHolds(Solution& solution) const;
-  /// Collective. Sets the remaining members of a solution from the unknowns x. `left` is the 2-norm
-  /// of the natural residual at x, N: of F, with min(R_N, 0) in the rows of gaps g ≤ 0.
+  /// Collective. Sets the remaining members of a solution from the unknowns x. `left` is the
+  /// 2-norm, in newtons, of the natural residual at x. This is F, with min(R_N, 0) in the rows of
+  /// gaps g ≤ 0.
   void conclude(Vec x, double left, Solution& solution) const;
-  /// Collective. Returns b with the pressures and the centrifugal forces of this point, N entries,
-  /// N.
+  /// Collective. Returns b with the pressures and the centrifugal forces of this point: N entries,
+  /// in newtons.
   OwnedVec load(const sweep::Parameters& at) const;
-  /// Collective. Returns (K + v² K^R) u, N entries, N.
+  /// Collective. Returns (K + v² K^R) u: N entries, in newtons.
   OwnedVec springForces(double speed, Vec displacement) const;
   /// Collective. Returns R_N = N r of nodal forces r, [contact node].
   std::vector<double> normalForces(Vec forces) const;
-  /// Collective. Returns an estimate of the round-off of F, N, as in the numerator of [M.16],
+  /// Collective. Returns an estimate of the round-off of F, in newtons, as in the numerator of
+  /// [M.16],
   ///   ε (‖diag(K) u‖ + ‖b‖).
   /// `loads` b may be null.
   double rounding(Vec displacement, Vec loads) const;
 
   const mesh::Mesh& mesh() const { return mesh_; }
   const contact::Contact& contact() const { return contact_; }
-  /// Returns T with all gaps as unknowns, and the tangential displacements of the free nodes of
-  /// sticking interfaces.
+  /// Returns the T whose unknowns include all gaps, and the tangential displacements of the free
+  /// nodes of sticking interfaces.
   const contact::Transformation& transformation() const { return transformation_; }
   const elasticity::Bodies& bodies() const { return bodies_; }
   /// Collective on the first call. Returns Tᵀ K T and N K T, with this transformation T.
@@ -177,7 +179,7 @@ class Problem {
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;
   const contact::Contact& contact_;
-  contact::Mask all_;  // [contact node] 1
+  contact::Mask all_;  // [contact node] 1 for every node
   Sticking sticking_;
   bool anyReleased_ = false;                                   // of all ranks
   contact::Transformation transformation_;                     // all gaps unknown
