@@ -12,86 +12,20 @@
 #include "support/harness/messages.hpp"
 #include "support/harness/scratch_folder.hpp"
 #include "support/model/model.hpp"
+#include "support/run/bolted_columns.hpp"
 
 namespace squeal {
 namespace {
 
-/// Bars of length 1 along z with Poisson's ratio 0, so that they are springs: the bolt with the
-/// area 1, cut by `section` at its middle, and the sleeve with the area 2, of two halves that touch
-/// there.
-const char* const column = R"(
-Geometry.AutoCoherence = 0;  // the halves of the sleeve touch, they are not joined
-Macro Column  // x0, w, z0, h -> s (bottom), top, volume
-  p = newp;
-  Point(p) = {x0, 0, z0}; Point(p+1) = {x0+w, 0, z0};
-  Point(p+2) = {x0+w, 1, z0}; Point(p+3) = {x0, 1, z0};
-  l = newl;
-  Line(l) = {p, p+1}; Line(l+1) = {p+1, p+2}; Line(l+2) = {p+2, p+3}; Line(l+3) = {p+3, p};
-  Transfinite Curve{l:l+3} = 3;
-  k = newll; Curve Loop(k) = {l:l+3};
-  s = news; Plane Surface(s) = {k}; Transfinite Surface{s}; Recombine Surface{s};
-  e[] = Extrude{0, 0, h}{ Surface{s}; Layers{2}; Recombine; };
-  top = e[0]; volume = e[1];
-Return
-)";
+using test::bolted::assembly;
+using test::bolted::boltStiffness;
+using test::bolted::geometry;
+using test::bolted::geometryAt;
+using test::bolted::optionsOf;
+using test::bolted::sleeveStiffness;
+using test::bolted::tightenedModel;
 
-/// @ begins the names of the assembly.
-const char* const columns = R"(
-x0 = X; w = 1; z0 = 0; h = 0.5; Call Column;
-bottom = s; middle = top; lower = volume;
-e[] = Extrude{0, 0, 0.5}{ Surface{middle}; Layers{2}; Recombine; };
-Physical Surface("@bolt_low") = {bottom};
-Physical Surface("@bolt_high") = {e[0]};
-Physical Surface("@section") = {middle};
-Physical Volume("@bolt") = {lower, e[1]};
-x0 = X + 3; w = 2; z0 = 0; h = 0.5; Call Column;
-Physical Surface("@sleeve_low") = {s};
-Physical Surface("@joint_low") = {top};
-Physical Volume("@sleeve_a") = {volume};
-z0 = 0.5; Call Column;
-Physical Surface("@joint_high") = {s};
-Physical Surface("@sleeve_high") = {top};
-Physical Volume("@sleeve_b") = {volume};
-)";
-
-constexpr double boltStiffness = 2e9, sleeveStiffness = 4e9, force = 3e4;
-
-/// Returns the text with a beginning of all names in place of @.
-std::string named(std::string text, const std::string& beginning) {
-  for (std::size_t at = 0; (at = text.find('@', at)) != std::string::npos; at += beginning.size())
-    text.replace(at, 1, beginning);
-  return text;
-}
-
-/// Returns the geometry of an assembly at X, with this beginning of names.
-std::string geometryAt(int x, const std::string& beginning) {
-  return formatted("X = %d;", x) + named(columns, beginning);
-}
-
-const std::string geometry = column + geometryAt(0, "");
-
-/// Returns the options of an assembly. The plates are reference nodes: `low` is held, `high` moves
-/// along z.
-std::string optionsOf(const std::string& beginning) {
-  std::string options;
-  for (const std::string body : {"bolt", "sleeve_a", "sleeve_b"})
-    options += test::material(beginning + body, "2e9", "0", "1000");
-  return options + named(
-                       "-reference_@low_position 1,0.5,0 -coupling_@low_reference @low "
-                       "-coupling_@low_nodes @bolt_low,@sleeve_low -constraint_@low_clamped xyz "
-                       "-constraint_@low_clamped_rotation xyz "
-                       "-reference_@high_position 1,0.5,1 -coupling_@high_reference @high "
-                       "-coupling_@high_nodes @bolt_high,@sleeve_high "
-                       "-constraint_@high_clamped xy -constraint_@high_clamped_rotation xyz "
-                       "-contact_@joint_pad @joint_high -contact_@joint_disc @joint_low "
-                       "-contact_@joint_role frictionless -bolt_@b_section @section ",
-                       beginning);
-}
-
-/// Collective. Returns the options of one assembly with its mesh.
-std::string assembly() {
-  return "-mesh_file " + test::writeFile("bolt.geo", geometry) + optionsOf("");
-}
+constexpr double force = 3e4;  // N, of the bolt
 
 /// A column on the sleeve that only its contact holds along z.
 const char* const rider = R"(
@@ -100,15 +34,6 @@ Physical Surface("rider_low") = {s};
 Physical Surface("rider_high") = {top};
 Physical Volume("rider") = {volume};
 )";
-
-/// Collective. Returns the model of the options in force with tightened bolts.
-analysis::Model tightenedModel() {
-  const auto settings = analysis::ModelSettings::given();
-  auto model = analysis::buildModel(PETSC_COMM_WORLD, settings);
-  analysis::requireSupports(model);
-  analysis::tightenBolts(model, settings.constraints);
-  return model;
-}
 
 /// The state of the assembly under an external force that draws the plates apart.
 struct State {
@@ -291,147 +216,6 @@ TEST(Bolts, OrderOfTwoIndependentOnes) {
     EXPECT_NEAR(found.tensions[0] / force, 1, exact);
     EXPECT_NEAR(found.tensions[1] / force, 1, exact);
   }
-}
-
-TEST(Bolts, SectionMustCutThroughItsBody) {
-  // A bar of 2 × 1 cells in two layers, with a section below one of the two cells above it.
-  const std::string file = test::writeFile("notch.geo", R"(
-Point(1) = {0, 0, 0}; Point(2) = {0, 1, 0}; Line(1) = {1, 2}; Transfinite Curve{1} = 2;
-a[] = Extrude{1, 0, 0}{ Line{1}; Layers{1}; Recombine; };
-b[] = Extrude{1, 0, 0}{ Line{a[0]}; Layers{1}; Recombine; };
-c[] = Extrude{0, 0, 1}{ Surface{a[1]}; Layers{1}; Recombine; };
-d[] = Extrude{0, 0, 1}{ Surface{b[1]}; Layers{1}; Recombine; };
-e[] = Extrude{0, 0, 1}{ Surface{c[0]}; Layers{1}; Recombine; };
-f[] = Extrude{0, 0, 1}{ Surface{d[0]}; Layers{1}; Recombine; };
-Physical Volume("bolt") = {c[1], d[1], e[1], f[1]};
-Physical Surface("low") = {a[1], b[1]};
-Physical Surface("notch") = {c[0]};
-Physical Surface("section") = {c[0], d[0]};
-)");
-  const auto message = [&](const std::string& section) {
-    test::setOptions("-mesh_file " + file + test::material("bolt", "1e9", "0.3", "1000") +
-                     "-constraint_low_clamped xyz -bolt_b_force 1 -bolt_b_section " + section);
-    return test::errorOf([] { tightenedModel(); });
-  };
-  EXPECT_NE(message("notch").find("option -bolt_b_section notch: the section does not cut through "
-                                  "its body: cells on both sides of it share the node at"),
-            std::string::npos)
-      << message("notch");
-  // Cut through, the upper half is loose: nothing holds the bolt against its force.
-  EXPECT_NE(message("section").find("body 'bolt' can move rigidly"), std::string::npos)
-      << message("section");
-  EXPECT_NE(message("section").find("as the section of bolt 'b' opens, so the part of the body on "
-                                    "one side of it is loose"),
-            std::string::npos)
-      << message("section");
-}
-
-// A bar of three cells, clamped at its ends: the part between two sections is loose.
-TEST(Bolts, InSeriesAreNamed) {
-  test::setOptions("-mesh_file " + test::writeFile("series.geo", R"(
-Point(1) = {0, 0, 0}; Point(2) = {0, 1, 0}; Line(1) = {1, 2}; Transfinite Curve{1} = 2;
-a[] = Extrude{1, 0, 0}{ Line{1}; Layers{1}; Recombine; };
-b[] = Extrude{0, 0, 1}{ Surface{a[1]}; Layers{1}; Recombine; };
-c[] = Extrude{0, 0, 1}{ Surface{b[0]}; Layers{1}; Recombine; };
-d[] = Extrude{0, 0, 1}{ Surface{c[0]}; Layers{1}; Recombine; };
-Physical Volume("bolt") = {b[1], c[1], d[1]};
-Physical Surface("low") = {a[1]};
-Physical Surface("high") = {d[0]};
-Physical Surface("one") = {b[0]};
-Physical Surface("two") = {c[0]};
-)") + test::material("bolt", "1e9", "0.3", "1000") +
-                   "-constraint_low_clamped xyz -constraint_high_clamped xyz -bolt_b_section one "
-                   "-bolt_b_force 1 -bolt_c_section two -bolt_c_force 1");
-  const std::string found = test::errorOf([] { tightenedModel(); });
-  EXPECT_TRUE(test::contains(found, "body 'bolt' can move rigidly")) << found;
-  EXPECT_TRUE(test::contains(found,
-                             "as the sections of bolts 'b' and 'c' open, so the parts between "
-                             "or beyond them are loose"))
-      << found;
-}
-
-// The bolt is 1 m long: a tenth of it is the limit of small strains.
-TEST(Bolts, LargeShorteningIsReported) {
-  const auto warnings = [](const std::string& options) {
-    test::setOptions(assembly() + options);
-    return test::warningsOf([] { tightenedModel(); });
-  };
-  EXPECT_EQ(warnings("-bolt_b_shortening 0.099"), "");
-  const std::string given = warnings("-bolt_b_shortening 0.2"),
-                    found = warnings(formatted("-bolt_b_force %g", 0.3 * boltStiffness));
-  EXPECT_TRUE(test::contains(given,
-                             "bolt 'b' becomes 0.2 m shorter, 0.2 times the length of its "
-                             "body 'bolt' along it, 1 m"))
-      << given;
-  EXPECT_TRUE(test::contains(given, "-bolt_b_shortening")) << given;
-  // The bolt and the sleeve are springs: F (1/k_b + 1/k_s), k_s = 2 k_b, gives 0.45 m.
-  EXPECT_TRUE(test::contains(found, "bolt 'b' becomes 0.45 m shorter")) << found;
-  EXPECT_TRUE(test::contains(found, "-bolt_b_force")) << found;
-}
-
-TEST(Bolts, FaultsAreNamed) {
-  const std::vector<std::pair<std::string, std::string>> faults{
-      {"-bolt_b_shortening 1 -bolt_under_pressure on",
-       "option -bolt_under_pressure needs -bolt_<name>_force"},
-      {"", "option -bolt_b_section: give either -bolt_b_force or -bolt_b_shortening"},
-      {"-bolt_b_force 1 -bolt_b_shortening 1",
-       "option -bolt_b_section: give either -bolt_b_force or -bolt_b_shortening"},
-      {"-bolt_b_force 1 -bolt_c_force 1", "option -bolt_c_force needs -bolt_c_section"},
-      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section nothing",
-       "option -bolt_c_section nothing names group 'nothing', which is not in the mesh"},
-      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section bolt_low",
-       "option -bolt_c_section bolt_low: a face of the section has 0 cells of a body below and 1 "
-       "above"},
-      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section bolt",
-       "group 'bolt' has dimension 3; a boundary of dimension 2 is wanted"},
-      {"-bolt_b_force 1 -bolt_b_axis 0,0,0", "option -bolt_b_axis: must not be zero"},
-      {"-bolt_b_force 1 -bolt_b_axis 1,0,0.05",
-       "option -bolt_b_axis: the axis lies across the normal of the section, (0, 0, 1)"},
-      {"-bolt_b_force 1 -bolt_c_force 1 -bolt_c_section section",
-       "option -bolt_c_section section: the bolt 'b' has this section already"},
-  };
-  for (const auto& [options, message] : faults) {
-    const std::string found = test::errorOf([&, &text = options] {
-      test::setOptions(assembly() + text);
-      tightenedModel();
-    });
-    EXPECT_NE(found.find(message), std::string::npos) << options << "\n  " << found;
-  }
-}
-
-// The nodes of a section are doubled: for other options its group would mean its lower side.
-TEST(Bolts, OnlyTheBoltUsesItsSection) {
-  const std::string rule = "(-bolt_b_section section), whose nodes are doubled";
-  for (const std::string option :
-       {"-constraint_section_clamped z", "-load_section_pressure 1", "-load_section_force 0,0,1",
-        "-ground_section_stiffness 0,0,1", "-mass_section_total 1",
-        "-contact_c_pad section -contact_c_disc sleeve_low",
-        "-tie_t_slave sleeve_high -tie_t_master section"}) {
-    const std::string found = test::errorOf([&] {
-      test::setOptions(assembly() + "-bolt_b_force 1 " + option);
-      tightenedModel();
-    });
-    EXPECT_TRUE(test::contains(found, "group 'section' is the section of the bolt 'b' " + rule))
-        << option << ": " << found;
-    EXPECT_TRUE(test::contains(found, "option " + option.substr(0, option.find('_')))) << found;
-  }
-  // The same faces under another name.
-  std::string again = geometry;
-  again.insert(again.find("Physical Volume"), "Physical Surface(\"copy\") = {middle};\n");
-  const auto message = [&](const std::string& options) {
-    return test::errorOf([&] {
-      test::setOptions("-mesh_file " + test::writeFile("copy.geo", again) + optionsOf("") +
-                       "-bolt_b_force 1 " + options);
-      tightenedModel();
-    });
-  };
-  EXPECT_TRUE(test::contains(message("-constraint_copy_clamped z"),
-                             "option -constraint_copy_clamped: group 'copy' has a face of the "
-                             "section of the bolt 'b' " +
-                                 rule));
-  // A position means both sides.
-  EXPECT_EQ(message("-reference_r_centre_of copy -coupling_c_reference high -coupling_c_nodes r"),
-            "");
 }
 
 }  // namespace
