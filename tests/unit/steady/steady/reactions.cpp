@@ -8,93 +8,28 @@
 
 #include "base/system/text.hpp"
 #include "eigen/sweep/parameters.hpp"
-#include "model/contact/coupled.hpp"
 #include "steady/steady/reactions.hpp"
 #include "steady/steady/steady.hpp"
 #include "support/harness/messages.hpp"
-#include "support/model/blocks_apart.hpp"
 #include "support/model/model.hpp"
+#include "support/steady/balance.hpp"
 
 namespace squeal {
 namespace {
 
 using mesh::Point;
 using steady::Wrench;
+using test::Balance;
+using test::forceAt;
+using test::opposite;
+using test::sum;
 
-/// A box of 4 × 2 × 2 cells, 1 × 0.4 × 0.3 m. It is meshed with groups clamped and tip at the ends
-/// of the length, and right, left, bottom and top on its sides.
-const std::string box = "-mesh_file meshes/beam.geo -mesh_set nx=4,Ly=0.4,Lz=0.3 " +
-                        test::material("beam", "2e11", "0.3", "8000");
 constexpr double mass = 8000 * 1 * 0.4 * 0.3;
 const std::string clamp = "-constraint_clamped_clamped xyz ";
 /// A reference node away from all groups.
 const Point eccentric{1.3, 0.2, -0.4};
 const std::string atEccentric = "-reference_r_position 1.3,0.2,-0.4 -coupling_c_reference r ",
                   force = "-load_r_force 300,-500,700 ", moment = "-load_r_moment 20,40,-90 ";
-
-/// The reactions of one steady state.
-class Balance {
- public:
-  /// Collective. Solves with the options in force.
-  explicit Balance(const sweep::Parameters& at = {}) {
-    const auto model = test::buildModel();
-    dimension_ = model.mesh->dimension;
-    const contact::CoupledSystem system(
-        model.bodies, model.contact,
-        contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
-    const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-    const auto solution = problem.solve(at, system);
-    EXPECT_TRUE(solution.converged) << solution.reason;
-    rows_ = steady::Reactions(*model.mesh, model.bodies, model.contact).of(solution);
-    for (const auto& row : rows_) {
-      force_ = std::max(force_, mesh::length(row.wrench.force));
-      moment_ = std::max(moment_, mesh::length(row.wrench.moment));
-    }
-    EXPECT_EQ(rows_.back().kind, "sum");
-    expect("sum", "", {});
-    test::print("  imbalance: %.1e of %.3g N, %.1e of %.3g N m\n",
-                mesh::length(rows_.back().wrench.force) / force_, force_,
-                mesh::length(rows_.back().wrench.moment) / moment_, moment_);
-  }
-  /// Collective. Solves with these options on the box.
-  explicit Balance(const std::string& options, const sweep::Parameters& at = {})
-      : Balance((test::setOptions(box + options), at)) {}
-  /// Returns a row; a failure if there is none.
-  Wrench row(const std::string& kind, const std::string& name) const {
-    const auto found = std::ranges::find_if(
-        rows_, [&](const auto& row) { return row.kind == kind && row.name == name; });
-    if (found != rows_.end()) return found->wrench;
-    ADD_FAILURE() << "no row " << kind << " " << name;
-    return {};
-  }
-  /// Expects force and moment about the origin, within round-off of the largest ones.
-  void expect(const std::string& kind, const std::string& name, const Wrench& expected) const {
-    const Wrench found = row(kind, name);
-    for (std::size_t d = 0; d < 3; ++d) {
-      EXPECT_NEAR(found.force[d], expected.force[d], 1e-10 * force_)
-          << kind << " " << name << " force " << d;
-      EXPECT_NEAR(found.moment[d], expected.moment[d], 1e-10 * moment_)
-          << kind << " " << name << " moment " << d;
-    }
-  }
-  bool has(const std::string& kind) const {
-    return std::ranges::any_of(rows_, [&](const auto& row) { return row.kind == kind; });
-  }
-
- private:
-  std::vector<steady::Reaction> rows_;
-  double force_ = 0, moment_ = 0;
-  int dimension_ = 0;
-};
-
-Wrench forceAt(const Point& x, const Point& f, const Point& m = {}) {
-  return {f, mesh::plus(mesh::cross(x, f), m)};
-}
-Wrench opposite(const Wrench& w) { return {mesh::scaled(w.force, -1), mesh::scaled(w.moment, -1)}; }
-Wrench sum(Wrench a, const Wrench& b) {
-  a.add(b);
-  return a;
-}
 
 const Wrench applied = forceAt(eccentric, {300, -500, 700}, {20, 40, -90});
 
@@ -311,107 +246,6 @@ TEST(Reactions, OfSupportsOnCoupledNodes) {
   turned.expect("support", "s", opposite(sum(applied, nodes)));
 }
 
-/// Two blocks that are meshed apart, the upper one (pad) at a distance, with loads on it.
-std::string blocks(const std::string& distance) {
-  test::BlockWriter writer;
-  writer.add("disc", {test::hex8, {2, 3, 2}});
-  const double gap = std::stod(distance);
-  writer.add("pad", {test::hex8, {3, 2, 1}, {0.1, 0.1, 1 + gap}, {0.9, 0.9, 1.5 + gap}});
-  return "-mesh_file " + test::writeFile("reactions_" + distance + ".msh", writer.text()) +
-         test::material("disc", "2e11", "0.3", "8000") +
-         test::material("pad", "1e11", "0.2", "5000") + "-constraint_disc_low_clamped xyz ";
-}
-
-TEST(Reactions, OfTies) {
-  const std::string tie = "-tie_t_slave pad_low -tie_t_master disc_high -tie_t_adjust off ",
-                    load = "-load_pad_high_force 100,200,-3000 ";
-  for (const std::string distance : {"0", "1e-3"}) {
-    test::setOptions(blocks(distance) + tie + load);
-    const Balance found;
-    const Wrench onPad = found.row("load", "force");
-    found.expect("tie", "t", opposite(onPad));
-    const Wrench offset = found.row("tie_offset", "t");
-    //   gap × (force along the surface)
-    if (distance == "0")
-      found.expect("tie_offset", "t", {});
-    else
-      EXPECT_NEAR(offset.moment[1], -1e-3 * 100, 1e-4);
-    // Supports of tied nodes act on the master.
-    for (const std::string frame :
-         {"", "-constraint_pad_x0_frame f -frame_f_x 3,4,0 -frame_f_xy 0,1,0 "}) {
-      test::setOptions(blocks(distance) + tie + load + "-constraint_pad_x0_clamped yz " + frame);
-      const Balance held;
-      EXPECT_GT(mesh::length(held.row("support", "pad_x0").force), 1);
-    }
-  }
-}
-
-// Where masters are held, too, a support of a tied node holds it instead of the tie, or in turned
-// axes is implied.
-TEST(Reactions, OfSupportsThatOthersImply) {
-  for (const std::string frame :
-       {"", "-constraint_pad_low_frame f -frame_f_x 3,4,0 -frame_f_xy 0,1,0 "}) {
-    test::setOptions(blocks("0") +
-                     "-tie_t_slave pad_low -tie_t_master disc_high "
-                     "-load_pad_high_force 100,200,-3000 -constraint_disc_high_clamped xyz "
-                     "-constraint_pad_low_clamped yz " +
-                     frame);
-    const Balance found;
-    EXPECT_NEAR(found.row("support", "pad_low").force[2], frame.empty() ? 3000 : 0, 1e-6);
-    // The tie carries the components that it keeps.
-    const Point tied = found.row("tie", "t").force;
-    EXPECT_NEAR(tied[0], -100, 1e-6);
-    EXPECT_NEAR(tied[1], frame.empty() ? 0 : -200, 1e-6);
-    EXPECT_NEAR(tied[2], frame.empty() ? 0 : 3000, 1e-6);
-  }
-}
-
-TEST(Reactions, OfStickingContact) {
-  for (const std::string limit :
-       {"", "-contact_c_friction 0.2 -contact_c_release on ",
-        "-contact_c_friction 0.01 -contact_c_release on -ground_pad_low_stiffness 1e9,1e9,1e4 "}) {
-    test::setOptions(blocks("0") +
-                     "-contact_c_pad pad_low -contact_c_disc disc_high -contact_c_role sticking "
-                     "-load_pad_high_pressure 1e5 -load_pad_high_force 3000,1000,0 " +
-                     limit);
-    const Balance found;
-    const Wrench force = found.row("interface", "c");
-    EXPECT_NEAR(force.force[2], 1e5 * 0.8 * 0.8, 10);
-    if (limit.empty()) {
-      EXPECT_NEAR(force.force[0], -3000, 1e-6);
-    }
-  }
-}
-
-TEST(Reactions, OfContactBetweenBodies) {
-  const std::string slide =
-      "-contact_c_pad pad_low -contact_c_disc disc_high -motion_disc_velocity 1,0,0 "
-      "-ground_pad_high_stiffness 1e10,2e10,0 -load_pad_high_pressure 1e5 ";
-  for (const std::string distance : {"0", "1e-3"}) {
-    test::setOptions(blocks(distance) + slide + "-ground_pad_low_stiffness 1e9,1e9,1e4 ");
-    const Balance found(sweep::Parameters{0.3});
-    const Wrench offset = found.row("interface_offset", "c");
-    // Friction acts at a distance if the surfaces lie apart.
-    EXPECT_NEAR(offset.moment[1], std::stod(distance) * found.row("interface", "c").force[0], 1e-6);
-    EXPECT_NEAR(found.row("interface", "c").force[2], 1e5 * 0.8 * 0.8, 10);
-    EXPECT_NEAR(found.row("interface", "c").force[0], 0.3 * found.row("interface", "c").force[2],
-                1e-6);
-  }
-}
-
-TEST(Reactions, OfThePeriodicLayers) {
-  for (const std::string name : {"layer", "two_layers"})
-    for (const double friction : {0.0, 0.3}) {
-      test::setCase(
-          name, name == "layer" ? "-mesh_set nx=12,ny=4" : "-mesh_set nx=12,ny_disc=4,ny_pad=3");
-      const Balance found(sweep::Parameters{friction});
-      EXPECT_TRUE(found.has("periodic"));
-      const Wrench interface = found.row("interface", name == "layer" ? "plate" : "interface");
-      EXPECT_GT(std::abs(interface.force[1]), 1e-3);
-      EXPECT_NEAR(std::abs(interface.force[0]), friction * std::abs(interface.force[1]), 1e-12);
-    }
-}
-
 // In the plane a reference node has one rotation.
 TEST(Reactions, InThePlane) {
   test::setOptions(
@@ -430,12 +264,6 @@ TEST(Reactions, InThePlane) {
   found.expect("coupling", "d", opposite(sum(loaded, found.row("bushing", "b"))));
   EXPECT_GT(std::abs(found.row("bushing", "b").moment[2]), 1e-6);
   found.expect("coupling", "c", opposite(found.row("support", "r")));
-}
-
-TEST(Reactions, OfMovingMatter) {
-  test::setCase("two_layers_moving", "-mesh_set nx=12,ny_disc=4,ny_pad=3");
-  const Balance found(sweep::Parameters{0.3});
-  EXPECT_TRUE(found.has("periodic"));
 }
 
 }  // namespace
