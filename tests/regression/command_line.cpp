@@ -3,6 +3,7 @@
 // mistakes in them.
 #include "support/harness/bad_input.hpp"
 #include "support/model/mesh_text.hpp"
+#include "support/run/own_case.hpp"
 
 namespace squeal::test {
 namespace {
@@ -132,34 +133,11 @@ TEST(CommandLine, NodesInNoCellAreTold) {
   }
 }
 
-/// A folder with a blank in its name, with a case and its mesh in it: "my case.yaml".
-fs::path ownCase(const std::string& name) {
-  const fs::path place = placeFor(name) / "my cases";
-  fs::remove_all(placeFor(name));
-  fs::create_directories(place);
-  for (const char* file : {"layer.geo", "grid.inc"})
-    fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "meshes" / file, place / file);
-  fs::rename(place / "layer.geo", place / "my layer.geo");
-  std::string text = contentOf(fs::path(SQUEAL_SOURCE_DIR) / "options/layer.yaml");
-  const std::string shipped = "../meshes/layer.geo";
-  text.replace(text.find(shipped), shipped.size(), "my layer.geo");
-  writeText(place / "my case.yaml", text);
-  return place;
-}
-
 /// The program without mpirun, and without the environment of the one that runs this test.
 const std::string alone =
     "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 "
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" SQUEAL_EXECUTABLE "'";
 
-/// The exit code of a shell command in a folder.
-int shell(const fs::path& folder, const std::string& command) {
-  const int status = std::system(("cd '" + folder.string() + "' && " + command).c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-}
-
-const std::string small =
-    " -mesh_set 'nx=6, ny=3' -modes_count 5 -flutter_friction '0, 0.2' -report_fields off";
 const std::string program = "'" SQUEAL_MPIEXEC "' 2 '" SQUEAL_EXECUTABLE "' ",
                   onOneRank = "'" SQUEAL_MPIEXEC "' serial '" SQUEAL_EXECUTABLE "' ";
 
@@ -190,80 +168,6 @@ TEST(CommandLine, CasesRunFromAnywhere) {
                            "/options/external.yaml' -quiet -report_dir '" +
                            (place / "external").string() + "'"),
             0);
-}
-
-/// scripts/run in a folder where there is nothing to build: a setup that installs and builds
-/// nothing, and the program of these tests.
-fs::path scriptsIn(const fs::path& place) {
-  fs::create_directories(place / "scripts/lib");
-  fs::create_directories(place / "build");
-  for (const char* script : {"run", "lib/run_case", "lib/ranks", "lib/report_dir"})
-    fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "scripts" / script, place / "scripts" / script);
-  fs::create_symlink(SQUEAL_EXECUTABLE, place / "build/squeal");
-  writeText(place / "scripts/setup",
-            "cd \"$(dirname \"${BASH_SOURCE[0]}\")/..\"\n"
-            "mpirun() { shift; '" SQUEAL_MPIEXEC "' \"$@\"; }\n");
-  writeText(place / "scripts/squeal-plot", "#!/bin/sh\necho plotted\n");
-  fs::permissions(place / "scripts/squeal-plot", fs::perms::owner_all);
-  return place / "scripts/run";
-}
-
-TEST(CommandLine, ScriptRunsAnOptionsFileOfAnyFolder) {
-  const fs::path place = ownCase("command_line/script"),
-                 run = scriptsIn(placeFor("command_line/script") / "a clone");
-  ASSERT_EQ(shell(place, "NP=1 '" + run.string() + "' './my case.yaml'" + small + " >out"), 0);
-  EXPECT_TRUE(fs::exists(place / "results/my case/eigenvalues.csv"));
-  EXPECT_NE(contentOf(place / "out").find("plotted"), std::string::npos);
-  // Paths on the command line are those of the caller, not of the clone.
-  fs::rename(place / "my layer.geo", place / "elsewhere.geo");
-  EXPECT_EQ(shell(place, "NP=2 '" + run.string() +
-                             "' 'my case.yaml' -mesh_file elsewhere.geo -report_dir 'my results'" +
-                             small + " >out"),
-            0);
-  EXPECT_TRUE(fs::exists(place / "my results/eigenvalues.csv"));
-  // The folder of the script replaces the one of the case, and a message reports it.
-  writeText(place / "with folder.yaml",
-            contentOf(place / "my case.yaml") + "report:\n  dir: mine\n");
-  EXPECT_EQ(shell(place, "NP=1 '" + run.string() +
-                             "' './with folder.yaml' -mesh_file elsewhere.geo" + small + " >out"),
-            0);
-  EXPECT_NE(
-      contentOf(place / "out")
-          .find("option -report_dir ./results/with folder replaces mine (./with folder.yaml, line"),
-      std::string::npos)
-      << contentOf(place / "out");
-  EXPECT_EQ(shell(place, "'" + run.string() + "' nosuch.yaml 2>err"), 1);
-  EXPECT_NE(contentOf(place / "err").find("no options file 'nosuch.yaml'"), std::string::npos);
-}
-
-// Without scripts/setup beside it, the script can neither install nor build.
-// More ranks than cores share these, unbound, and give way when they wait; fewer have BLAS threads.
-TEST(CommandLine, ScriptSharesOutTheCores) {
-  const auto holds = [](const std::string& ranks, const std::string& condition) {
-    return shell("/", "env -i PATH=\"$PATH\" NP=" + ranks +
-                          " bash -euc '. \"" SQUEAL_SOURCE_DIR
-                          "/scripts/lib/ranks\"; cores=$(physical_cores); choose_ranks; [ " +
-                          condition + " ]'") == 0;
-  };
-  const std::string crowded =
-      "\"${OMPI_MCA_mpi_yield_when_idle:-0}${OMPI_MCA_rmaps_base_oversubscribe:-0}"
-      "${OMPI_MCA_hwloc_base_binding_policy:-0}$OPENBLAS_NUM_THREADS\" = 11none1";
-  EXPECT_TRUE(holds("100000", crowded));
-  EXPECT_TRUE(holds("1", "\"${OMPI_MCA_mpi_yield_when_idle:-0}\" = 0"));
-  EXPECT_TRUE(holds("1", "\"$OPENBLAS_NUM_THREADS\" -eq \"$cores\""));
-  EXPECT_TRUE(holds("", "\"$NP\" -le \"$cores\""));
-}
-
-TEST(CommandLine, ScriptHelpBuildsNothing) {
-  const fs::path place = placeFor("command_line/help");
-  fs::remove_all(place);
-  fs::create_directories(place / "scripts/lib");
-  for (const char* script : {"run", "lib/run_case"})
-    fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "scripts" / script, place / "scripts" / script);
-  for (const char* call : {"scripts/run --help >out", "scripts/run disc_brake -h >out"}) {
-    EXPECT_EQ(shell(place, call), 0) << call;
-    EXPECT_NE(contentOf(place / "out").find("scripts/run [CASE]"), std::string::npos) << call;
-  }
 }
 
 TEST(CommandLine, MagnitudesAndSizesHaveLimits) {
