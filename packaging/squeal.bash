@@ -89,7 +89,7 @@ _squeal() {
     -regime_cycle_steps -regime_cycle_tolerance -regime_cycle_range
     -regime_cycle_motions -regime_cycles_kept -regime_frames
     -regime_air_impedance -regime_spectrum_points -report_matrices
-    -report_matrices_format -report_dir -report_note -report_fields
-    -report_modes -report_animated -report_pieces -report_frames"
+    -report_matrices_format -report_component_modes -report_dir -report_note
+    -report_fields -report_modes -report_animated -report_pieces -report_frames"
 }
 complete -o default -F _squeal squeal

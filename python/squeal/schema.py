@@ -231,6 +231,15 @@ TABLES = {
             number("motion_share", least=0, empty=True),
         )
     ),
+    "component_modes": Table(
+        (
+            word("body"),
+            whole("mode", 1),
+            *numbers("frequency_hz", **SIZE),
+            word("motion", empty=True),
+            number("motion_share", least=0, empty=True),
+        )
+    ),
     "participation": Table(
         (
             *POINT,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Cantilevers of steel, clamped at one end and free at the other, by the theories of beams and of
-/// rods.
+/// Beams of steel by the theories of beams and of rods: clamped at one end and free at the other,
+/// or free at both.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -29,26 +29,49 @@ struct Section {
   double length, width, height;  // bending along the height
 };
 
-/// Angular frequencies of bending of a Timoshenko cantilever (Huang 1961, J. Appl. Mech. 28, 579,
-/// clamped–free):
-///   2 + (b² (r² − s²)² + 2) cosh bα cos bβ − b (r² + s²) / √(1 − b² r² s²) sinh bα sin bβ = 0,
-///   b² = ρ A L⁴ ω² / (E I),  r² = I / (A L²),  s² = E I / (κ A G L²),  α, β = √(½ (∓(r² + s²) +
-///   √((r² − s²)² + 4/b²))).
-inline std::vector<double> bending(const Section& section, double poisson, std::size_t count) {
+/// The quantities of Huang's equations (1961, J. Appl. Mech. 28, 579) at a value of b:
+///   b² = ρ A L⁴ ω² / (E I),  r² = I / (A L²),  s² = E I / (κ A G L²),
+///   α, β = √(½ (∓(r² + s²) + √((r² − s²)² + 4/b²))).
+struct Huang {
+  double b, r2, s2, difference;  // r² − s²
+  double even, odd, root;        // cosh bα cos bβ, sinh bα sin bβ, √(1 − b² r² s²)
+};
+
+/// Angular frequencies of a Timoshenko beam whose ends satisfy an equation.
+inline std::vector<double> bending(const Section& section, double poisson, std::size_t count,
+                                   double (*equation)(const Huang&)) {
   const double inertia = section.height * section.height / 12;    // I / A
   const double kappa = 10 * (1 + poisson) / (12 + 11 * poisson);  // Cowper 1966
   const double l2 = section.length * section.length, r2 = inertia / l2,
                s2 = young / (kappa * shear(poisson)) * r2;
-  const auto equation = [&](double b) {
+  const auto of = [&](double b) {
     const double root = std::sqrt((r2 - s2) * (r2 - s2) + 4 / (b * b));
     const double alpha = std::sqrt((root - r2 - s2) / 2), beta = std::sqrt((root + r2 + s2) / 2);
-    return 2 + (b * b * (r2 - s2) * (r2 - s2) + 2) * std::cosh(b * alpha) * std::cos(b * beta) -
-           b * (r2 + s2) / std::sqrt(1 - b * b * r2 * s2) * std::sinh(b * alpha) *
-               std::sin(b * beta);
+    return equation({b, r2, s2, r2 - s2, std::cosh(b * alpha) * std::cos(b * beta),
+                     std::sinh(b * alpha) * std::sin(b * beta), std::sqrt(1 - b * b * r2 * s2)});
   };
-  auto list = roots(equation, 1, 1.01, count);
+  auto list = roots(of, 1, 1.01, count);
   for (auto& b : list) b *= std::sqrt(young * inertia / density) / l2;
   return list;
+}
+
+/// Clamped at one end, free at the other:
+///   2 + (b² (r² − s²)² + 2) cosh bα cos bβ − b (r² + s²) / √(1 − b² r² s²) sinh bα sin bβ = 0.
+inline std::vector<double> bending(const Section& section, double poisson, std::size_t count) {
+  return bending(section, poisson, count, [](const Huang& h) {
+    return 2 + (h.b * h.b * h.difference * h.difference + 2) * h.even -
+           h.b * (h.r2 + h.s2) / h.root * h.odd;
+  });
+}
+
+/// Free at both ends:
+///   2 − 2 cosh bα cos bβ + b / √(1 − b² r² s²) (b² r² (r² − s²)² + 3 r² − s²) sinh bα sin bβ = 0.
+inline std::vector<double> freeBending(const Section& section, double poisson, std::size_t count) {
+  return bending(section, poisson, count, [](const Huang& h) {
+    return 2 - 2 * h.even +
+           h.b / h.root * (h.b * h.b * h.r2 * h.difference * h.difference + 3 * h.r2 - h.s2) *
+               h.odd;
+  });
 }
 
 /// First torsion of a rod whose end sections may warp: ω = (π / 2L) √(G J / ρ I_p), J of a

@@ -330,7 +330,7 @@ Modes computeBy(const factor::AssociatedSystem& system, const Settings& settings
 
 }  // namespace
 
-Modes compute(const factor::AssociatedSystem& system, const Settings& given) {
+Modes compute(const factor::AssociatedSystem& system, const Settings& given, const Label& label) {
   Settings settings = given;
   const PetscInt size = rowsOf(system.k0());
   const MPI_Comm comm = commOf(system.k0());
@@ -343,7 +343,7 @@ Modes compute(const factor::AssociatedSystem& system, const Settings& given) {
                             settings.count, most, most < size ? " with mass" : ""));
     settings.count = most;  // the default
   }
-  Stage stage(comm, "modes");
+  Stage stage(comm, label.stage);
   Modes modes = computeBy(system, settings, stage);
   if (modes.rounding > 1e-6)
     printWarning(
@@ -352,14 +352,16 @@ Modes compute(const factor::AssociatedSystem& system, const Settings& given) {
             "free vibration: round-off in the stiffness may change the lowest eigenvalues by %.0e "
             "of their value; is a body nearly under-constrained, or a spring very stiff?",
             modes.rounding));
-  stage.finish(formatted(
-      "%d modes to %.4g Hz, worst relative residual %.1e%s", settings.count,
-      modes.angularFrequency.back() / (2 * M_PI),
-      *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
-      !settings.sturm ? ""
-      : modes.countConfirmed
-          ? formatted(", the lowest %d counted exactly by inertia", modes.inertiaCount).c_str()
-          : ", COUNT NOT CONFIRMED BY INERTIA"));
+  stage.finish(
+      label.subject +
+      formatted(
+          "%d modes to %.4g Hz, worst relative residual %.1e%s", settings.count,
+          modes.angularFrequency.back() / (2 * M_PI),
+          *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
+          !settings.sturm ? ""
+          : modes.countConfirmed
+              ? formatted(", the lowest %d counted exactly by inertia", modes.inertiaCount).c_str()
+              : ", COUNT NOT CONFIRMED BY INERTIA"));
   return modes;
 }
 

@@ -3,6 +3,7 @@
 /// The free vibration of the ideal associated system [4.17],
 ///   (K0 − ω² M0) d = 0,
 /// whose modes start the basis of the reduced problem.
+#include <string>
 #include <vector>
 
 #include "algebra/factor/associated_system.hpp"
@@ -27,11 +28,18 @@ struct Modes {
   double rounding = 0;
 };
 
+/// How the log names a computation of modes.
+struct Label {
+  std::string stage = "modes";
+  std::string subject = "";  ///< begins the line of the stage
+};
+
 /// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
 /// Unless `-modes_solver` selects one of these, LAPACK replaces them if most modes of a small
 /// problem are wanted, or if EPS too has missed modes of a problem of at most 2000 unknowns. An
 /// unconfirmed count is not an error. Throws Error if a given count exceeds the number of unknowns,
 /// if the solver does not converge, or if an eigenvalue is not positive within round-off.
-Modes compute(const factor::AssociatedSystem& system, const Settings& settings);
+Modes compute(const factor::AssociatedSystem& system, const Settings& settings,
+              const Label& label = {});
 
 }  // namespace squeal::modes

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
+#include "base/system/text.hpp"
 
 namespace squeal::energies {
 namespace {
@@ -48,6 +50,18 @@ linalg::DenseMatrix spread(const mesh::Mesh& mesh, const LumpedBody& body, const
   return sums;
 }
 
+/// Collective. Returns the principal axes.
+Principal principalOf(const mesh::Mesh& mesh, const LumpedBody& body, const Point& centre) {
+  linalg::DenseMatrix vectors = spread(mesh, body, centre);
+  const auto values = linalg::symmetricEigen(vectors);
+  Principal found{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    found.values[k] = values[2 - k];
+    found.axes[k] = {vectors(0, 2 - k), vectors(1, 2 - k), vectors(2, 2 - k)};
+  }
+  return found;
+}
+
 /// Collective. Returns the axis of a body of revolution; none of another body.
 std::optional<Axis> axisOf(const mesh::Mesh& mesh, const LumpedBody& body, const Point& centre,
                            const elasticity::Motion& motion) {
@@ -55,12 +69,11 @@ std::optional<Axis> axisOf(const mesh::Mesh& mesh, const LumpedBody& body, const
   if (motion.speed != 0) {
     candidates.push_back({motion.origin, motion.axis});
   } else {
-    linalg::DenseMatrix vectors = spread(mesh, body, centre);
-    const auto values = linalg::symmetricEigen(vectors);
+    const auto [values, axes] = principalOf(mesh, body, centre);
     // The two axes across are equal, so the axis is the first or the last.
-    const bool last = values[1] - values[0] < values[2] - values[1];
-    for (const std::size_t k : {last ? 2ul : 0ul, last ? 0ul : 2ul})
-      candidates.push_back({centre, {vectors(0, k), vectors(1, k), vectors(2, k)}});
+    const bool longest = values[1] - values[2] < values[0] - values[1];
+    for (const std::size_t k : {longest ? 0ul : 2ul, longest ? 2ul : 0ul})
+      candidates.push_back({centre, axes[k]});
   }
   for (const auto& axis : candidates)
     if (isRevolved(mesh, body, axis)) return axis;
@@ -70,8 +83,11 @@ std::optional<Axis> axisOf(const mesh::Mesh& mesh, const LumpedBody& body, const
 }  // namespace
 
 BodyMotions::BodyMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-                         const std::vector<std::vector<PetscInt>>& nodes)
-    : mesh_(mesh) {
+                         const std::vector<std::vector<PetscInt>>& nodes, std::vector<OwnModes> own)
+    : mesh_(mesh), named_(mesh.bodies.size()) {
+  for (std::size_t body = 0; body < own.size(); ++body)
+    for (const double frequency : own[body].angularFrequency)
+      named_[body].push_back({frequency, {}});
   if (mesh.dimension != 3) return;
   OwnedVec diagonal;
   check(MatCreateVecs(bodies.mass, diagonal.out(), nullptr));
@@ -82,6 +98,35 @@ BodyMotions::BodyMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodie
     for (const PetscInt node : nodes[body])
       lumped.mass.push_back((values[3 * node] + values[3 * node + 1] + values[3 * node + 2]) / 3);
     list_.push_back(bodyOf(lumped, bodies.motions[body]));
+  }
+  takeOwnModes(std::move(own));
+}
+
+/// Collective. Names the elastic modes of the bodies and keeps them with a unit lumped mass.
+void BodyMotions::takeOwnModes(std::vector<OwnModes> own) {
+  for (std::size_t b = 0; b < own.size(); ++b) {
+    Body& body = list_[b];
+    const std::size_t count = own[b].angularFrequency.size();
+    if (count == 0) continue;
+    std::optional<Sections> sections;
+    if (!body.revolution)
+      sections.emplace(mesh_, body.lumped, body.centre,
+                       principalOf(mesh_, body.lumped, body.centre));
+    body.own = std::move(own[b].vectors);
+    std::vector<double> squares(count, 0.0), nodal(3 * mesh_.ownedNodes, 0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto x = body.own.column(i);
+      for (std::size_t k = 0; k < body.lumped.nodes.size(); ++k)
+        for (std::size_t d = 0; d < 3; ++d) {
+          nodal[3 * body.lumped.nodes[k] + d] = x[3 * k + d];
+          squares[i] += body.lumped.mass[k] * x[3 * k + d] * x[3 * k + d];
+        }
+      named_[b][i].motion =
+          sections ? sections->name(nodal.data()) : body.revolution->name({nodal.data()});
+    }
+    mpi::sumAlike(mesh_.comm, squares);
+    for (std::size_t i = 0; i < count; ++i)
+      for (double& value : body.own.column(i)) value /= std::sqrt(squares[i]);
   }
 }
 
@@ -104,8 +149,9 @@ BodyMotions::Body BodyMotions::bodyOf(const LumpedBody& lumped,
   body.arm = arm;
   body.rigid = WeightedFit(std::move(gram));
   if (const auto axis = axisOf(mesh_, lumped, body.centre, motion)) {
-    body.revolution = std::make_unique<Revolution>(mesh_, lumped, *axis);
     body.axis = axis->direction;
+    if (!isBar(mesh_, lumped, *axis))
+      body.revolution = std::make_unique<Revolution>(mesh_, lumped, *axis);
   }
   return body;
 }
@@ -117,7 +163,7 @@ NamedMotion BodyMotions::revolvedName(const Body& body, const std::array<double,
   constexpr double aligned = 1 - 1e-6;
   std::string axis = "its axis";
   for (int i = 0; i < 3; ++i)
-    if (std::abs(body.axis[i]) > aligned) axis = "xyz"[i];
+    if (std::abs((*body.axis)[i]) > aligned) axis = "xyz"[i];
   const double along = shares[0] + shares[1] + shares[2], about = shares[3] + shares[4] + shares[5];
   const std::array<std::pair<double, std::string>, 4> all{{{axial[0], "along " + axis},
                                                            {along - axial[0], "along a diameter"},
@@ -151,12 +197,12 @@ NamedMotion BodyMotions::rigidName(const Body& body,
     for (std::size_t kind = 0; kind < 2; ++kind) {
       const Point x{c[3 * kind], c[3 * kind + 1], c[3 * kind + 2]},
           y{b[3 * kind], b[3 * kind + 1], b[3 * kind + 2]};
-      axial[kind] += mesh::dot(x, body.axis) * mesh::dot(y, body.axis);
+      if (body.axis) axial[kind] += mesh::dot(x, *body.axis) * mesh::dot(y, *body.axis);
     }
     total += sums[6];
   }
   if (!(total > 0)) return {};
-  if (body.revolution) return revolvedName(body, shares, axial, total);
+  if (body.axis) return revolvedName(body, shares, axial, total);
   double sum = 0;
   std::size_t largest = 0;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -167,6 +213,37 @@ NamedMotion BodyMotions::rigidName(const Body& body,
   return {std::string(largest < 3 ? "rigid along " : "rigid about ") + "xyz"[largest % 3], sum};
 }
 
+/// Collective. Returns the elastic modes of one name that have the largest share of a motion; a
+/// mode without a name of its own is called by its number.
+NamedMotion BodyMotions::elasticName(std::size_t b, const std::vector<const double*>& parts) const {
+  const Body& body = list_[b];
+  const std::size_t count = body.own.columns();
+  if (count == 0) return {};
+  std::vector<double> squares(count, 0.0);
+  double total = 0;
+  for (const double* values : parts) {
+    std::vector<double> sums(count + 1, 0.0);
+    for (std::size_t k = 0; k < body.lumped.nodes.size(); ++k)
+      for (std::size_t d = 0; d < 3; ++d) {
+        const double u = values[3 * body.lumped.nodes[k] + d], force = body.lumped.mass[k] * u;
+        for (std::size_t i = 0; i < count; ++i) sums[i] += force * body.own(3 * k + d, i);
+        sums[count] += force * u;
+      }
+    mpi::sumAlike(mesh_.comm, sums);
+    for (std::size_t i = 0; i < count; ++i) squares[i] += sums[i] * sums[i];
+    total += sums[count];
+  }
+  if (!(total > 0)) return {};
+  std::map<std::string, double> shares;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string& name = named_[b][i].motion.name;
+    shares[name.empty() ? formatted("elastic mode %zu", i + 1) : name] += squares[i] / total;
+  }
+  const auto& [name, share] =
+      *std::ranges::max_element(shares, {}, [](const auto& one) { return one.second; });
+  return {name, share};
+}
+
 std::vector<NamedMotion> BodyMotions::names(const std::vector<const double*>& parts) const {
   std::vector<NamedMotion> names(mesh_.bodies.size());
   for (std::size_t body = 0; body < list_.size(); ++body) {
@@ -174,7 +251,8 @@ std::vector<NamedMotion> BodyMotions::names(const std::vector<const double*>& pa
     if (names[body].share >= surelyRigid) continue;
     NamedMotion shape;
     if (list_[body].revolution) shape = list_[body].revolution->name(parts);
-    if (!shape.name.empty())
+    if (shape.name.empty()) shape = elasticName(body, parts);
+    if (!shape.name.empty() && shape.share >= clear)
       names[body] = shape;
     else if (names[body].share < clear)
       names[body] = {};

@@ -3,25 +3,38 @@
 /// Names of the motions of bodies in a mode.
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "model/elasticity/elasticity.hpp"
 #include "model/mesh/mesh.hpp"
+#include "problem/energies/own_modes.hpp"
 #include "problem/energies/revolution.hpp"
+#include "problem/energies/sections.hpp"
 
 namespace squeal::energies {
 
+/// An elastic mode of a body by itself.
+struct NamedMode {
+  double angularFrequency = 0;  ///< rad/s
+  NamedMotion motion;  ///< of a body of revolution, or of Sections; without a name in the plane
+};
+
 /// Names what each body does in a mode: the rigid motion that has 0.9 of its kinetic energy, or the
-/// diameters and circles of a body of revolution, or again a rigid motion that has 0.6. In space.
+/// diameters and circles of a body of revolution, or the elastic modes of the body by itself of one
+/// name, or again a rigid motion, that have 0.6. In space.
 class BodyMotions {
  public:
   /// Collective. Takes the owned nodes of each body, [body], and borrows the mesh during the
   /// lifetime of the object. A body that turns is analysed about its axis, another one about the
   /// principal axis of inertia about which it looks most alike. Its motions across the axis, which
   /// come in pairs, have one name: along or about a diameter. The weight of a node is the
-  /// diagonal of the mass matrix there; a common factor would change no share.
+  /// diagonal of the mass matrix there; a common factor would change no share. Takes the elastic
+  /// modes of each body by itself, [body]; empty: none.
   BodyMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-              const std::vector<std::vector<PetscInt>>& nodes);
+              const std::vector<std::vector<PetscInt>>& nodes, std::vector<OwnModes> own = {});
+  /// Returns the frequencies and names of the elastic modes, [body].
+  const std::vector<std::vector<NamedMode>>& ownModes() const { return named_; }
   /// Collective. Returns the name of the motion of each body, [body], in the mode with these parts:
   /// real, or real and imaginary nodal values, this rank's rows. All are empty in the plane.
   std::vector<NamedMotion> names(const std::vector<const double*>& parts) const;
@@ -29,19 +42,23 @@ class BodyMotions {
  private:
   struct Body {
     LumpedBody lumped;
-    Point centre{};          // of mass
-    double arm = 1;          // radius of gyration, m: rotations in units of 1/arm
-    WeightedFit rigid = {};  // of the motions along and about x, y, z through the centre
-    std::unique_ptr<Revolution> revolution = {};  // null if it is not a body of revolution
-    Point axis{};                                 // of revolution
+    Point centre{};                  // of mass
+    double arm = 1;                  // radius of gyration, m: rotations in units of 1/arm
+    WeightedFit rigid = {};          // of the motions along and about x, y, z through the centre
+    std::optional<Point> axis = {};  // direction of that of a body of revolution
+    std::unique_ptr<Revolution> revolution = {};  // null unless it is one and no bar
+    linalg::DenseMatrix own = {};  // elastic modes, 3 · nodes × count, of unit lumped mass
   };
   Body bodyOf(const LumpedBody& lumped, const elasticity::Motion& motion) const;
   NamedMotion revolvedName(const Body& body, const std::array<double, 6>& shares,
                            const std::array<double, 2>& axial, double total) const;
   NamedMotion rigidName(const Body& body, const std::vector<const double*>& parts) const;
+  void takeOwnModes(std::vector<OwnModes> own);
+  NamedMotion elasticName(std::size_t body, const std::vector<const double*>& parts) const;
 
   const mesh::Mesh& mesh_;
   std::vector<Body> list_;
+  std::vector<std::vector<NamedMode>> named_;  // [body]
 };
 
 }  // namespace squeal::energies

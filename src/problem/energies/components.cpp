@@ -38,8 +38,8 @@ void addScaled(OwnedMat& sum, double factor, Mat x) {
 }  // namespace
 
 Components::Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-                       const contact::Contact& contact)
-    : mesh_(mesh), bodies_(bodies), contact_(contact) {
+                       const contact::Contact& contact, std::vector<OwnModes> own)
+    : mesh_(mesh), bodies_(bodies), contact_(contact), nodesOf_(nodesOfBodies(mesh)) {
   const auto& settings = bodies.settings;
   for (const auto& body : mesh.bodies) list_.push_back({.kind = "body", .name = body});
   firstGround_ = list_.size();
@@ -72,36 +72,18 @@ Components::Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   pointMass_ = elasticity::formMatrix(mesh, masses, &Form::mass);
   findBodies();
   if (mpi::any(mesh.comm, !sharedNodes_.empty())) keepSharedRows();
-  motions_.emplace(mesh, bodies, nodesOf_);
+  motions_.emplace(mesh, bodies, nodesOf_, std::move(own));
 }
 
-/// Collective. Finds the owned nodes of each body, whose cells may be on any rank.
+/// Finds the body of each owned node, and the nodes that bodies share.
 void Components::findBodies() {
-  const PetscInt count = mesh_.bodies.size();
-  OwnedVec cells;  // [owned node][body] ranks with cells of the body at the node
-  check(VecCreateMPI(mesh_.comm, count * mesh_.ownedNodes, PETSC_DETERMINE, cells.out()));
-  std::vector<unsigned char> touches(count * mesh_.localNodes(), 0);  // [local node][body]
-  for (const auto& block : mesh_.cells)
-    for (std::size_t e = 0; e < block.tag.size(); ++e)
-      for (const PetscInt node : block.nodesOf(e)) touches[count * node + block.body[e]] = 1;
-  for (PetscInt node = 0; node < mesh_.localNodes(); ++node)
-    for (PetscInt body = 0; body < count; ++body)
-      if (touches[count * node + body])
-        check(VecSetValue(cells, count * mesh_.globalNode[node] + body, 1, ADD_VALUES));
-  check(VecAssemblyBegin(cells));
-  check(VecAssemblyEnd(cells));
-  const ReadArray values(cells);
-  nodesOf_.resize(count);
-  for (PetscInt node = 0; node < mesh_.ownedNodes; ++node) {
-    int bodies = 0;
-    bodyOf_.push_back(none);
-    for (PetscInt body = 0; body < count; ++body) {
-      if (values[count * node + body] == 0) continue;
-      nodesOf_[body].push_back(node);
-      bodyOf_.back() = ++bodies > 1 ? several : int(body);
-    }
-    if (bodies > 1) sharedNodes_.push_back(node);
-  }
+  std::vector<int> bodies(mesh_.ownedNodes, 0);
+  bodyOf_.assign(mesh_.ownedNodes, none);
+  for (std::size_t body = 0; body < nodesOf_.size(); ++body)
+    for (const PetscInt node : nodesOf_[body])
+      bodyOf_[node] = ++bodies[node] > 1 ? several : int(body);
+  for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
+    if (bodies[node] > 1) sharedNodes_.push_back(node);
 }
 
 void Components::keepSharedRows() {

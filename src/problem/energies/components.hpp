@@ -37,9 +37,10 @@ struct NodalProducts {
 class Components {
  public:
   /// Collective. Borrows all arguments during the lifetime of the object. Where bodies share nodes,
-  /// it assembles the matrices of each of them once and keeps the rows of these nodes.
+  /// it assembles the matrices of each of them once and keeps the rows of these nodes. Takes the
+  /// elastic modes of each body by itself, [body]; empty: none name motions.
   Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-             const contact::Contact& contact);
+             const contact::Contact& contact, std::vector<OwnModes> own = {});
   /// Returns the components, without shares: bodies in the order of the mesh, then the others.
   const std::vector<pencil::Component>& list() const { return list_; }
   /// Collective. Returns the forms of a nodal vector, [component]. Their sums are the forms of the
@@ -50,6 +51,8 @@ class Components {
   std::vector<NamedMotion> motions(const std::vector<const double*>& parts) const {
     return motions_->names(parts);
   }
+  /// Returns the frequencies and names of the elastic modes of each body by itself, [body].
+  const std::vector<std::vector<NamedMode>>& ownModes() const { return motions_->ownModes(); }
   /// Returns the index in the list of each interface, [interface]; none for ties.
   const std::vector<std::optional<std::size_t>>& ofInterfaces() const { return ofInterface_; }
 

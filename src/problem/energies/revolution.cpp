@@ -8,6 +8,7 @@
 
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
+#include "problem/energies/legendre.hpp"
 
 namespace squeal::energies {
 namespace {
@@ -24,14 +25,6 @@ std::array<Point, 3> axesOf(const Axis& axis) {
   return {x, mesh::cross(axis.direction, x), axis.direction};
 }
 
-/// Returns the Legendre polynomials of degrees 0 … 5.
-std::array<double, degrees> legendre(double x) {
-  std::array<double, degrees> p{1, x};
-  for (std::size_t k = 2; k < degrees; ++k)
-    p[k] = ((2.0 * k - 1) * x * p[k - 1] - (k - 1.0) * p[k - 2]) / k;
-  return p;
-}
-
 /// Returns the number of functions for n nodal diameters: with cos nθ, and with sin nθ.
 std::size_t sizeOf(int n) { return n == 0 ? functions : 2 * functions; }
 
@@ -41,13 +34,31 @@ std::size_t placeOf(int n, std::size_t component) {
   return before + component * sizeOf(n);
 }
 
-/// Returns the name of a motion of a bar; empty if it has none.
-std::string barName(int diameters, bool along, bool circumferential) {
-  if (diameters == 0) return along ? "axial" : circumferential ? "torsion" : "";
-  return diameters == 1 && !along ? "bending" : "";
+/// The extent of a body about an axis, m.
+struct Limits {
+  double inner, outer, bottom, top;  // radii, positions along the axis
+};
+
+/// Collective.
+Limits limitsOf(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis) {
+  std::array<double, 4> limits{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+  for (const PetscInt node : body.nodes) {
+    const Point x = mesh::minus(mesh.coordinates[node], axis.origin);
+    const double z = mesh::dot(x, axis.direction),
+                 r = mesh::length(mesh::tangential(x, axis.direction));
+    limits = {std::max(limits[0], -r), std::max(limits[1], r), std::max(limits[2], -z),
+              std::max(limits[3], z)};
+  }
+  mpi::reduce<double>(mesh.comm, limits, MPI_MAX);
+  return {-limits[0], limits[1], -limits[2], limits[3]};
 }
 
 }  // namespace
+
+bool isBar(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis) {
+  const Limits limits = limitsOf(mesh, body, axis);
+  return limits.top - limits.bottom > 3 * limits.outer;
+}
 
 bool isRevolved(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis) {
   const auto axes = axesOf(axis);
@@ -70,21 +81,14 @@ bool isRevolved(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis
 Revolution::Revolution(const mesh::Mesh& mesh, LumpedBody body, const Axis& axis)
     : mesh_(mesh), body_(std::move(body)), axes_(axesOf(axis)) {
   std::vector<std::pair<double, double>> meridian;  // radius, position along the axis
-  // −smallest radius, largest radius, −smallest position, largest position
-  std::array<double, 4> limits{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
   for (const PetscInt node : body_.nodes) {
     const Point x = mesh::minus(mesh.coordinates[node], axis.origin);
-    const double a = mesh::dot(x, axes_[0]), b = mesh::dot(x, axes_[1]), z = mesh::dot(x, axes_[2]);
-    const double r = std::hypot(a, b);
-    meridian.emplace_back(r, z);
+    const double a = mesh::dot(x, axes_[0]), b = mesh::dot(x, axes_[1]), r = std::hypot(a, b);
+    meridian.emplace_back(r, mesh::dot(x, axes_[2]));
     cosine_.push_back(r > 0 ? a / r : 1);
     sine_.push_back(r > 0 ? b / r : 0);
-    limits = {std::max(limits[0], -r), std::max(limits[1], r), std::max(limits[2], -z),
-              std::max(limits[3], z)};
   }
-  mpi::reduce<double>(mesh.comm, limits, MPI_MAX);
-  const double inner = -limits[0], outer = limits[1], bottom = -limits[2], top = limits[3];
-  isBar_ = top - bottom > 3 * outer;
+  const auto [inner, outer, bottom, top] = limitsOf(mesh, body_, axis);
   const auto scaled = [](double x, double from, double to) {
     return to > from ? (2 * x - from - to) / (to - from) : 0.0;
   };
@@ -92,7 +96,7 @@ Revolution::Revolution(const mesh::Mesh& mesh, LumpedBody body, const Axis& axis
   for (std::size_t k = 0; k < meridian.size(); ++k) {
     const double rho = scaled(meridian[k].first, inner, outer),
                  zeta = scaled(meridian[k].second, bottom, top);
-    const auto p = legendre(rho);
+    const auto p = legendre<degrees>(rho);
     for (std::size_t i = 0; i < degrees; ++i)
       polynomials_(k, i) = p[i], polynomials_(k, degrees + i) = p[i] * zeta;
     ring_.push_back(std::min(rings - 1, int((rho + 1) / 2 * rings)));
@@ -239,7 +243,6 @@ NamedMotion Revolution::name(const std::vector<const double*>& parts) const {
     best = larger, diameters = n, outOfPlane = share[2] > inPlane, shares = share;
   }
   if (best < clear) return {};
-  if (isBar_) return {barName(diameters, outOfPlane, shares[1] > shares[0]), best};
   if (outOfPlane)
     return {formatted("(%d,%d) out of plane", circles(diameters, all), diameters), best};
   return {formatted("in plane, %s, n = %d", shares[0] >= shares[1] ? "radial" : "circumferential",

@@ -30,6 +30,9 @@ struct Axis {
 ///   |Σ m r² e^{inθ}| ≤ 0.1 Σ m r².
 bool isRevolved(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis);
 
+/// Collective. Returns true if a body of revolution is longer than 3 of its radii.
+bool isBar(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis);
+
 /// What is clear about the motion of a body.
 struct NamedMotion {
   std::string name;  ///< such as "(0,4) out of plane"; empty if none is clear
@@ -47,8 +50,8 @@ class Revolution {
   Revolution(const mesh::Mesh& mesh, LumpedBody body, const Axis& axis);
   /// Collective. Returns the name of the motion whose parts (real, or real and imaginary) have
   /// these nodal values, this rank's rows: "(m,n) out of plane" with m nodal circles and n nodal
-  /// diameters, or "in plane, radial, n = …" or circumferential. A body that is longer than 3
-  /// radii is a bar: "bending", "torsion" or "axial". Without a share of 0.6 it has no name.
+  /// diameters, or "in plane, radial, n = …" or circumferential. Without a share of 0.6 it
+  /// has no name.
   NamedMotion name(const std::vector<const double*>& parts) const;
 
  private:
@@ -58,8 +61,7 @@ class Revolution {
 
   const mesh::Mesh& mesh_;
   LumpedBody body_;
-  std::array<Point, 3> axes_;  // e_x, e_y across the axis, and along it
-  bool isBar_ = false;
+  std::array<Point, 3> axes_;          // e_x, e_y across the axis, and along it
   std::vector<double> cosine_, sine_;  // [node]
   linalg::DenseMatrix polynomials_;    // P_i(ρ) P_j(ζ), node × 12
   std::vector<int> ring_;              // [node] bin of the radius

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "eigen/sweep_solver/results.hpp"
+#include "problem/energies/body_motions.hpp"
 #include "regime/regime/regime.hpp"
 
 namespace squeal::analysis {
@@ -18,6 +19,8 @@ struct Flutter {
   std::vector<regime::ModeOnset> onsets = {};  ///< first separation, stick or slip of the stored
                                                ///< unstable modes as they grow
   std::vector<regime::Study> regimes = {};     ///< motions after flutter
+  std::vector<std::vector<energies::NamedMode>> ownModes = {};  ///< [body] elastic modes of each
+                                                                ///< body by itself, if wanted
   /// Messages of failures, each with the point of the sweep and the remedy. All other results are
   /// valid. The program has already printed the messages.
   std::vector<std::string> failures = {};

@@ -27,6 +27,11 @@ const IntegerOption releasedOption(
     "largest number of contact nodes by which active sets that share a factorisation and a basis "
     "may differ; 0 = no sharing");
 
+const IntegerOption componentModesOption(
+    "report", "report_component_modes", 0, 0, 1000,
+    "number of elastic modes of each body by itself, free in space: they are listed with their "
+    "frequencies, and name what bodies do that are not of revolution, such as bending");
+
 /// Adds frictions to those of the sweep.
 void addFrictions(sweep::Settings& sweep, const std::vector<double>& more) {
   for (const double friction : more)
@@ -72,6 +77,7 @@ MeshSettings meshSettings(const Settings& others) {
                           others.pencil.isModallyDamped();
   settings.released = isSeparate ? 0 : releasedOption.get();
   settings.audit = audit::wanted();
+  settings.ownModes = componentModesOption.get();
   return settings;
 }
 

@@ -32,6 +32,7 @@ struct MeshSettings {
   /// `-flutter_released`: most contact nodes by which active sets that share a basis differ.
   int released = 150;
   bool audit = true;  ///< `-audit`: audit the model before the solution
+  int ownModes = 0;   ///< `-report_component_modes`: elastic modes of each body by itself
 };
 
 /// Settings of an analysis.

@@ -75,6 +75,19 @@ std::string modeComponentTable(const analysis::Analysis& analysis) {
   return table;
 }
 
+std::string ownModeTable(const analysis::Analysis& analysis) {
+  std::string table = "body,mode,frequency_hz,motion,motion_share\n";
+  const auto& bodies = analysis.flutter.ownModes;
+  for (std::size_t body = 0; body < bodies.size(); ++body)
+    for (std::size_t i = 0; i < bodies[body].size(); ++i) {
+      const auto& [frequency, motion] = bodies[body][i];
+      table += analysis.model.mesh->bodies[body] +
+               formatted(",%zu,%.15e,", i + 1, frequency / (2 * M_PI)) +
+               motionCells(motion.name, motion.share) + "\n";
+    }
+  return table;
+}
+
 std::string participationTable(const analysis::Analysis& analysis) {
   std::string table = sweep::parameterColumns() +
                       ",mode,growth_rate_1_per_s,frequency_hz,free_mode,free_frequency_hz,energy_"

@@ -38,6 +38,7 @@ const std::set<std::string> fixedNames{"eigenvalues.csv",
                                        "components.csv",
                                        "mode_components.csv",
                                        "participation.csv",
+                                       "component_modes.csv",
                                        output::Manifest::name};
 
 /// Returns the text between `begin` and `end`; none if the text does not begin and end with them.
