@@ -139,6 +139,17 @@ class Results:
         return self.table("participation")
 
     @functools.cached_property
+    def participation_bodies(self):
+        """MAC of the stored complex modes with their main free modes, body by body; None for
+        matrices from files."""
+        return self.table("participation_bodies")
+
+    @functools.cached_property
+    def component_modes(self):
+        """Elastic modes of each body by itself; None without -report_component_modes."""
+        return self.table("component_modes")
+
+    @functools.cached_property
     def sensitivities(self):
         """Derivatives of eigenvalues; None without -flutter_sensitivities."""
         return self.table("sensitivities")

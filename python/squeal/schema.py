@@ -252,6 +252,17 @@ TABLES = {
         ),
         together=(("free_frequency_hz", "amplitude", "phase_deg"),),
     ),
+    "participation_bodies": Table(
+        (
+            *POINT,
+            *MODE,
+            *numbers("frequency_hz"),
+            whole("free_mode", 1),
+            *numbers("free_frequency_hz", **SIZE),
+            word("body"),
+            number("mac", least=0),
+        )
+    ),
     "sensitivities": Table(
         (
             *POINT,

@@ -44,8 +44,8 @@ void expectMode(const NamedModes& modes, const std::string& name, double exact, 
 
 // Soft springs hold the bar in the model, and the modes of the whole are those of the bar by
 // itself: their frequencies differ by k/(2 m ω²) = 2e-5 at most. Against beam theory, the mesh
-// adds up to 1.3e-3 to the fourth bending mode (8e-3 with half as many cells along the bar), and its
-// two cells across half the section 3e-3 to torsion (1.4e-2 with one).
+// adds up to 1.3e-3 to the fourth bending mode (8e-3 with half as many cells along the bar), and
+// its two cells across half the section 3e-3 to torsion (1.4e-2 with one).
 TEST(OwnModes, OfABarAreThoseOfBeamTheory) {
   const analysis::Analysis analysis =
       runOptions(bar +
@@ -88,10 +88,10 @@ Mesh.ElementOrder = 2;
 // than 1e-3.
 TEST(OwnModes, OfABodyInPiecesLeaveOutAllRigidMotions) {
   const std::string file = writeFile("two_bars.geo", twoBars);
-  const analysis::Analysis analysis =
-      runOptions("-mesh_file " + file + steel +
-                 " -ground_bottom_stiffness 1e4,1e4,1e4 -ground_top_stiffness 1e4,1e4,1e4 -modes_count 16"
-                 " -report_component_modes 6 -flutter_friction 0 -flutter_band 1000");
+  const analysis::Analysis analysis = runOptions(
+      "-mesh_file " + file + steel +
+      " -ground_bottom_stiffness 1e4,1e4,1e4 -ground_top_stiffness 1e4,1e4,1e4 -modes_count 16"
+      " -report_component_modes 6 -flutter_friction 0 -flutter_band 1000");
   const auto& modes = analysis.flutter.ownModes.at(0);
   ASSERT_EQ(modes.size(), 6u);
   const auto exact = beam::freeBending({1, 0.04, 0.04}, poisson, 2);
@@ -100,8 +100,8 @@ TEST(OwnModes, OfABodyInPiecesLeaveOutAllRigidMotions) {
 }
 
 // A round bar, turned in space: both modes of a pair bend in arbitrary directions and share a name.
-// Their frequencies are those of a square bar with the same radius of gyration, to the difference of
-// the shear coefficients, which is below 1e-3; the mesh adds 3e-3.
+// Their frequencies are those of a square bar with the same radius of gyration, to the difference
+// of the shear coefficients, which is below 1e-3; the mesh adds 3e-3.
 TEST(OwnModes, OfARoundBarShareNames) {
   const std::string file = writeFile("round_bar.geo", R"(SetFactory("OpenCASCADE");
 Cylinder(1) = {0, 0, 0, 0.6, 0.48, 0.64, 0.02};
@@ -133,10 +133,10 @@ Physical Curve("bottom") = {1};
 Mesh.ElementOrder = 2;
 MeshSize{:} = 0.02;
 )");
-  const analysis::Analysis analysis = runOptions(
-      "-mesh_file " + file + steel +
-      " -elasticity_plane stress -ground_bottom_stiffness 1e4,1e4 -modes_count 8 "
-      "-report_component_modes 3 -flutter_friction 0 -flutter_band 1000");
+  const analysis::Analysis analysis =
+      runOptions("-mesh_file " + file + steel +
+                 " -elasticity_plane stress -ground_bottom_stiffness 1e4,1e4 -modes_count 8 "
+                 "-report_component_modes 3 -flutter_friction 0 -flutter_band 1000");
   const auto& modes = analysis.flutter.ownModes.at(0);
   ASSERT_EQ(modes.size(), 3u);
   const auto exact = beam::freeBending({1, 1, 0.02}, poisson, 3);

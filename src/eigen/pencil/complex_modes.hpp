@@ -88,6 +88,12 @@ struct Participation {
   double mac = 0;     ///< mass-weighted modal assurance criterion
 };
 
+/// The MAC of a complex mode with a free mode, body by body.
+struct BodyCorrelation {
+  std::size_t mode;         ///< index of the free mode
+  std::vector<double> mac;  ///< [body]
+};
+
 /// Returns the name of a mode from the motions of the bodies that have at least 0.15 of its kinetic
 /// energy, at most three, largest first: "disc (0,4) out of plane + pad rigid about x". A body
 /// whose motion is unclear is named without one; empty if that is so for all.
@@ -103,6 +109,7 @@ struct Shape {
                                      ///< growth rate, 1/s [M.52]; empty without contact
   std::vector<Component> components;  ///< the same on all ranks; empty for matrices from files
   std::vector<Participation> participations;  ///< [free mode]; not in checkpoints
+  std::vector<BodyCorrelation> correlations;  ///< most energy first; not in checkpoints
 };
 
 /// The derivative of an eigenvalue with respect to one parameter θ.

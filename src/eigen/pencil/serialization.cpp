@@ -46,15 +46,17 @@ void serialise(checkpoint::Archive& archive, ComplexModes& point) {
   std::size_t count = shapes.size();
   archive.common(count);
   shapes.resize(count);
-  for (auto& [index, real, imaginary, unknowns, frictionWork, components, participations] :
-       shapes) {
+  for (auto& [index, real, imaginary, unknowns, frictionWork, components, participations,
+              correlations] : shapes) {
     archive.common(index);
     archive.vector(real);
     archive.vector(imaginary);
     linalg::serialise(archive, unknowns);
     archive.own(frictionWork);
     archive.common(components);
-    participations.clear();  // from the free modes, once all points are solved
+    // These are from the free modes, once all points are solved.
+    participations.clear();
+    correlations.clear();
   }
 }
 

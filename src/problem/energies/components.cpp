@@ -39,7 +39,11 @@ void addScaled(OwnedMat& sum, double factor, Mat x) {
 
 Components::Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                        const contact::Contact& contact, std::vector<OwnModes> own)
-    : mesh_(mesh), bodies_(bodies), contact_(contact), nodesOf_(nodesOfBodies(mesh)) {
+    : mesh_(mesh),
+      bodies_(bodies),
+      contact_(contact),
+      mac_(mesh, bodies),
+      nodesOf_(nodesOfBodies(mesh)) {
   const auto& settings = bodies.settings;
   for (const auto& body : mesh.bodies) list_.push_back({.kind = "body", .name = body});
   firstGround_ = list_.size();

@@ -13,6 +13,7 @@
 #include "model/elasticity/elasticity.hpp"
 #include "model/mesh/mesh.hpp"
 #include "model/mesh/vector.hpp"
+#include "problem/energies/body_mac.hpp"
 #include "problem/energies/body_motions.hpp"
 
 namespace squeal::energies {
@@ -51,6 +52,8 @@ class Components {
   std::vector<NamedMotion> motions(const std::vector<const double*>& parts) const {
     return motions_->names(parts);
   }
+  /// Returns the comparison of motions body by body.
+  const BodyMac& bodyMac() const { return mac_; }
   /// Returns the frequencies and names of the elastic modes of each body by itself, [body].
   const std::vector<std::vector<NamedMode>>& ownModes() const { return motions_->ownModes(); }
   /// Returns the index in the list of each interface, [interface]; none for ties.
@@ -77,6 +80,7 @@ class Components {
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;
   const contact::Contact& contact_;
+  BodyMac mac_;
   std::vector<pencil::Component> list_;
   std::size_t firstGround_ = 0, firstForm_ = 0;
   std::vector<std::optional<std::size_t>> ofInterface_;  // [interface] component

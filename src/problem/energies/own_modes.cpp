@@ -63,8 +63,7 @@ BodyMatrices matricesOf(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
     addSquare(part.stiffness, own, sums.stiffness);
     addSquare(part.mass, own, sums.mass);
   }
-  if (sums.stiffness)
-    sums = {symmetrised(sums.stiffness), symmetrised(sums.mass)};
+  if (sums.stiffness) sums = {symmetrised(sums.stiffness), symmetrised(sums.mass)};
   return sums;
 }
 
@@ -161,8 +160,7 @@ std::vector<OwnModes> ownModes(const mesh::Mesh& mesh, const elasticity::Bodies&
   std::vector<OwnModes> found(nodes.size());
   for (std::size_t body = 0; body < nodes.size(); ++body)
     if (BodyMatrices matrices = matricesOf(mesh, bodies, body, nodes[body]); matrices.stiffness)
-      found[body] =
-          ownModesOf(mesh, std::move(matrices), nodes[body], mesh.bodies[body], count);
+      found[body] = ownModesOf(mesh, std::move(matrices), nodes[body], mesh.bodies[body], count);
   return found;
 }
 

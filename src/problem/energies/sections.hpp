@@ -44,7 +44,7 @@ class Sections {
   struct Family {
     enum class Kind { bending, torsion, axial } kind;
     std::string name;
-    std::size_t along = 0;   ///< index of e
+    std::size_t along = 0;                 ///< index of e
     std::vector<std::size_t> across = {};  ///< indices of the directions a of bending
     WeightedFit fit = {};
     std::size_t size() const;
@@ -55,9 +55,9 @@ class Sections {
   const mesh::Mesh& mesh_;
   LumpedBody body_;
   Principal axes_;
-  std::vector<Point> fromCentre_;                     // [node]
-  std::array<double, 2> lengths_{};                   // [axis] m
-  std::array<std::vector<double>, 2> polynomials_;    // [axis][node][degree]
+  std::vector<Point> fromCentre_;                   // [node]
+  std::array<double, 2> lengths_{};                 // [axis] m
+  std::array<std::vector<double>, 2> polynomials_;  // [axis][node][degree]
   std::vector<Family> families_;
 };
 

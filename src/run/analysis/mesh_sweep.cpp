@@ -273,6 +273,7 @@ void MeshSweep::withForms(const sweep::Parameters& at, std::size_t like,
 void MeshSweep::addComponents(sweep_solver::ModalSegment& segment) const {
   analysis::addComponents(components_, brake_.model.bodies, trial, prestress_, segment);
   addParticipations(*all_, segment);
+  addCorrelations(components_.bodyMac(), trial, segment);
 }
 
 /// Collective. Adds to a shape of a point its friction work and the shares of the components.

@@ -2,11 +2,14 @@
 #include "run/analysis/mode_components.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/columns.hpp"
+#include "base/petsc/arrays.hpp"
 #include "base/petsc/object.hpp"
 #include "base/system/mpi.hpp"
 #include "problem/energies/shares.hpp"
@@ -15,6 +18,17 @@ namespace squeal::analysis {
 namespace {
 
 constexpr PetscInt together = 16;  // modes
+
+/// Returns the free modes with the most energy in a mode, which make it up.
+std::vector<std::size_t> principalModes(std::vector<pencil::Participation> parts) {
+  constexpr std::size_t most = 3;
+  constexpr double least = 0.05;
+  std::ranges::stable_sort(parts, std::greater{}, &pencil::Participation::energy);
+  std::vector<std::size_t> found;
+  for (const auto& part : parts)
+    if (part.energy >= least && found.size() < most) found.push_back(part.mode);
+  return found;
+}
 
 }  // namespace
 
@@ -30,6 +44,33 @@ void addParticipations(const factor::AssociatedSystem& system,
     }
   auto found = pencil::participations(segment.modes, system, motions);
   for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i]->participations = std::move(found[i]);
+}
+
+void addCorrelations(const energies::BodyMac& mac, Mat trial, sweep_solver::ModalSegment& segment) {
+  std::map<std::size_t, PetscInt> columns;  // free mode -> column of the nodal values
+  for (const auto& point : segment.points)
+    for (const auto& shape : point.shapes)
+      for (const std::size_t mode : principalModes(shape.participations)) columns.emplace(mode, 0);
+  if (columns.empty()) return;
+  PetscInt rows = 0, nodalRows = 0;
+  check(MatGetLocalSize(trial, &nodalRows, &rows));
+  linalg::Block unknowns(rows), nodal(nodalRows);
+  const linalg::ReadColumns vectors(segment.modes.vectors);
+  for (auto& [mode, column] : columns) {
+    column = unknowns.columns();
+    unknowns.append(vectors.view().column(mode));
+  }
+  linalg::appendProduct(trial, unknowns, nodal);
+  for (auto& point : segment.points)
+    for (auto& shape : point.shapes) {
+      const auto modes = principalModes(shape.participations);
+      std::vector<std::span<const double>> motions;
+      for (const std::size_t mode : modes) motions.push_back(nodal.column(columns.at(mode)));
+      const ReadArray real(shape.real), imaginary(shape.imaginary);
+      auto macs = mac.of({real.data(), imaginary.data()}, motions);
+      for (std::size_t i = 0; i < modes.size(); ++i)
+        shape.correlations.push_back({modes[i], std::move(macs[i])});
+    }
 }
 
 std::vector<pencil::CriticalMode> describe(const factor::AssociatedSystem& system,

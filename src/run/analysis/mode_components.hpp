@@ -12,6 +12,10 @@ namespace squeal::analysis {
 /// `system` has the unknowns of the modes. Without free modes it adds none.
 void addParticipations(const factor::AssociatedSystem& system, sweep_solver::ModalSegment& segment);
 
+/// Collective. Adds to each stored complex mode its MAC, body by body, with the free modes that
+/// have the most energy in it: at most three, with a share of at least 0.05. `trial` is T.
+void addCorrelations(const energies::BodyMac& mac, Mat trial, sweep_solver::ModalSegment& segment);
+
 /// Collective. Adds the shares of the components in the free modes up to the top of the band of the
 /// segment, or in all of them without a band. `trial` is T; `prestress` is K_σ, null: none.
 void addComponents(const energies::Components& components, const elasticity::Bodies& bodies,

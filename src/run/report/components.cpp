@@ -100,6 +100,22 @@ std::string participationTable(const analysis::Analysis& analysis) {
   return table;
 }
 
+std::string bodyMacTable(const analysis::Analysis& analysis) {
+  std::string table =
+      sweep::parameterColumns() +
+      ",mode,growth_rate_1_per_s,frequency_hz,free_mode,free_frequency_hz,body,mac\n";
+  for (const auto& segment : analysis.flutter.segments)
+    for (const auto& point : segment.points)
+      for (const auto& shape : point.shapes)
+        for (const auto& [mode, mac] : shape.correlations)
+          for (std::size_t body = 0; body < mac.size(); ++body)
+            table += modeHead(point, shape) +
+                     formatted("%zu,%.15e,", mode + 1,
+                               segment.modes.angularFrequency[mode] / (2 * M_PI)) +
+                     analysis.model.mesh->bodies[body] + formatted(",%.9e\n", mac[body]);
+  return table;
+}
+
 std::string nameCell(const std::string& name) { return name.empty() ? "" : "\"" + name + "\""; }
 
 }  // namespace squeal::report

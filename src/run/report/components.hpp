@@ -11,6 +11,9 @@ namespace squeal::report {
 std::string componentTable(const analysis::Analysis& analysis);
 /// Returns mode_components.csv: the shares of each component in the free modes of the band.
 std::string modeComponentTable(const analysis::Analysis& analysis);
+/// Returns participation_bodies.csv: the MAC of each body with the free modes that have the most
+/// energy in a stored complex mode.
+std::string bodyMacTable(const analysis::Analysis& analysis);
 /// Returns component_modes.csv: the elastic modes of each body by itself.
 std::string ownModeTable(const analysis::Analysis& analysis);
 /// Returns participation.csv: the free modes that have at least 1e-4 of the energy or of the mass

@@ -38,6 +38,7 @@ const std::set<std::string> fixedNames{"eigenvalues.csv",
                                        "components.csv",
                                        "mode_components.csv",
                                        "participation.csv",
+                                       "participation_bodies.csv",
                                        "component_modes.csv",
                                        output::Manifest::name};
 

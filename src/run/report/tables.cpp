@@ -142,6 +142,7 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
     writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
     writeText(comm, folder / "components.csv", componentTable(analysis));
     writeText(comm, folder / "mode_components.csv", modeComponentTable(analysis));
+    writeText(comm, folder / "participation_bodies.csv", bodyMacTable(analysis));
     if (analysis.settings.mesh->ownModes > 0)
       writeText(comm, folder / "component_modes.csv", ownModeTable(analysis));
     writeText(comm, folder / "reactions.csv", reactionTable(analysis));

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The modal assurance criterion, body by body.
+#include <span>
+#include <vector>
+
+#include "model/elasticity/elasticity.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::energies {
+
+/// Compares motions of each body by
+///   MAC_b = |φᵀ D_b u|² / (φᵀ D_b φ · uᴴ D_b u),
+/// with the diagonal D_b of the mass matrix at the nodes of the body as lumped masses: a common
+/// factor cancels.
+class BodyMac {
+ public:
+  /// Collective. Borrows the mesh during the lifetime of the object.
+  BodyMac(const mesh::Mesh& mesh, const elasticity::Bodies& bodies);
+  /// Collective. Returns the MAC of a motion, by its real and imaginary nodal values, with each of
+  /// some real motions, [motion][body]; 0 for a body that does not move. All values are this rank's
+  /// rows.
+  std::vector<std::vector<double>> of(const std::vector<const double*>& parts,
+                                      const std::vector<std::span<const double>>& motions) const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  std::vector<std::vector<PetscInt>> nodes_;  // [body]
+  std::vector<double> mass_;                  // [owned displacement]
+};
+
+}  // namespace squeal::energies
