@@ -132,10 +132,12 @@ NamedMotion Sections::name(const double* values) const {
     sums.pop_back();
     if (!(total > 0)) return {};
     const double share = family.fit.explained(sums) / total;
-    // The lowest torsion of a plate is both its torsion and its cross torsion.
-    if (share < clear || share <= best.share + 0.01) continue;
+    if (share < clear || share <= best.share) continue;
     const int number = order(family, family.fit.coefficients(sums));
-    if (number >= 1) best = {formatted("%s %d", family.name.c_str(), number), share};
+    if (number < 1) continue;
+    // The lowest torsion of a plate, u = x y, is the same along both axes.
+    const bool isLowest = family.kind == Family::Kind::torsion && number == 1;
+    best = {isLowest ? "torsion 1" : formatted("%s %d", family.name.c_str(), number), share};
   }
   return best;
 }

@@ -26,7 +26,7 @@ struct Principal {
 ///   in-plane bending   e = 1, a = 2, of a flat body,
 ///   cross bending      e = 2, a = 3,
 ///   torsion            e = 1,
-///   cross torsion      e = 2,
+///   cross torsion      e = 2, from its second order on: the first is that of e = 1,
 ///   axial              e = 1.
 /// A body is flat if its third radius of gyration is less than 0.4 of its second.
 class Sections {
