@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "algebra/linalg/lu.hpp"
+#include "algebra/linalg/symmetric.hpp"
 #include "algebra/linalg/unsymmetric.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/log_events.hpp"
@@ -50,12 +51,46 @@ Complex rootOf(Complex mu) {
   return s.imag() < 0 ? -s : s;
 }
 
+/// Returns true if A = sign Aᵀ within round-off: max |A_ij − sign A_ji| ≤ 1e-13 max |A_ij|.
+bool hasSymmetry(const DenseMatrix& a, double sign) {
+  double size = 0, difference = 0;
+  for (PetscInt j = 0; j < a.columns(); ++j)
+    for (PetscInt i = 0; i <= j; ++i) {
+      size = std::max({size, std::abs(a(i, j)), std::abs(a(j, i))});
+      const double here = std::abs(a(i, j) - sign * a(j, i));
+      if (!(here <= difference)) difference = here;  // a NaN stays
+    }
+  return difference <= 1e-13 * size;
+}
+
+bool positiveDefinite(DenseMatrix a) {
+  PetscBLASInt order = a.rows(), info = 0;
+  LAPACKpotrf_("L", &order, a.data(), &order, &info);
+  return info == 0;
+}
+
 /// The leading matrix M of a quadratic problem and its factors, both borrowed. If possible, M⁻¹ A
 /// is formed, since QR takes a fraction of the time of QZ.
 struct LeadingMatrix {
   const DenseMatrix& matrix;
   const Lu<double>& factors;
 };
+
+/// Returns the wanted eigenvalues of K q = μ M q for symmetric matrices, M positive definite.
+std::vector<EigenPair> symmetricPairs(const DenseMatrix& mass, const DenseMatrix& stiffness,
+                                      Vectors vectors, const EigenvalueFilter& wanted) {
+  DenseMatrix factor = mass, q = stiffness;
+  const auto values = symmetricEigen(q, factor);
+  std::vector<EigenPair> pairs;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    if (!wanted(values[j])) continue;
+    const auto column = q.column(j);
+    auto& pair = pairs.emplace_back(
+        EigenPair{values[j], std::vector<Complex>(column.begin(), column.end()), {}});
+    if (vectors == Vectors::both) pair.left = pair.right;
+  }
+  return pairs;
+}
 
 std::vector<DensePair> linearInSquare(const LeadingMatrix& mass, const DenseMatrix& stiffness,
                                       Vectors vectors, const EigenvalueFilter& wanted) {
@@ -65,18 +100,21 @@ std::vector<DensePair> linearInSquare(const LeadingMatrix& mass, const DenseMatr
     const Complex s = rootOf(mu);
     return wanted(s) || (s.imag() == 0 && wanted(-s));
   };
+  const bool symmetric =
+      hasSymmetry(mass.matrix, 1) && hasSymmetry(stiffness, 1) && positiveDefinite(mass.matrix);
+  const bool inverted = !symmetric && invertible(mass.factors);
   DenseMatrix quotient = stiffness;
-  if (invertible(mass.factors)) mass.factors.solve(quotient);
-  const auto solved = invertible(mass.factors)
-                          ? standard(std::move(quotient), vectors, either)
-                          : generalized(stiffness, mass.matrix, vectors, either);
+  if (inverted) mass.factors.solve(quotient);
+  const auto solved = symmetric  ? symmetricPairs(mass.matrix, stiffness, vectors, either)
+                      : inverted ? standard(std::move(quotient), vectors, either)
+                                 : generalized(stiffness, mass.matrix, vectors, either);
   std::vector<DensePair> pairs;
   for (const auto& [mu, q, left] : solved) {
     const Complex s = rootOf(mu);
     if (wanted(s)) pairs.push_back({s, q, left});
     if (s.imag() == 0 && s != 0.0 && wanted(-s)) pairs.push_back({-s, q, left});
   }
-  if (vectors == Vectors::both && invertible(mass.factors)) undoInverse(mass.factors, pairs);
+  if (vectors == Vectors::both && inverted) undoInverse(mass.factors, pairs);
   return pairs;
 }
 
@@ -143,24 +181,6 @@ void normalise(std::vector<Complex>& vector) {
                     (entry.imag() == 0 ? 1 : std::conj(entry) / std::abs(entry)) / std::sqrt(sum);
   for (auto& value : vector) value *= factor;
   vector[largest] = vector[largest].real();
-}
-
-/// Returns true if A = sign Aᵀ within round-off: max |A_ij − sign A_ji| ≤ 1e-13 max |A_ij|.
-bool hasSymmetry(const DenseMatrix& a, double sign) {
-  double size = 0, difference = 0;
-  for (PetscInt j = 0; j < a.columns(); ++j)
-    for (PetscInt i = 0; i <= j; ++i) {
-      size = std::max({size, std::abs(a(i, j)), std::abs(a(j, i))});
-      const double here = std::abs(a(i, j) - sign * a(j, i));
-      if (!(here <= difference)) difference = here;  // a NaN stays
-    }
-  return difference <= 1e-13 * size;
-}
-
-bool positiveDefinite(DenseMatrix a) {
-  PetscBLASInt order = a.rows(), info = 0;
-  LAPACKpotrf_("L", &order, a.data(), &order, &info);
-  return info == 0;
 }
 
 /// Returns the conjugate of s = 1/t for a root t of the reversed polynomial with Im t ≥ 0. Its

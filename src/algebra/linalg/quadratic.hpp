@@ -40,8 +40,9 @@ using EigenvalueFilter = std::function<bool(Complex)>;
 /// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that `wanted` selects, by ascending
 /// Im s, then by ascending Re s. If Z is empty, s = 0 is double for each vector and is listed once.
 ///
-/// If Z is empty, the problem is linear in s² and is solved at size m. Otherwise its companion form
-/// of size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The QR algorithm uses the
+/// If Z is empty, the problem is linear in s² and is solved at size m, as a symmetric one if both
+/// matrices are symmetric within round-off and one is positive definite. Otherwise its companion
+/// form of size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The QR algorithm uses the
 /// inverse of K if K is well conditioned, otherwise that of M or K, whichever is better
 /// conditioned. If neither can be inverted safely, the QZ algorithm is used, which takes ten times
 /// as long.

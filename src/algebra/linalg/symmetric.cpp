@@ -9,7 +9,6 @@
 #include <cmath>
 #include <string>
 
-#include "algebra/linalg/lapack.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/log_events.hpp"
 
@@ -28,6 +27,54 @@ void requireEigenvalues(const char* routine, PetscBLASInt info, const std::vecto
                 " has an entry that is not finite or too large");
 }
 
+/// Calls a routine of LAPACK with real and integer work arrays, as
+///   call(work, length, integerWork, integerLength),
+/// first for the lengths.
+template <class Call>
+void callWithTwoWorks(const Call& call) {
+  double wanted = 0;
+  PetscBLASInt wantedIntegers = 0;
+  call(&wanted, -1, &wantedIntegers, -1);
+  std::vector<double> work(static_cast<std::size_t>(wanted));
+  std::vector<PetscBLASInt> integers(wantedIntegers);
+  call(work.data(), std::ssize(work), integers.data(), wantedIntegers);
+}
+
+/// Computes eigenvalues, and with the job "V" the vectors, which replace A. For some hundred
+/// columns, divide and conquer is several times faster than dsyev, whose rotations (dlasr) are not
+/// blocked.
+std::vector<double> solve(const char* job, DenseMatrix& a) {
+  ensure(a.rows() == a.columns(), "a symmetric matrix is square");
+  PetscBLASInt order = a.rows(), info = 0;
+  std::vector<double> values(order);
+  if (order == 0) return values;
+  const LoggedWork logged(Work::denseEigenvalues);
+  callWithTwoWorks(
+      [&](double* work, PetscBLASInt length, PetscBLASInt* integers, PetscBLASInt integerLength) {
+        LAPACKsyevd_(job, "L", &order, a.data(), &order, values.data(), work, &length, integers,
+                     &integerLength, &info);
+      });
+  requireEigenvalues("dsyevd", info, values);
+  return values;
+}
+
+/// Does the same for A x = λ B x; a Cholesky factor replaces B.
+std::vector<double> solve(const char* job, DenseMatrix& a, DenseMatrix& b) {
+  ensure(a.rows() == a.columns() && b.rows() == a.rows() && b.columns() == a.rows(),
+         "both matrices of an eigenproblem are square, of one order");
+  PetscBLASInt type = 1, order = a.rows(), info = 0;
+  std::vector<double> values(order);
+  if (order == 0) return values;
+  const LoggedWork logged(Work::denseEigenvalues);
+  callWithTwoWorks(
+      [&](double* work, PetscBLASInt length, PetscBLASInt* integers, PetscBLASInt integerLength) {
+        LAPACKsygvd_(&type, job, "L", &order, a.data(), &order, b.data(), &order, values.data(),
+                     work, &length, integers, &integerLength, &info);
+      });
+  requireEigenvalues("dsygvd", info, values);
+  return values;
+}
+
 }  // namespace
 
 DenseMatrix symmetricPart(const DenseView& a) {
@@ -37,40 +84,9 @@ DenseMatrix symmetricPart(const DenseView& a) {
   return s;
 }
 
-std::vector<double> symmetricEigen(DenseMatrix& a) {
-  ensure(a.rows() == a.columns(), "a symmetric matrix is square");
-  PetscBLASInt order = a.rows(), length = -1, integers = -1, info = 0, integerLength = 0;
-  std::vector<double> values(order);
-  if (order == 0) return values;
-  const LoggedWork logged(Work::denseEigenvalues);
-  double workLength = 0;
-  // For some hundred columns, divide and conquer is several times faster than dsyev, whose
-  // rotations (dlasr) are not blocked.
-  LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), &workLength, &length,
-               &integerLength, &integers, &info);
-  length = workLength;
-  integers = integerLength;
-  std::vector<double> work(length);
-  std::vector<PetscBLASInt> integerWork(integers);
-  LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length,
-               integerWork.data(), &integers, &info);
-  requireEigenvalues("dsyevd", info, values);
-  return values;
-}
-
-std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b) {
-  ensure(a.rows() == a.columns() && b.rows() == a.rows() && b.columns() == a.rows(),
-         "both matrices of an eigenproblem are square, of one order");
-  PetscBLASInt type = 1, order = a.rows(), info = 0;
-  std::vector<double> values(order);
-  if (order == 0) return values;
-  const LoggedWork logged(Work::denseEigenvalues);
-  callWithWork([&](double* work, PetscBLASInt length) {
-    LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(), work,
-                &length, &info);
-  });
-  requireEigenvalues("dsygv", info, values);
-  return values;
-}
+std::vector<double> symmetricEigen(DenseMatrix& a) { return solve("V", a); }
+std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b) { return solve("V", a, b); }
+std::vector<double> symmetricEigenvalues(DenseMatrix a) { return solve("N", a); }
+std::vector<double> symmetricEigenvalues(DenseMatrix a, DenseMatrix b) { return solve("N", a, b); }
 
 }  // namespace squeal::linalg

@@ -22,4 +22,9 @@ std::vector<double> symmetricEigen(DenseMatrix& a);
 /// and if B is not positive definite.
 std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b);
 
+/// Return only the eigenvalues of the same problems, which takes a fraction of the time. They read
+/// the lower triangles.
+std::vector<double> symmetricEigenvalues(DenseMatrix a);
+std::vector<double> symmetricEigenvalues(DenseMatrix a, DenseMatrix b);
+
 }  // namespace squeal::linalg

@@ -32,8 +32,8 @@ double smallestSingularValue(const linalg::ComplexMatrix& g) {
       real(p + i, j) = g(i, j).imag();
       real(i, p + j) = -g(i, j).imag();
     }
-  linalg::DenseMatrix gram = linalg::transposedProduct(real, real);
-  return std::sqrt(std::max(0.0, linalg::symmetricEigen(gram).front()));
+  const auto squares = linalg::symmetricEigenvalues(linalg::transposedProduct(real, real));
+  return std::sqrt(std::max(0.0, squares.front()));
 }
 
 }  // namespace

@@ -244,7 +244,8 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
   const PointState state = associatedState(point);
   modes::Modes modes = reduction::freeModes(basis(), state, associated);
   linalg::DenseProblem problem = basis_.project(state);
-  const auto values = linalg::symmetricEigen(problem.stiffness, problem.mass);
+  const auto values =
+      linalg::symmetricEigenvalues(std::move(problem.stiffness), std::move(problem.mass));
   setBand(values, basis_.set(set));
   if (count_)
     confirmCount(basis().comm(), *count_, {band_.top, values, state.set->space.boundary()}, modes);

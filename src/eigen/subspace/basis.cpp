@@ -276,8 +276,7 @@ double Basis::ratio(const linalg::Block& residuals, const linalg::DenseMatrix& e
   const linalg::DenseMatrix combinations =
       orthonormalising(linalg::transposedProduct(comm_, residuals, scaled), 1e-8);
   if (combinations.empty()) return 0;
-  linalg::DenseMatrix projected = linalg::congruent(energy, combinations);
-  return std::sqrt(linalg::symmetricEigen(projected).back());
+  return std::sqrt(linalg::symmetricEigenvalues(linalg::congruent(energy, combinations)).back());
 }
 
 std::vector<double> Basis::energyRatios(const std::vector<linalg::Block>& blocks) {

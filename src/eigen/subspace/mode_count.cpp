@@ -14,8 +14,7 @@ namespace {
 
 /// Returns the number of negative eigenvalues of a matrix that is symmetric within round-off.
 int countNegative(const DenseMatrix& a) {
-  DenseMatrix symmetric = linalg::symmetricPart(a);
-  const auto values = linalg::symmetricEigen(symmetric);
+  const auto values = linalg::symmetricEigenvalues(linalg::symmetricPart(a));
   return std::ranges::count_if(values, [](double value) { return value < 0; });
 }
 

@@ -28,8 +28,7 @@ double largestEigenvalue(const ReducedModel& model, double a, const std::vector<
   lu.solve(scaled);
   for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < n; ++i) scaled(i, j) *= roots[i];
-  DenseMatrix symmetric = linalg::symmetricPart(scaled);
-  return linalg::symmetricEigen(symmetric).back();
+  return linalg::symmetricEigenvalues(linalg::symmetricPart(scaled)).back();
 }
 
 }  // namespace

@@ -215,7 +215,7 @@ double stableStep(const ReducedModel& model) {
   for (PetscInt j = 0; j < k; ++j)
     for (PetscInt i = 0; i < k; ++i) stiffness(i, j) -= coupled(i, j) + coupled(j, i);
   linalg::addScaled(stiffness, 1, linalg::congruent(model.boundaryStiffness, model.jump));
-  return 2 / std::sqrt(linalg::symmetricEigen(stiffness).back());
+  return 2 / std::sqrt(linalg::symmetricEigenvalues(std::move(stiffness)).back());
 }
 
 double longestStep(const ReducedModel& model) {
@@ -226,7 +226,7 @@ double longestStep(const ReducedModel& model) {
   for (double& entry : stiffness.entries()) entry = -entry;
   for (PetscInt i = 0; i < model.modes(); ++i) stiffness(i, i) += model.stiffness[i];
   stiffness = linalg::symmetricPart(stiffness);
-  return 2 / std::sqrt(linalg::symmetricEigen(stiffness).back());
+  return 2 / std::sqrt(linalg::symmetricEigenvalues(std::move(stiffness)).back());
 }
 
 }  // namespace squeal::march

@@ -39,9 +39,8 @@ bool positiveMinors(const DenseMatrix& a) {
 
 }  // namespace
 
-std::vector<double> symmetricEigenvalues(const DenseMatrix& a) {
-  DenseMatrix s = linalg::symmetricPart(a);
-  return linalg::symmetricEigen(s);
+std::vector<double> eigenvaluesOfSymmetricPart(const DenseMatrix& a) {
+  return linalg::symmetricEigenvalues(linalg::symmetricPart(a));
 }
 
 bool positiveDefinite(const std::vector<double>& eigenvalues) {
@@ -64,11 +63,11 @@ bool surelyCopositive(const DenseMatrix& a) {
   for (PetscInt j = 0; j < s.columns(); ++j)
     for (PetscInt i = 0; i < s.rows(); ++i)
       if (i != j) s(i, j) = std::min(s(i, j), 0.0);
-  return positiveDefinite(symmetricEigenvalues(s));
+  return positiveDefinite(eigenvaluesOfSymmetricPart(s));
 }
 
 Judgement examineMatrix(const DenseMatrix& a, double friction, int pMatrixLimit) {
-  const auto eigenvalues = symmetricEigenvalues(a);
+  const auto eigenvalues = eigenvaluesOfSymmetricPart(a);
   const double smallest = eigenvalues.front();
   if (positiveDefinite(eigenvalues))
     return {friction, smallest, "one solution", "the condensed matrix is positive definite"};

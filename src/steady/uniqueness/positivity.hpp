@@ -20,7 +20,7 @@ struct Judgement {
 };
 
 /// Returns the eigenvalues of sym(A), ascending. Throws Error if LAPACK fails.
-std::vector<double> symmetricEigenvalues(const linalg::DenseMatrix& a);
+std::vector<double> eigenvaluesOfSymmetricPart(const linalg::DenseMatrix& a);
 
 /// Returns true if the smallest of these ascending eigenvalues is positive beyond round-off.
 bool positiveDefinite(const std::vector<double>& eigenvalues);

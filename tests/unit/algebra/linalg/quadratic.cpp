@@ -49,6 +49,36 @@ DenseMatrix reflected(const std::vector<double>& d, std::mt19937 generator) {
   return linalg::congruent(test::diagonal(d), q);
 }
 
+// Without damping, symmetric matrices have real s². Double frequencies, a stiffness without a sign
+// and a mass without one direction: no growth comes from rounding, and left vectors are right ones.
+TEST(Quadratic, SymmetricMatricesHaveRealSquares) {
+  constexpr PetscInt m = 50;
+  std::mt19937 generator(12);
+  std::vector<double> squares, some(m, 1.0);
+  for (PetscInt i = 0; i < m; ++i) squares.push_back(1e8 * (1 + i / 2));
+  const auto both = linalg::Vectors::both;
+  const DenseMatrix unit = reflected(some, generator);
+  auto pairs = solveQuadratic({unit, {}, reflected(squares, generator)}, both);
+  ASSERT_EQ(std::ssize(pairs), m);
+  for (PetscInt j = 0; j < m; ++j) {
+    EXPECT_EQ(pairs[j].s.real(), 0);
+    EXPECT_NEAR(pairs[j].s.imag() / std::sqrt(squares[j]), 1, 1e-13);
+    EXPECT_EQ(pairs[j].left, pairs[j].q);
+  }
+  some[3] = 0;  // no eigenvalue: this direction has no mass
+  const DenseProblem massless{reflected(some, generator), {}, reflected(squares, generator)};
+  pairs = solveQuadratic(massless, both, [](Complex s) { return std::abs(s) < 1e6; });
+  EXPECT_EQ(std::ssize(pairs), m - 1);
+  for (const auto& pair : pairs) EXPECT_EQ(pair.s.real(), 0);
+  squares[0] = -4e8;  // diverges: s = ±2e4
+  const DenseProblem buckled{unit, {}, reflected(squares, generator)};
+  pairs = solveQuadratic(buckled, both);
+  ASSERT_EQ(std::ssize(pairs), m + 1);
+  EXPECT_NEAR(pairs[0].s.real() / -2e4, 1, 1e-12);
+  EXPECT_NEAR(pairs[1].s.real() / 2e4, 1, 1e-12);
+  EXPECT_LT(test::worstResidual(buckled, pairs), 1e-13);
+}
+
 // Damping of the size of rounding, as at the first friction of a sweep, leaves the undamped
 // spectrum, double frequencies included.
 TEST(Quadratic, DampingThatIsNextToNothing) {

@@ -101,7 +101,7 @@ TEST(StaticResponses, AreHeldByTheBasis) {
   const double top = f.solve(0.5).at(0).bandTop;
   const linalg::Block after = f.reduced.basis().columns();
   const double bound =
-      0.03 / std::sqrt(test::symmetricEigenvalues(test::denseCopy(f.system->k0())).front());
+      0.03 / std::sqrt(linalg::symmetricEigenvalues(test::denseCopy(f.system->k0())).front());
   linalg::Block modes(before.rows());
   for (PetscInt j = 0; f.free.angularFrequency[j] < top; ++j) modes.append(before.column(j));
   ASSERT_GT(modes.columns(), 20);

@@ -38,7 +38,7 @@ int nullMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   linalg::DenseMatrix part(std::ssize(free), std::ssize(free));
   for (PetscInt i = 0; i < part.rows(); ++i)
     for (PetscInt j = 0; j < part.rows(); ++j) part(i, j) = k(free[i], free[j]);
-  const auto values = test::symmetricEigenvalues(part);
+  const auto values = linalg::symmetricEigenvalues(part);
   return std::ranges::count_if(values, [&](double x) { return x < 1e-12 * values.back(); });
 }
 

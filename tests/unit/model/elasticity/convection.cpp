@@ -57,7 +57,7 @@ TEST(Convection, GyroscopicMatrixIsSkewAndRotationStiffnessNegative) {
       for (PetscInt j = 0; j < g.rows(); ++j)
         ASSERT_TRUE(g(i, j) == -g(j, i) && k(i, j) == k(j, i)) << i << " " << j;
     EXPECT_GT(largestEntry(g), 0);
-    const auto values = test::symmetricEigenvalues(k);
+    const auto values = linalg::symmetricEigenvalues(k);
     EXPECT_LT(values.front(), 0);
     EXPECT_LT(values.back(), -1e-13 * values.front());  // rounding
   }

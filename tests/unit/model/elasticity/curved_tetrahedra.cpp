@@ -17,9 +17,9 @@
 namespace squeal {
 namespace {
 
+using linalg::symmetricEigenvalues;
 using mesh::Point;
 using test::form;
-using test::symmetricEigenvalues;
 using test::patch::density;
 using test::patch::poisson;
 using test::patch::young;

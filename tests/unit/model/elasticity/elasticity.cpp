@@ -18,10 +18,10 @@
 namespace squeal {
 namespace {
 
+using linalg::symmetricEigenvalues;
 using mesh::Point;
 using test::asymmetry;
 using test::form;
-using test::symmetricEigenvalues;
 using test::patch::density;
 using test::patch::Patch;
 using test::patch::poisson;

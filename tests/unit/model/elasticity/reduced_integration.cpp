@@ -47,7 +47,7 @@ std::vector<double> eigenvaluesOf(const element::ShapeTable& rule,
                                   const elasticity::ExposedCell& cell) {
   const material::Law law{material::isotropic(2, 0.3, 3, false), {}};
   const auto k = elasticity::stiffness(rule, {cell.point.begin(), cell.point.end()}, law, false);
-  return test::symmetricEigenvalues(test::square(k));
+  return linalg::symmetricEigenvalues(test::square(k));
 }
 
 // 48 = 8 points × 6 strains; 6 rigid motions and 6 hourglass modes remain of 60.

@@ -42,7 +42,7 @@ TEST(PMatrix, AgreesWithAllMinors) {
     const bool expected = test::smallestMinor(a) > 0;
     EXPECT_EQ(uniqueness::pMatrix(a), expected) << "trial " << trial;
     ++(expected ? yes : no);
-    indefinite += expected && uniqueness::symmetricEigenvalues(a).front() < 0;
+    indefinite += expected && uniqueness::eigenvaluesOfSymmetricPart(a).front() < 0;
   }
   test::print("%d P-matrices, %d of them not positive definite, %d others\n", yes, indefinite, no);
   EXPECT_GE(yes, 20);
