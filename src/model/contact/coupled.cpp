@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/petsc/object.hpp"
 #include "base/system/error.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
@@ -65,15 +66,21 @@ void requireUnknowns(const Contact& contact, const Transformation& transformatio
               joined(holding) + "); free some of them");
 }
 
-Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
-                       const ActiveSet& set, Mat prestress) {
+/// Collective. Returns T of an active set. Throws Error if nothing can move.
+Transformation transformationOf(const Contact& contact, const ActiveSet& set) {
   ActiveSet free{set.closed, {}};  // open nodes are also free along the surface
   for (const auto isClosed : set.closed) free.released.push_back(!isClosed);
   for (std::size_t i = 0; i < set.released.size(); ++i)
     free.released[i] = free.released[i] || set.released[i];
+  Transformation transformation = contact.transformation(free);
+  requireUnknowns(contact, transformation);
+  return transformation;
+}
+
+Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
+                       const ActiveSet& set, Mat prestress) {
   Projections result;
-  result.transformation = contact.transformation(free);
-  requireUnknowns(contact, result.transformation);
+  result.transformation = transformationOf(contact, set);
   OwnedMat stressed;
   if (prestress) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stressed.out()));
@@ -91,7 +98,56 @@ Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
   return result;
 }
 
+/// Collective. Returns the unknowns of this rank of an active set in the numbers of those with all
+/// contact open.
+OwnedIS columnsOf(MPI_Comm comm, const Transformation& set, const Transformation& open) {
+  const PetscInt first = mpi::sumBefore(comm, open.ownedColumns);
+  std::vector<PetscInt> columns;
+  for (const PetscInt row : set.rows)
+    columns.push_back(first + (std::ranges::lower_bound(open.rows, row) - open.rows.begin()));
+  OwnedIS part;
+  check(ISCreateGeneral(comm, columns.size(), columns.data(), PETSC_COPY_VALUES, part.out()));
+  return part;
+}
+
+/// Collective. Returns the rows and columns of a projection that belong to an active set.
+Projection partOf(const Projection& all, IS columns) {
+  Projection part;
+  if (!all) return part;
+  check(MatCreateSubMatrix(all.matrix, columns, columns, MAT_INITIAL_MATRIX, part.matrix.out()));
+  PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
+  check(MatIsSymmetricKnown(all.matrix, &known, &symmetric));
+  if (known && symmetric) check(MatSetOption(part.matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscInt first = 0, end = 0;
+  check(MatGetOwnershipRange(all.reaction, &first, &end));
+  OwnedIS rows;
+  check(ISCreateStride(commOf(all.reaction), end - first, first, 1, rows.out()));
+  check(MatCreateSubMatrix(all.reaction, rows, columns, MAT_INITIAL_MATRIX, part.reaction.out()));
+  return part;
+}
+
 }  // namespace
+
+OpenProjections::OpenProjections(const elasticity::Bodies& bodies, const Contact& contact)
+    : all_(projectAll(
+          bodies, contact,
+          {Mask(contact.interfaces.nodes.size(), 0), Mask(contact.interfaces.nodes.size(), 1)},
+          nullptr)) {}
+
+Projections OpenProjections::of(const Contact& contact, const ActiveSet& set) const {
+  Projections part;
+  part.transformation = transformationOf(contact, set);
+  const OwnedIS columns = columnsOf(contact.mesh->comm, part.transformation, all_.transformation);
+  part.stiffness = partOf(all_.stiffness, columns);
+  part.mass = partOf(all_.mass, columns);
+  part.damping = partOf(all_.damping, columns);
+  part.gyroscopic = partOf(all_.gyroscopic, columns);
+  part.rotationStiffness = partOf(all_.rotationStiffness, columns);
+  return part;
+}
+
+CoupledSystem::CoupledSystem(const OpenProjections& open, const Contact& contact, ActiveSet set)
+    : CoupledSystem(open.of(contact, set), set, countOpen(contact.mesh->comm, set.closed)) {}
 
 CoupledSystem::CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact,
                              ActiveSet set, Mat prestress)

@@ -36,6 +36,21 @@ struct Projections {
   Projection rotationStiffness;  ///< projections of K^R for the base motions
 };
 
+/// The projections with all contact open and all sticking nodes released. Those of every active set
+/// are parts of them: T of a set has some of the columns of this T.
+class OpenProjections {
+ public:
+  /// Collective. Projects the matrices of the bodies.
+  OpenProjections(const elasticity::Bodies& bodies, const Contact& contact);
+  /// Collective. Returns the projections of an active set.
+  Projections of(const Contact& contact, const ActiveSet& set) const;
+  /// Returns TᵀKT, borrowed.
+  Mat stiffness() const { return all_.stiffness.matrix; }
+
+ private:
+  Projections all_;
+};
+
 /// The coupled problem with the contact closed at the active nodes. Without friction and rotation
 /// it is the associated system [4.17],
 ///   K0 = Tᵀ K T,   M0 = Tᵀ M T.
@@ -48,6 +63,8 @@ class CoupledSystem : public factor::AssociatedSystem {
   /// added to K and has its pattern; it is borrowed during this call.
   CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact, ActiveSet set,
                 Mat prestress = nullptr);
+  /// Collective. Takes the same matrices, without prestress, from known projections.
+  CoupledSystem(const OpenProjections& open, const Contact& contact, ActiveSet set);
   const Transformation& transformation() const { return projections_.transformation; }
   const Projections& projections() const { return projections_; }
   /// Returns the active set; borrowed.

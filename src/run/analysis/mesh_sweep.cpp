@@ -82,6 +82,7 @@ MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, Current
   findSets();
   prestress_ = steady::prestressOf(*mesh, bodies, steadyAt(0));
   const auto systemOf = [&](const contact::ActiveSet& set) {
+    if (!prestress_) return current.make(set);
     return std::make_unique<contact::CoupledSystem>(brake.model.bodies, brake.model.contact, set,
                                                     prestress_);
   };
