@@ -95,6 +95,16 @@ void MumpsFactor::enableInertia(double zero) {
   if (zero > 0) id_.cntl[2] = zero;
 }
 
+void MumpsFactor::keep(const std::vector<PetscInt>& rows) {
+  kept_.clear();
+  for (const PetscInt row : rows) kept_.push_back(row + 1);
+  schur_.assign(rows.size() * rows.size(), 0.0);
+  icntl(19) = 1;  // centralised, by rows
+  id_.size_schur = std::ssize(kept_);
+  id_.listvar_schur = kept_.data();
+  id_.schur = schur_.data();
+}
+
 /// Passes the upper triangle of this rank's rows to MUMPS.
 void MumpsFactor::setEntries(Mat matrix) {
   PetscInt n = 0, first = 0, last = 0;

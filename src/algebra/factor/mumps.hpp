@@ -34,6 +34,12 @@ class MumpsFactor {
   /// Makes MUMPS report the signs of all pivots, for inertia(). Pivots below `zero` times the norm
   /// of the scaled matrix count as zero; with 0, MUMPS decides (about 1e-21).
   void enableInertia(double zero = 0);
+  /// Makes the next analyse() and factorise() eliminate all rows but these, 0-based and given on
+  /// rank 0, where schurComplement() then has the rest. solve() must not be called.
+  void keep(const std::vector<PetscInt>& rows);
+  /// Not collective. Returns the Schur complement of the rows of keep(), in their order, on rank 0:
+  /// the entries (i, j) with j ≤ i at [i · size + j]; others are undefined.
+  const std::vector<double>& schurComplement() const { return schur_; }
   /// Collective. Analyses the pattern. With `like`, the factor of a matrix of the same pattern and
   /// distribution, it reuses the elimination order of `like`. Throws Error if it fails.
   void analyse(Mat matrix, const MumpsFactor* like = nullptr);
@@ -64,7 +70,8 @@ class MumpsFactor {
   PetscInt localRows_ = 0;
   bool hasEntries_ = false;  // since analyse()
   std::vector<MUMPS_INT> rows_, columns_, ownRows_, solutionRows_, order_;
-  std::vector<double> entries_, solution_, byRows_;
+  std::vector<MUMPS_INT> kept_;  // 1-based rows of the Schur complement, on rank 0
+  std::vector<double> entries_, solution_, byRows_, schur_;
   PetscSF toOwners_ = nullptr;  // from the rows of the solution that MUMPS leaves here
 };
 

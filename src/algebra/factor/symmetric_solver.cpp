@@ -17,7 +17,7 @@ namespace squeal::factor {
 namespace {
 
 const SolverPrefix factorisation(
-    "modes", "modes_st_",
+    "modes", solverPrefix,
     "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, "
     "mat_mumps_*, …");
 

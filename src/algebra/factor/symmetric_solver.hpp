@@ -10,6 +10,9 @@
 
 namespace squeal::factor {
 
+/// The prefix of the options of all factorisations of symmetric matrices.
+inline constexpr char solverPrefix[] = "modes_st_";
+
 /// Collective. Returns a solver that applies the LDLᵀ factorisation of MUMPS once (KSPPREONLY),
 /// unless the options with this prefix say otherwise. The solver shares the matrix, which is not
 /// yet factorised.

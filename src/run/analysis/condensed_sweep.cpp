@@ -21,12 +21,13 @@ std::string endText(const condensed::ContactPath& path) {
 
 }  // namespace
 
-CondensedSweep::CondensedSweep(const SteadyInput& input, const contact::CoupledSystem& closed,
+CondensedSweep::CondensedSweep(const SteadyInput& input, CurrentSystem& current,
                                SteadyStates& states)
     : input_(input),
       comm_(input.model.mesh->comm),
       problem_(*input.model.mesh, input.model.bodies, input.model.contact),
-      closed_(closed),
+      current_(current),
+      closed_(current.of(input.model.bonded())),
       isExact_(condensed::CondensedProblem::isExact(input.model.contact, input.model.bodies)),
       states_(states) {}
 
@@ -53,6 +54,7 @@ void CondensedSweep::solveBatch(const std::vector<sweep::Parameters>& points) {
   Stage stage(comm_, "steady");
   if (!condensed_) {
     condensed_.emplace(problem_, closed_);
+    condensed_->offer([this] { return current_.open().stiffness(); });
     const auto last = std::ranges::find_if(solutions.rbegin(), solutions.rend(),
                                            [](const auto& one) { return one.converged; });
     if (last != solutions.rend()) condensed_->continueFrom(*last);

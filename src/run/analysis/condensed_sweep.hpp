@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "run/analysis/current_system.hpp"
 #include "run/analysis/state_log.hpp"
 #include "run/analysis/steady_sweep.hpp"
 #include "steady/condensed/condensed_problem.hpp"
@@ -14,10 +15,9 @@ namespace squeal::analysis {
 /// the contact between neighbouring points. All members are collective.
 class CondensedSweep {
  public:
-  /// Borrows all arguments during the life of the object. `closed` is the system with all contact
-  /// nodes closed; `states` has the states of the first points.
-  CondensedSweep(const SteadyInput& input, const contact::CoupledSystem& closed,
-                 SteadyStates& states);
+  /// Collective. Borrows all arguments during the life of the object, in which `current` must not
+  /// be asked for another active set. `states` has the states of the first points.
+  CondensedSweep(const SteadyInput& input, CurrentSystem& current, SteadyStates& states);
   /// Adds the missing states, and the path between them, and logs them.
   void solve(StateLog& log);
 
@@ -42,8 +42,9 @@ class CondensedSweep {
   const SteadyInput input_;
   const MPI_Comm comm_;
   const steady::Problem problem_;
-  const contact::CoupledSystem& closed_;
-  const bool isExact_;  // solutions between points are exact without corrections
+  CurrentSystem& current_;
+  const contact::CoupledSystem& closed_;  // with all contact nodes closed
+  const bool isExact_;                    // solutions between points are exact without corrections
   std::optional<condensed::CondensedProblem> condensed_;
   SteadyStates& states_;
 };

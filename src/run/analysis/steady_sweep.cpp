@@ -55,7 +55,7 @@ SteadyStates steadyStates(const SteadyInput& input, checkpoint::Checkpoint& chec
     if (input.settings.full)
       fullSweep(input, log, system, states);
     else
-      CondensedSweep(input, system.of(input.model.bonded()), states).solve(log);
+      CondensedSweep(input, system, states).solve(log);
     log.finish();
   });
   return states;

@@ -2,6 +2,7 @@
 #pragma once
 /// Solution of steady sliding in the unknowns of the contact, since all other equations are linear
 /// or nearly so [3.10–3.13, M.59].
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -42,6 +43,8 @@ class CondensedProblem {
   /// sticking nodes held, during the lifetime of the object.
   CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed);
   ~CondensedProblem();
+  /// Offers TᵀKT with all contact open and all sticking nodes released (Impedance::offer()).
+  void offer(std::function<Mat()> openStiffness);
   /// Collective. Solves at all points as Problem::solve() does, starting from the gaps and holds of
   /// the last solution of the last call. During the call, memory holds some vectors of all unknowns
   /// per point.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "steady/impedance/contact_solver.hpp"
 
-#include <slepcblaslapack.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,6 +10,7 @@
 #include "base/petsc/object.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/mpi.hpp"
+#include "steady/impedance/symmetric_inverse.hpp"
 
 namespace squeal::impedance {
 
@@ -26,9 +25,6 @@ constexpr double accepted = 1e-8;
 /// Remaining forces on free unknowns above this fraction of the largest given one show a rigid-body
 /// mode.
 constexpr double balancedForces = 1e-6;
-/// Directions of the stiffness of the open gaps that are softer than this fraction of the stiffest
-/// one are rigid-body modes.
-constexpr double rigid = 1e-12;
 /// The largest number of directions per call.
 constexpr PetscInt mostDirections = 500;
 /// The remainder of a direction, a unit vector, must be longer than this after orthogonalisation
@@ -47,37 +43,13 @@ DenseMatrix gathered(const Concatenation& ranks, const DenseView& rows) {
   return all;
 }
 
-/// The inverse of a symmetric matrix that should be positive definite.
-class SymmetricInverse {
- public:
-  explicit SymmetricInverse(DenseMatrix a) : factor_(std::move(a)) {
-    PetscBLASInt order = factor_.rows(), info = 0;
-    if (order == 0) return;
-    const DenseMatrix whole = factor_;
-    LAPACKpotrf_("L", &order, factor_.data(), &order, &info);
-    if (info == 0) return;
-    factor_ = whole;
-    values_ = linalg::symmetricEigen(factor_);
-  }
-  /// Replaces the columns of x by A⁻¹ x, without the directions of zero stiffness.
-  void apply(DenseMatrix& x) const {
-    PetscBLASInt order = factor_.rows(), columns = x.columns(), info = 0;
-    if (order == 0 || columns == 0) return;
-    if (values_.empty()) {
-      LAPACKpotrs_("L", &order, &columns, factor_.data(), &order, x.data(), &order, &info);
-      return;
-    }
-    DenseMatrix parts = linalg::transposedProduct(factor_, x);
-    for (PetscInt j = 0; j < parts.columns(); ++j)
-      for (PetscInt i = 0; i < parts.rows(); ++i)
-        parts(i, j) = values_[i] > rigid * values_.back() ? parts(i, j) / values_[i] : 0;
-    x = linalg::product(factor_, parts);
-  }
-
- private:
-  DenseMatrix factor_;          // Cholesky factor, or eigenvectors
-  std::vector<double> values_;  // eigenvalues, if the matrix is not positive definite
-};
+/// Returns some rows of a matrix.
+DenseMatrix rowsOf(const std::vector<PetscInt>& rows, const DenseView& matrix) {
+  DenseMatrix part(std::ssize(rows), matrix.columns());
+  for (PetscInt j = 0; j < part.columns(); ++j)
+    for (PetscInt i = 0; i < part.rows(); ++i) part(i, j) = matrix(rows[i], j);
+  return part;
+}
 
 /// Collective. Returns the coefficients a that minimise |b − G a|. It refines the normal equations,
 /// which gives all digits if the condition number of G is below some 1e7.
@@ -104,7 +76,8 @@ struct ContactSolver::FreeBlock {
   std::vector<PetscInt> places;     // [free unknown of any rank] its column
   Concatenation ranks;              // of `local`
   SymmetricInverse stiffness;       // F of w among the free unknowns
-  DenseMatrix normal;               // R of the friction magnitudes with the free unknowns released
+  /// R of the friction magnitudes with the free unknowns released, [frictional node]
+  DenseMatrix normal;
 
   double bytes() const { return 8.0 * ranks.size() * ranks.size(); }
 };
@@ -136,13 +109,26 @@ void ContactSolver::computeColumns(std::span<const unsigned char> free) {
     if (free[i] && place_.count(first_ + i) == 0) wanted.push_back(first_ + i);
   const auto all = concatenated(impedance_.comm(), wanted);
   if (all.empty()) return;
-  const PetscInt n = impedance_.nodes(), m = free.size();
-  DenseMatrix units(n + m, std::ssize(all));
-  for (PetscInt j = 0; j < units.columns(); ++j) {
-    if (const PetscInt i = all[j] - first_; i >= 0 && i < m) units(n + i, j) = 1;
-    place_.emplace(all[j], place_.size());
-  }
-  columns_.append(impedance_.responses(units));
+  for (const PetscInt unknown : all) place_.emplace(unknown, place_.size());
+  const DenseMatrix fresh = impedance_.responsesToUnits(all);
+  columns_.append(fresh);
+  frictionalColumns_.append(rowsOf(frictional_, fresh));
+}
+
+/// Collective. Extends the list of nodes with friction by those of these cases.
+void ContactSolver::noteFriction(std::span<const ContactCase> cases) {
+  std::vector<unsigned char> known(impedance_.nodes(), 0);
+  for (const PetscInt node : frictional_) known[node] = 1;
+  const std::size_t before = frictional_.size();
+  for (const auto& one : cases)
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (one.conditions.coefficient[i] != 0 && !known[i]) {
+        known[i] = 1;
+        frictional_.push_back(i);
+      }
+  if (!mpi::any(impedance_.comm(), frictional_.size() > before)) return;
+  frictionalColumns_ = rowsOf(frictional_, columns_);
+  for (auto& block : blocks_) block->normal = DenseMatrix(std::ssize(frictional_));
 }
 
 double ContactSolver::gapStiffness(std::size_t node) const {
@@ -179,10 +165,10 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
     check(PetscObjectReference(object(conditions.direct)));
     direct = OwnedMat(conditions.direct);
   }
-  blocks_.insert(
-      blocks_.begin(),
-      std::make_shared<FreeBlock>(free, std::move(direct), std::move(local), std::move(places),
-                                  ranks, SymmetricInverse(std::move(stiffness)), DenseMatrix(n)));
+  blocks_.insert(blocks_.begin(),
+                 std::make_shared<FreeBlock>(
+                     free, std::move(direct), std::move(local), std::move(places), ranks,
+                     SymmetricInverse(std::move(stiffness)), DenseMatrix(std::ssize(frictional_))));
   double bytes = 0;
   const auto kept =
       std::ranges::find_if(blocks_.begin() + 1, blocks_.end(), [&](const auto& block) {
@@ -193,9 +179,9 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
   return blocks_.front();
 }
 
-/// Releases the free unknowns until F = 0 there. Returns their values, [free unknown of any rank],
-/// and adds their effects to `effects`.
-DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects) const {
+/// Returns the values of the free unknowns, [known column], that make F = 0 there; each rank has
+/// all of them.
+DenseMatrix ContactSolver::released(const FreeBlock& block, const DenseView& effects) const {
   const PetscInt n = impedance_.nodes();
   DenseMatrix rows(block.local.size(), effects.columns());
   for (PetscInt j = 0; j < effects.columns(); ++j)
@@ -206,8 +192,15 @@ DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects)
   DenseMatrix amounts(columns_.columns(), freed.columns());
   for (PetscInt j = 0; j < freed.columns(); ++j)
     for (PetscInt i = 0; i < freed.rows(); ++i) amounts(block.places[i], j) = freed(i, j);
+  return amounts;
+}
+
+/// Releases the free unknowns until F = 0 there. Returns their values, [known column], and adds
+/// their effects to `effects`.
+DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects) const {
+  DenseMatrix amounts = released(block, effects);
   if (!amounts.empty()) linalg::multiplyAdd(columns_, amounts, effects);
-  return freed;
+  return amounts;
 }
 
 /// Adds the direct effects of the friction t, which may have several columns, to `effects`.
@@ -227,8 +220,11 @@ void ContactSolver::update(FreeBlock& block) const {
   if (known == all) return;
   DenseMatrix fresh(responses_.columnRange(known, all));
   addDirect(block, magnitudes_.columnRange(known, all), fresh);
-  release(block, fresh);
-  block.normal.append(linalg::rowRange(fresh, 0, impedance_.nodes()));
+  // Elsewhere c = 0, and R is not needed: most of the nodes of a brake have no friction.
+  DenseMatrix normal = rowsOf(frictional_, fresh);
+  const DenseMatrix amounts = released(block, fresh);
+  if (!amounts.empty()) linalg::multiplyAdd(frictionalColumns_, amounts, normal);
+  block.normal.append(normal);
 }
 
 /// Adds directions, [contact node]×[direction], to the space of friction magnitudes, without their
@@ -273,7 +269,8 @@ void ContactSolver::balance(std::vector<Search>& searches, double accuracy) {
       const auto& coefficient = search.contactCase.conditions.coefficient;
       DenseMatrix g = magnitudes_;  // t − c R
       for (PetscInt j = 0; j < g.columns(); ++j)
-        for (PetscInt i = 0; i < n; ++i) g(i, j) -= coefficient[i] * search.block->normal(i, j);
+        for (std::size_t i = 0; i < frictional_.size(); ++i)
+          g(frictional_[i], j) -= coefficient[frictional_[i]] * search.block->normal(i, j);
       search.weights = leastSquares(comm, g, search.wanted);
       DenseMatrix rest = search.wanted;
       linalg::multiplyAdd(g, search.weights, rest, -1);
@@ -305,7 +302,7 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   result.causes.assign(length, 0.0);
   std::ranges::copy(t.entries(), result.causes.begin());
   for (std::size_t i = 0; i < local.size(); ++i)
-    result.causes[n + local[i]] = freed(search.block->ranks.ownBegin() + i, 0);
+    result.causes[n + local[i]] = freed(place_.at(first_ + local[i]), 0);
   result.effects.assign(effects.entries().begin(), effects.entries().end());
   return result;
 }
@@ -334,6 +331,7 @@ std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> c
   for (const auto& one : cases)
     std::ranges::transform(free, one.conditions.free, free.begin(), std::bit_or<unsigned char>());
   computeColumns(free);
+  noteFriction(cases);
   std::vector<ContactSolution> solutions;
   const auto begins = groups(cases);
   for (std::size_t group = 0; group + 1 < begins.size(); ++group) {

@@ -73,9 +73,11 @@ class ContactSolver {
   struct Search;
   void computeColumns(std::span<const unsigned char> free);
   std::shared_ptr<FreeBlock> blockOf(const ContactConditions& conditions);
+  linalg::DenseMatrix released(const FreeBlock& block, const linalg::DenseView& effects) const;
   linalg::DenseMatrix release(const FreeBlock& block, linalg::DenseMatrix& effects) const;
   void addDirect(const FreeBlock& block, const linalg::DenseView& t,
                  linalg::DenseMatrix& effects) const;
+  void noteFriction(std::span<const ContactCase> cases);
   void update(FreeBlock& block) const;
   std::vector<std::size_t> groups(std::span<const ContactCase> cases) const;
   void balance(std::vector<Search>& searches, double accuracy);
@@ -86,6 +88,8 @@ class ContactSolver {
   PetscInt first_ = 0;                              // number of this rank's first released unknown
   std::unordered_map<PetscInt, PetscInt> place_;    // of a released unknown in the next
   linalg::DenseMatrix columns_;                     // Z (0, e), [n + m]×[known column]
+  std::vector<PetscInt> frictional_;                // contact nodes with c in some case so far
+  linalg::DenseMatrix frictionalColumns_;           // R of them, [frictional node]×[known column]
   linalg::DenseMatrix magnitudes_, responses_;      // t, orthonormal, and Z (t, 0)
   std::vector<std::shared_ptr<FreeBlock>> blocks_;  // of the last conditions, the newest first
 };

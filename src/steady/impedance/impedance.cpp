@@ -2,10 +2,16 @@
 #include "steady/impedance/impedance.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <span>
 
+#include "algebra/factor/schur.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/petsc/object.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
+#include "base/system/text.hpp"
 
 namespace squeal::impedance {
 
@@ -56,6 +62,11 @@ Block sumOfProducts(Mat a, const DenseView& x, Mat b, const DenseView& y, PetscI
   linalg::addScaled(sum, 1, second);
   return sum;
 }
+
+/// The most unknowns of the contact that are condensed: 0.5 GB on rank 0, and as much on all.
+constexpr PetscInt mostCondensed = 8000;
+/// The largest difference of the Schur complement from responses by solves, relative to them.
+constexpr double accurate = 1e-10;
 
 /// Returns the matrix that selects the indices of this rank: `local` × indices, with a 1 in the row
 /// of each index. MatCreateSubMatrix() requires ascending columns, which gaps followed by tangents
@@ -183,6 +194,68 @@ DenseMatrix Impedance::responses(const DenseView& causes) const {
     result.append(stacked(normal, force));
   }
   return result;
+}
+
+DenseMatrix Impedance::responsesToUnits(const std::vector<PetscInt>& released) const {
+  const PetscInt n = nodes(), m = std::ssize(nodeOf_), count = std::ssize(released);
+  const PetscInt all = mpi::sum(comm(), m), first = mpi::sumBefore(comm(), m);
+  units_ += count;
+  if (!isCondensed_ && !refused_ && units_ > after_ && all <= mostCondensed) condense();
+  if (!isCondensed_) {
+    DenseMatrix units(n + m, count);
+    for (PetscInt j = 0; j < count; ++j)
+      if (const PetscInt i = released[j] - first; i >= 0 && i < m) units(n + i, j) = 1;
+    return responses(units);
+  }
+  DenseMatrix result(n + m, count);
+  for (PetscInt j = 0; j < count; ++j) {
+    const auto force = schur_.column(released[j]);
+    std::copy_n(force.begin(), n, result.column(j).begin());
+    std::ranges::copy(force, result.column(j).begin() + n);
+  }
+  return result;
+}
+
+/// Collective. Computes S, unless it differs from some of the responses that it replaces.
+void Impedance::condense() const {
+  if (!openStiffness_) return;
+  Stage stage(comm(), "factor");
+  const Mat stiffness = openStiffness_();
+  PetscInt unknowns = 0, size = 0;
+  check(MatGetLocalSize(stiffness, &unknowns, nullptr));
+  check(ISGetLocalSize(inner_, &size));
+  ensure(unknowns == size + std::ssize(nodeOf_), "the offered stiffness has the open unknowns");
+  std::vector<PetscInt> own(nodeOf_.size());
+  const PetscInt* columns = nullptr;
+  check(ISGetIndices(released_, &columns));
+  std::copy_n(columns, own.size(), own.begin());
+  check(ISRestoreIndices(released_, &columns));
+  DenseMatrix schur = factor::schurComplement(stiffness, own);
+  size = schur.columns();
+  const PetscInt first = mpi::sumBefore<PetscInt>(comm(), own.size());
+  constexpr PetscInt samples = 8;
+  DenseMatrix units(length(), samples);
+  std::vector<PetscInt> chosen;
+  for (PetscInt j = 0; j < samples; ++j) {
+    chosen.push_back(j * (size - 1) / (samples - 1));
+    if (const PetscInt i = chosen[j] - first; i >= 0 && i < std::ssize(own))
+      units(nodes() + i, j) = 1;
+  }
+  const DenseMatrix exact = responses(units);
+  std::array<double, 2> largest{};  // difference, response
+  for (PetscInt j = 0; j < samples; ++j)
+    for (PetscInt i = 0; i < length(); ++i) {
+      const double entry = schur(i < nodes() ? i : i - nodes(), chosen[j]);
+      largest[0] = std::max(largest[0], std::abs(exact(i, j) - entry));
+      largest[1] = std::max(largest[1], std::abs(exact(i, j)));
+    }
+  mpi::reduce<double>(comm(), largest, MPI_MAX);
+  refused_ = !(largest[0] <= accurate * largest[1]);
+  stage.finish(formatted(
+      "condensation to %" PetscInt_FMT " unknowns of the contact, checked on %d columns to %.0e%s",
+      size, int(samples), largest[0] / largest[1], refused_ ? ": not used" : ""));
+  isCondensed_ = !refused_;
+  if (isCondensed_) schur_ = std::move(schur);
 }
 
 void Impedance::addUnknowns(const DenseView& causes, const std::vector<Vec>& x) const {

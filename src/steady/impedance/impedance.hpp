@@ -9,6 +9,11 @@
 ///   K0 y + K_yw w + S_yᵀ t = q,   R = N r,   F = K_wy y + K_ww w + S_wᵀ t,
 /// so one solve with K0 gives the responses (R, F) at the contact to causes (t, w). These depend
 /// neither on the friction nor on the set of open or held nodes.
+///
+/// The responses to w are the columns of the Schur complement of the contact,
+///   S = K_ww − K_wy K0⁻¹ K_yw,   F = S w,   R = F in the rows of the gaps,
+/// which one factorisation of K with all contact open gives at the cost of some hundreds of solves.
+#include <functional>
 #include <vector>
 
 #include "algebra/linalg/block.hpp"
@@ -27,6 +32,19 @@ class Impedance {
   /// and held. Borrows `closed` and `contact` during the lifetime of the object.
   Impedance(const contact::Contact& contact, const contact::Transformation& open, Mat stiffness,
             Mat slipRows, const contact::CoupledSystem& closed);
+  /// The Schur complement costs as much as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the
+  /// contact). It is computed once half as many have been wanted, which costs at most some three
+  /// times what would have been best.
+  static constexpr long worthwhile = 300;
+  /// Offers TᵀKT with all contact open and all sticking nodes released, in the unknowns of `open`;
+  /// collective. Once more than `after` responses to units of w have been wanted, these are taken
+  /// from its Schur complement.
+  void offer(std::function<Mat()> openStiffness, long after = worthwhile) {
+    openStiffness_ = std::move(openStiffness);
+    after_ = after;
+  }
+  /// Returns true if the Schur complement is in use.
+  bool isCondensed() const { return isCondensed_; }
 
   MPI_Comm comm() const { return contact_.mesh->comm; }
   PetscInt size() const { return contact_.interfaces.totalNodes; }  ///< contact nodes of all ranks
@@ -40,6 +58,8 @@ class Impedance {
   PetscInt length() const { return nodes() + std::ssize(nodeOf_); }
   /// Collective. Returns the responses, one column per cause.
   linalg::DenseMatrix responses(const linalg::DenseView& causes) const;
+  /// Collective. Returns the responses to units of w, numbered over all ranks.
+  linalg::DenseMatrix responsesToUnits(const std::vector<PetscInt>& released) const;
   /// Collective. Adds to each x, in the unknowns of the open contact, the y and w of a column of
   /// the causes.
   void addUnknowns(const linalg::DenseView& causes, const std::vector<Vec>& x) const;
@@ -66,7 +86,14 @@ class Impedance {
   OwnedMat normalInner_, normalReleased_;                // N K T for y and for w
   OwnedMat forceInner_, forceReleased_, forceFriction_;  // K_wy, K_ww and S_wᵀ
   OwnedVec work_;                                        // y
+  void condense() const;
+  std::function<Mat()> openStiffness_;  // empty: not offered, or not usable
   mutable long solves_ = 0;
+  mutable long units_ = 0;  // responses to units of w that were wanted
+  long after_ = worthwhile;
+  mutable linalg::DenseMatrix schur_;  // S, own rows × all columns
+  mutable bool isCondensed_ = false;   // S is in use
+  mutable bool refused_ = false;       // S was not accurate
 };
 
 }  // namespace squeal::impedance

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Schur complements of sparse symmetric matrices.
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+#include "base/petsc/owned.hpp"
+
+namespace squeal::factor {
+
+/// Collective. Returns the Schur complement
+///   S = K_ww − K_wy K_yy⁻¹ K_yw
+/// of a symmetric matrix with a definite K_yy: this rank's rows of w × all of w. `own` are the
+/// global rows of w on this rank, in any order; the columns follow the ranks, each in its order.
+/// Rank 0 has S as a whole for a while, 8 bytes for each pair of w. Throws Error if the
+/// factorisation fails.
+linalg::DenseMatrix schurComplement(Mat matrix, const std::vector<PetscInt>& own);
+
+}  // namespace squeal::factor

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The inverse of a dense symmetric matrix that may be singular. Not collective.
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+
+namespace squeal::impedance {
+
+/// The inverse of a symmetric matrix that should be positive definite. If it is not, the inverse is
+/// that of its positive part: directions softer than 1e-12 of the stiffest one are left out, such
+/// as rigid-body modes of open parts.
+class SymmetricInverse {
+ public:
+  explicit SymmetricInverse(linalg::DenseMatrix a);
+  /// Replaces the columns of x by A⁻¹ x.
+  void apply(linalg::DenseMatrix& x) const;
+
+ private:
+  linalg::DenseMatrix factor_;  // Cholesky factor, or eigenvectors
+  std::vector<double> values_;  // eigenvalues, if the matrix is not positive definite
+};
+
+}  // namespace squeal::impedance
