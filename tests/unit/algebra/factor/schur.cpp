@@ -47,7 +47,9 @@ TEST(SchurComplement, OfAChainIsOneOfLongerSprings) {
     ASSERT_EQ(found.columns(), std::ssize(kept));
     auto sorted = all;
     std::ranges::sort(sorted);
-    const auto place = [&](PetscInt row) { return std::ranges::find(sorted, row) - sorted.begin(); };
+    const auto place = [&](PetscInt row) {
+      return std::ranges::find(sorted, row) - sorted.begin();
+    };
     // The distance to the neighbour before or after that is kept, or to the wall.
     const auto gap = [&](std::ptrdiff_t k) {
       const PetscInt from = k == 0 ? -1 : sorted[k - 1],
@@ -57,7 +59,7 @@ TEST(SchurComplement, OfAChainIsOneOfLongerSprings) {
     for (PetscInt i = 0; i < found.rows(); ++i)
       for (PetscInt j = 0; j < found.columns(); ++j) {
         const auto a = place(own[i]), b = place(all[j]);
-        const double exact = a == b                ? 1 / gap(a) + 1 / gap(a + 1)
+        const double exact = a == b                 ? 1 / gap(a) + 1 / gap(a + 1)
                              : std::abs(a - b) == 1 ? -1 / gap(std::max(a, b))
                                                     : 0;
         EXPECT_NEAR(found(i, j), exact, 1e-13) << own[i] << " " << all[j];
