@@ -42,6 +42,8 @@ RUNS = {
         "-flutter_track",
         "on",
         "-flutter_sensitivities",
+        "-report_component_modes",
+        "2",
     ],
     "chain": ["-options_file", repository / "options/external_chain.yaml"],
     "belt": ["-options_file", repository / "options/external.yaml"],
