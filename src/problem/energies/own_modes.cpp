@@ -11,6 +11,7 @@
 #include "base/petsc/object.hpp"
 #include "base/system/mpi.hpp"
 #include "eigen/modes/modes.hpp"
+#include "problem/matrices/associated.hpp"
 
 namespace squeal::energies {
 namespace {
@@ -37,16 +38,6 @@ void addSquare(Mat rows, IS columns, OwnedMat& sum) {
     check(MatAXPY(sum, 1, square, DIFFERENT_NONZERO_PATTERN));
 }
 
-/// Collective. Returns (A + Aᵀ)/2, marked as symmetric.
-OwnedMat symmetrised(Mat matrix) {
-  OwnedMat sum;
-  check(MatTranspose(matrix, MAT_INITIAL_MATRIX, sum.out()));
-  check(MatAXPY(sum, 1, matrix, SAME_NONZERO_PATTERN));
-  check(MatScale(sum, 0.5));
-  check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_TRUE));
-  return sum;
-}
-
 /// Collective. Returns the matrices of a body; null ones if no material group belongs to it.
 BodyMatrices matricesOf(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, int body,
                         const std::vector<PetscInt>& nodes) {
@@ -63,7 +54,8 @@ BodyMatrices matricesOf(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
     addSquare(part.stiffness, own, sums.stiffness);
     addSquare(part.mass, own, sums.mass);
   }
-  if (sums.stiffness) sums = {symmetrised(sums.stiffness), symmetrised(sums.mass)};
+  if (sums.stiffness)
+    sums = {matrices::symmetrised(sums.stiffness), matrices::symmetrised(sums.mass)};
   return sums;
 }
 

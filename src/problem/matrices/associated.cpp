@@ -48,15 +48,6 @@ OwnedMat sum(const std::vector<NamedTerm>& terms, int power) {
   return total;
 }
 
-OwnedMat symmetrised(Mat matrix) {
-  OwnedMat part;
-  check(MatTranspose(matrix, MAT_INITIAL_MATRIX, part.out()));
-  check(MatAXPY(part, 1, matrix, DIFFERENT_NONZERO_PATTERN));
-  check(MatScale(part, 0.5));
-  check(MatSetOption(part, MAT_SYMMETRIC, PETSC_TRUE));
-  return part;
-}
-
 /// Collective. Returns a text with the number of rows without a positive entry on the diagonal, and
 /// the first of them; it is empty if there are none.
 std::string badDiagonal(Mat matrix) {
@@ -96,6 +87,15 @@ void requirePositiveDefinite(Mat matrix, const std::string& what, const std::str
 }
 
 }  // namespace
+
+OwnedMat symmetrised(Mat matrix) {
+  OwnedMat part;
+  check(MatTranspose(matrix, MAT_INITIAL_MATRIX, part.out()));
+  check(MatAXPY(part, 1, matrix, DIFFERENT_NONZERO_PATTERN));
+  check(MatScale(part, 0.5));
+  check(MatSetOption(part, MAT_SYMMETRIC, PETSC_TRUE));
+  return part;
+}
 
 SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms) {
   OwnedMat stiffness = sum(terms, 0), mass = sum(terms, 2);

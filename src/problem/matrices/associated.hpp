@@ -18,6 +18,9 @@ struct SymmetricPart {
   PetscInt massless;  ///< number of unknowns without mass
 };
 
+/// Collective. Returns (A + Aᵀ)/2, marked as symmetric.
+OwnedMat symmetrised(Mat matrix);
+
 /// Collective. Returns the associated system of the terms. Throws Error, naming the matrices, if
 /// there is no such stiffness or mass, if the mass is not symmetric to 1e-10, and if the stiffness,
 /// or the mass without its rows of zeros, is not positive definite within round-off, as with a

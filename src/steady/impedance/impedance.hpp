@@ -73,6 +73,7 @@ class Impedance {
   long solves() const { return solves_; }  ///< total number of right-hand sides so far
 
  private:
+  void condense() const;
   linalg::Block solved(const linalg::DenseView& forces) const;
   linalg::Block innerOf(const linalg::DenseView& t, const linalg::DenseView& w) const;
   void addInner(const linalg::Block& y, const std::vector<Vec>& x) const;
@@ -86,8 +87,7 @@ class Impedance {
   OwnedMat normalInner_, normalReleased_;                // N K T for y and for w
   OwnedMat forceInner_, forceReleased_, forceFriction_;  // K_wy, K_ww and S_wᵀ
   OwnedVec work_;                                        // y
-  void condense() const;
-  std::function<Mat()> openStiffness_;  // empty: not offered, or not usable
+  std::function<Mat()> openStiffness_;                   // empty: not offered
   mutable long solves_ = 0;
   mutable long units_ = 0;  // responses to units of w that were wanted
   long after_ = worthwhile;
