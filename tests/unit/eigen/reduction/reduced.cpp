@@ -118,21 +118,22 @@ TEST(StaticResponses, AreHeldByTheBasis) {
 }
 
 // Springs of 1e16 under the face of the disc, whose own stiffness is of the order of one, determine
-// the norm of K and thereby the scale of backward errors. These are below 1e-14 from the second
-// round on, while the errors of the eigenvalues are not yet within their tolerance: they count.
+// the norm of K and thereby the scale of backward errors. A backward error below 1e-14 then says
+// little about the eigenvalue: at some pairs the estimate of the error is more than 1e6 times as
+// large, so that it would exceed the tolerance at that backward error. Corrections must go on.
 TEST(StiffSprings, DoNotEndTheCorrections) {
   Fixture f("-modes_count 40 -ground_disc_face_stiffness 0,1e16,0");
   const auto points = f.solve(0.5);
   ASSERT_GT(points.at(0).eigenvalues.size(), 20u);
-  double worst = 0, backward = 0;
+  double worst = 0, ratio = 0;
   for (const auto& e : points.at(0).eigenvalues) {
     worst = std::max(worst, e.errorEstimate());
-    backward = std::max(backward, e.backwardError);
+    ratio = std::max(ratio, e.errorEstimate() / e.backwardError);
     EXPECT_TRUE(e.certified) << e.s;
   }
-  test::print("estimates up to %.2e, backward errors up to %.2e\n", worst, backward);
-  EXPECT_LE(worst, 1e-8);      // -flutter_tolerance
-  EXPECT_LT(backward, 1e-14);  // else the case does not show it
+  test::print("estimates up to %.2e, and up to %.2e times the backward error\n", worst, ratio);
+  EXPECT_LE(worst, 1e-8);  // -flutter_tolerance
+  EXPECT_GT(ratio, 1e6);   // else the case does not show it
 }
 
 // Of a point that has been solved, those who ask again get the eigenvalues of its band, and around
