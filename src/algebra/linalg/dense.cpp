@@ -41,6 +41,17 @@ DenseMatrix transposedProduct(const DenseView& x, const DenseView& y) {
   return result;
 }
 
+DenseMatrix transposed(const DenseView& x) {
+  constexpr PetscInt tile = 32;  // columns that stay in the cache while rows are written
+  DenseMatrix result(x.columns(), x.rows());
+  for (PetscInt first = 0; first < x.columns(); first += tile)
+    for (PetscInt begin = 0; begin < x.rows(); begin += tile)
+      for (PetscInt j = first; j < std::min(first + tile, x.columns()); ++j)
+        for (PetscInt i = begin; i < std::min(begin + tile, x.rows()); ++i)
+          result(j, i) = x(i, j);
+  return result;
+}
+
 double squaredLength(std::span<const double> x) {
   return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
 }

@@ -130,6 +130,8 @@ DenseMatrix transposedProduct(const DenseView& x, const DenseView& y);
 double squaredLength(std::span<const double> x);
 /// Returns Cᵀ A C.
 DenseMatrix congruent(const DenseView& a, const DenseView& c);
+/// Returns Xᵀ.
+DenseMatrix transposed(const DenseView& x);
 /// Returns the rows [first, last).
 DenseMatrix rowRange(const DenseView& matrix, PetscInt first, PetscInt last);
 /// Returns the square matrix A extended by the new columns `right`, at full height, and the new

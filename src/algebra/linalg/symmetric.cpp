@@ -78,9 +78,9 @@ std::vector<double> solve(const char* job, DenseMatrix& a, DenseMatrix& b) {
 }  // namespace
 
 DenseMatrix symmetricPart(const DenseView& a) {
-  DenseMatrix s(a.rows(), a.columns());
-  for (PetscInt j = 0; j < a.columns(); ++j)
-    for (PetscInt i = 0; i < a.rows(); ++i) s(i, j) = 0.5 * (a(i, j) + a(j, i));
+  DenseMatrix s = transposed(a);
+  const auto entries = a.entries();
+  for (std::size_t i = 0; i < s.size(); ++i) s.data()[i] = 0.5 * (entries[i] + s.data()[i]);
   return s;
 }
 

@@ -34,6 +34,11 @@ class Concatenation {
     return all;
   }
 
+  /// Collective. The same of entries of `count` doubles each, in one message.
+  void gather(const double* own, double* all, int count) const {
+    gatherBytes(own, all, count * static_cast<int>(sizeof(double)));
+  }
+
   /// Collective. Returns the entries of all ranks on rank 0, and none on the others.
   template <class Entry>
   std::vector<Entry> gatheredOnFirst(std::span<const Entry> own) const {

@@ -38,9 +38,10 @@ constexpr std::size_t mostBlocks = 32;
 
 /// Collective. Returns the rows of all ranks, on every rank.
 DenseMatrix gathered(const Concatenation& ranks, const DenseView& rows) {
-  DenseMatrix all(ranks.size(), rows.columns());
-  for (PetscInt j = 0; j < rows.columns(); ++j) ranks.gather(rows.column(j), all.column(j));
-  return all;
+  const DenseMatrix own = linalg::transposed(rows);  // by rows: all of them in one message
+  DenseMatrix all(rows.columns(), ranks.size());
+  ranks.gather(own.data(), all.data(), static_cast<int>(rows.columns()));
+  return linalg::transposed(all);
 }
 
 /// Returns some rows of a matrix.
