@@ -47,8 +47,7 @@ DenseMatrix transposed(const DenseView& x) {
   for (PetscInt first = 0; first < x.columns(); first += tile)
     for (PetscInt begin = 0; begin < x.rows(); begin += tile)
       for (PetscInt j = first; j < std::min(first + tile, x.columns()); ++j)
-        for (PetscInt i = begin; i < std::min(begin + tile, x.rows()); ++i)
-          result(j, i) = x(i, j);
+        for (PetscInt i = begin; i < std::min(begin + tile, x.rows()); ++i) result(j, i) = x(i, j);
   return result;
 }
 
