@@ -8,9 +8,10 @@
 
 namespace squeal::reduction {
 
-/// The watched eigenpairs of a point, with both vectors, by ascending imaginary part. With damping,
-/// only the first basis needs all eigenvalues of a problem of twice its size; later, inaccurate
-/// pairs are improved.
+/// The watched eigenpairs of a point, with right and left vectors, by ascending imaginary part.
+/// With damping, the linearised problem is twice as large as the basis. All its eigenvalues are
+/// computed only for the first, small bases. In larger ones, the inaccurate pairs are improved
+/// instead.
 struct Spectrum {
   std::vector<linalg::DensePair> band;   ///< in the band
   std::vector<linalg::DensePair> guard;  ///< in the guard zone around the band
@@ -23,19 +24,20 @@ struct Spectrum {
 struct SpectrumRequest {
   const linalg::DenseProblem* problem;
   Spectrum* spectrum;
-  /// The ratios of the errors of the pairs of the band to their tolerances, [pair]: above 1, a pair
-  /// is improved.
+  /// Error divided by tolerance, for each pair of the band. A pair with a ratio above 1 is
+  /// improved.
   std::vector<double> errorRatio;
 };
 
-/// Collective. Updates the spectra to their problems, whose bases extend those of the spectra. An
-/// empty spectrum is computed in full. The work is distributed over the ranks, and every rank needs
-/// all problems. Throws Error on all ranks if a solve fails.
+/// Collective. Updates each spectrum to the problem of its request. The basis of this problem must
+/// begin with the basis of the spectrum. An empty spectrum is computed in full. The work is
+/// distributed over the ranks; every rank must pass all problems. Throws Error on all ranks if a
+/// solve fails.
 void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
                   const std::vector<SpectrumRequest>& requests);
 
-/// Collective. Returns for each spectrum, [request], whether findMissing() finds an eigenvalue of
-/// the band that it lacks. Throws Error on all ranks if that fails.
+/// Collective. Returns for each request whether findMissing() finds an eigenvalue in the band that
+/// its spectrum does not contain. Throws Error on all ranks if findMissing() fails.
 std::vector<bool> incomplete(MPI_Comm comm, const pencil::WatchedBand& band,
                              const std::vector<SpectrumRequest>& requests);
 

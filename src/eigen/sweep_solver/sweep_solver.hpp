@@ -15,15 +15,15 @@ namespace squeal::sweep_solver {
 /// The requested sweep.
 struct Request {
   Settings settings;
-  std::vector<double> dampings;  ///< swept at all steady points
+  std::vector<double> dampings;  ///< damping factors, solved for at each steady point
   int reportedModes = 0;         ///< number of free modes whose shapes are reported
 };
 
-/// Collective. Returns for each range of points its modes, the eigenvalues at all its steady points
-/// with all dampings, and the eigenvalues tracked over the friction. It restores and continues the
-/// checkpoint logs whose names begin with `name`. If a point or a stage fails, the others are still
-/// computed, and the result contains the reason. Moves the terms out of the ranges of the problem.
-/// Throws Error if no point is solved.
+/// Collective. Returns one segment for each range of the problem: the free modes, the eigenvalues
+/// at the steady points of the range with all dampings, and the eigenvalues tracked over the
+/// friction. Restores and continues the checkpoint logs whose names begin with `name`. If a point
+/// or a stage fails, the others are still computed, and the result contains the reason. Consumes
+/// the terms in the ranges of `problem`. Throws Error if no point is solved.
 SolvedSweep solveSweep(SweepProblem& problem, const Request& request,
                        checkpoint::Checkpoint& checkpoint, const std::string& name);
 

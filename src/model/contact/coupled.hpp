@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The matrices of the coupled problem, for every matrix X of the bodies
-/// [M.11]:
+/// The coupled problem: each matrix X of the bodies in the unknowns of the contact [M.11],
 ///   L(f)ᵀ X T = Tᵀ X T + Sᵀ N X T,   S = S_0 + f S_1.
-
 #include "algebra/factor/associated_system.hpp"
 #include "model/contact/contact.hpp"
 #include "model/elasticity/elasticity.hpp"
 
 namespace squeal::contact {
 
-/// The projections of one matrix X of the bodies on the unknowns; both are null if X is.
+/// The projections of one matrix X of the bodies on the unknowns. Both are null if X is null.
 struct Projection {
   OwnedMat matrix;    ///< Tᵀ X T, n×n
   OwnedMat reaction;  ///< N X T, N×n: the normal forces that X exerts, in the rows of the gaps
 
   explicit operator bool() const { return matrix.get() != nullptr; }
-  /// Collective. Returns Sᵀ N X T, n×n, the friction by these normal forces, for the slip rows S.
+  /// Collective. Returns Sᵀ N X T, n×n, for the slip rows S: the friction forces due to these
+  /// normal forces.
   OwnedMat friction(Mat slipRows) const;
   /// Collective. Returns Tᵀ X T + Sᵀ N X T as a new, unsymmetric matrix; with null slip rows, a
   /// copy of Tᵀ X T.
@@ -36,8 +35,8 @@ struct Projections {
   Projection rotationStiffness;  ///< projections of K^R for the base motions
 };
 
-/// The projections with all contact open and all sticking nodes released. Those of every active set
-/// are parts of them: T of a set has some of the columns of this T.
+/// The projections with all contact open and all sticking nodes released. The projections of every
+/// active set are submatrices of these, since its T consists of columns of this T.
 class OpenProjections {
  public:
   /// Collective. Projects the matrices of the bodies.
@@ -59,11 +58,12 @@ class OpenProjections {
 class CoupledSystem : public factor::AssociatedSystem {
  public:
   /// Collective. Projects the matrices of the bodies. Sticking nodes can move along the surface if
-  /// they are open or released; an empty mask releases none. `prestress`, which may be null, is
-  /// added to K and has its pattern; it is borrowed during this call.
+  /// they are open, or released in `set`. `prestress`, which may be null, is added to K and has its
+  /// pattern; it is borrowed during this call.
   CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact, ActiveSet set,
                 Mat prestress = nullptr);
-  /// Collective. Takes the same matrices, without prestress, from known projections.
+  /// Collective. Takes these matrices from known projections instead of computing them, without
+  /// prestress.
   CoupledSystem(const OpenProjections& open, const Contact& contact, ActiveSet set);
   const Transformation& transformation() const { return projections_.transformation; }
   const Projections& projections() const { return projections_; }

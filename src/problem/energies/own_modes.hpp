@@ -10,8 +10,8 @@
 
 namespace squeal::energies {
 
-/// Collective. Returns the owned nodes of each body, [body], ascending. Nodes that bodies share are
-/// in each of them. Cells of a body may be on any rank.
+/// Collective. Returns the owned nodes of each body, [body], ascending. A node that several bodies
+/// share is listed for each of them. Cells of a body may be on any rank.
 std::vector<std::vector<PetscInt>> nodesOfBodies(const mesh::Mesh& mesh);
 
 /// The lowest elastic modes of one body.
@@ -23,9 +23,10 @@ struct OwnModes {
 /// Collective. Returns the `count` lowest elastic modes of each body, [body], or as many as it has;
 /// an empty list for 0. They are the eigenvectors of
 ///   (K_b + σ M_b) x = (ω² + σ) M_b x,   σ = 0.01 wᵀ K_b w / wᵀ M_b w,   w = X − X_c,
-/// with the coordinates X and the centre X_c of the nodes of the body: σ is small against the
-/// square of the frequency at which the body stretches. Modes with ω² ≤ 1e-6 σ are rigid and left
-/// out. A body without mass has none. Throws Error as modes::compute() does.
+/// where X are the coordinates of the nodes of the body and X_c is their centre. The shift σ is
+/// thus small compared with the squared frequency at which the body stretches. Modes with ω² ≤ 1e-6
+/// σ are rigid and omitted. The list of a body without mass is empty. Throws Error as
+/// modes::compute() does.
 std::vector<OwnModes> ownModes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, int count);
 
 }  // namespace squeal::energies

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Condensation of the contact to its own unknowns with the factorised stiffness K0 of the closed,
-/// frictionless contact [M.58].
+/// Static condensation of the bodies to the unknowns of the contact. It uses the factorised
+/// stiffness K0 of the closed, frictionless contact [M.58].
 ///
-/// The unknowns x of the contact that may open are y, the unknowns of the closed contact, and w:
-/// the gaps, and the tangential displacements of sticking nodes. With the friction magnitudes t = f
-/// R and the blocks of K, S and N [M.10, M.11], the nodal forces r obey
+/// The unknowns x of the open contact consist of y and w. The unknowns of the closed contact are y.
+/// The gaps and the tangential displacements of sticking nodes are w. With the friction magnitudes
+/// t = f R and the blocks of K, S and N [M.10, M.11], the nodal forces r obey
 ///   K0 y + K_yw w + S_yᵀ t = q,   R = N r,   F = K_wy y + K_ww w + S_wᵀ t,
 /// so one solve with K0 gives the responses (R, F) at the contact to causes (t, w). These depend
 /// neither on the friction nor on the set of open or held nodes.
 ///
 /// The responses to w are the columns of the Schur complement of the contact,
-///   S = K_ww − K_wy K0⁻¹ K_yw,   F = S w,   R = F in the rows of the gaps,
-/// which one factorisation of K with all contact open gives at the cost of some hundreds of solves.
+///   S = K_ww − K_wy K0⁻¹ K_yw,   F = S w,   R = F in the rows of the gaps.
+/// One factorisation of K with all contact open computes S. It costs as much as some hundreds of
+/// solves.
 #include <functional>
 #include <vector>
 
@@ -21,8 +22,8 @@
 
 namespace squeal::impedance {
 
-/// Causes (t, w) or effects (R, F) on this rank: an entry for each contact node, N, and one for
-/// each released unknown: m for w and N for F.
+/// Causes (t, w) or effects (R, F) on this rank. First come the entries of the contact nodes, t or
+/// R in newtons. Then come those of the released unknowns, w in metres or F in newtons.
 using ContactVector = std::vector<double>;
 
 class Impedance {
@@ -32,13 +33,13 @@ class Impedance {
   /// and held. Borrows `closed` and `contact` during the lifetime of the object.
   Impedance(const contact::Contact& contact, const contact::Transformation& open, Mat stiffness,
             Mat slipRows, const contact::CoupledSystem& closed);
-  /// The Schur complement costs as much as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the
-  /// contact). It is computed once half as many have been wanted, which costs at most some three
-  /// times what would have been best.
+  /// Number of requested responses after which the Schur complement is computed. It costs as much
+  /// as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact). The threshold is half of
+  /// that: the total cost is at most about three times that of the better choice.
   static constexpr long worthwhile = 300;
-  /// Offers TᵀKT with all contact open and all sticking nodes released, in the unknowns of `open`;
-  /// collective. Once more than `after` responses to units of w have been wanted, these are taken
-  /// from its Schur complement.
+  /// Collective. Accepts a function that returns TᵀKT with all contact open and all sticking nodes
+  /// released, in the unknowns of `open`. After more than `after` requested responses to units of
+  /// w, further ones are taken from the Schur complement of this matrix.
   void offer(std::function<Mat()> openStiffness, long after = worthwhile) {
     openStiffness_ = std::move(openStiffness);
     after_ = after;
@@ -60,15 +61,15 @@ class Impedance {
   linalg::DenseMatrix responses(const linalg::DenseView& causes) const;
   /// Collective. Returns the responses to units of w, numbered over all ranks.
   linalg::DenseMatrix responsesToUnits(const std::vector<PetscInt>& released) const;
-  /// Collective. Adds to each x, in the unknowns of the open contact, the y and w of a column of
-  /// the causes.
+  /// Collective. Adds the displacements due to each column of causes to the x of the same index: w
+  /// is that of the column, y the response to its (t, w). x has the unknowns of the open contact.
   void addUnknowns(const linalg::DenseView& causes, const std::vector<Vec>& x) const;
-  /// Collective. Balances the forces in the rows of y, given by residuals in all rows of x: adds y
-  /// = −K0⁻¹ residual to each x. Returns, one column per residual, N K T_y y and, for w, the
-  /// residual plus K_wy y.
+  /// Collective. Takes residuals with all rows of x, and balances their rows of y: adds y = −K0⁻¹
+  /// residual to each x. Returns one column per residual. It contains N K T_y y for the contact
+  /// nodes, and the residual plus K_wy y for w.
   linalg::DenseMatrix relax(const std::vector<Vec>& residuals, const std::vector<Vec>& x) const;
-  /// Collective. Returns S_wᵀ, released unknowns × contact nodes, of slip rows S without entries
-  /// for y: the direct effect of friction on released nodes.
+  /// Collective. Returns S_wᵀ, released unknowns × contact nodes: the direct effect of friction on
+  /// released nodes. The slip rows S must have no entries for y.
   OwnedMat directFriction(Mat slipRows) const;
   long solves() const { return solves_; }  ///< total number of right-hand sides so far
 
@@ -89,7 +90,7 @@ class Impedance {
   OwnedVec work_;                                        // y
   std::function<Mat()> openStiffness_;                   // empty: not offered
   mutable long solves_ = 0;
-  mutable long units_ = 0;  // responses to units of w that were wanted
+  mutable long units_ = 0;  // number of requested responses to units of w
   long after_ = worthwhile;
   mutable linalg::DenseMatrix schur_;  // S, own rows × all columns
   mutable bool isCondensed_ = false;   // S is in use
