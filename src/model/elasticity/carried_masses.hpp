@@ -27,7 +27,7 @@ std::vector<CarriedMass> carriedMasses(const mesh::Mesh& mesh, const Settings& s
                                        const std::vector<constraints::CouplingSettings>& couplings,
                                        const std::vector<Motion>& motions);
 
-/// Collective. Adds the centrifugal forces [M.85] of rotating masses to `forces`, N entries, N.
+/// Collective. Adds the centrifugal forces [M.91] of rotating masses to `forces`, N entries, N.
 void addCentrifugal(const mesh::Mesh& mesh, const std::vector<CarriedMass>& masses,
                     const std::vector<Motion>& motions, Vec forces);
 
