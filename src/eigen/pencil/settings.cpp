@@ -29,16 +29,14 @@ const RealOption accuracyOption(
     "largest full-order backward error of a certified eigenvalue; target of the corrections");
 const RealOption toleranceOption(
     "flutter", "flutter_unstable_tolerance", 0, "", nonNegative,
-    "threshold of instability: growth rate as a fraction of |s| that an unstable eigenvalue "
-    "exceeds "
-    "by more than its error estimate (critical frictions: zero growth)");
+    "minimum growth rate of unstable eigenvalues as a fraction of |s|, which they exceed by more "
+    "than their error estimates; critical frictions: always zero growth");
 const IntegerOption shapesOption(
     "flutter", "flutter_shapes", 3, 0, 100'000,
     "largest number of complex modes stored per point, in order of descending growth rate");
-const FlagOption stableShapesOption(
-    "flutter", "flutter_shapes_stable", false,
-    "count stable complex modes among those that are stored, so that -flutter_shapes can take in "
-    "all modes of the band");
+const FlagOption stableShapesOption("flutter", "flutter_shapes_stable", false,
+                                    "storage of stable complex modes too, so that -flutter_shapes "
+                                    "can cover all modes of the band; off: only unstable ones");
 const RealOption shapesBelowOption("flutter", "flutter_shapes_below", 20000, "Hz", positive,
                                    "upper frequency limit of stored complex modes (audible range)");
 

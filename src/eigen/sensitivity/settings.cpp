@@ -8,9 +8,9 @@ namespace {
 
 const FlagOption wantedOption(
     "flutter", "flutter_sensitivities", false,
-    "derivatives of the eigenvalues of the stored complex modes (-flutter_shapes) with respect to "
-    "friction, speed, pressure, moduli, densities, damping of bodies, springs, bushings and "
-    "masses: sensitivities.csv; and those of the critical frictions: critical_sensitivities.csv");
+    "derivatives with respect to friction, speed, pressure, moduli, densities, damping of bodies, "
+    "springs, bushings and masses; sensitivities.csv: of the eigenvalues of the stored complex "
+    "modes (-flutter_shapes); critical_sensitivities.csv: of the critical frictions");
 
 }  // namespace
 

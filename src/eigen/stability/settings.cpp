@@ -12,9 +12,9 @@ namespace {
 const FlagOption trackOption(
     "flutter", "flutter_track", true,
     "tracking of the eigenvalues in the band over the friction, through crossings and mergers: "
-    "branches.csv; reduced method only; if it or -flutter_critical is given, also for a single "
-    "friction (from friction 0) and for terms that follow the steady state (friction damping, "
-    "prestress)");
+    "branches.csv; reduced method only; a single friction (tracked from friction 0) and terms that "
+    "depend on the steady state (friction damping, prestress) need this option or "
+    "-flutter_critical explicitly");
 const FlagOption criticalOption(
     "flutter", "flutter_critical", true,
     "search for the frictions at which stability changes: critical.csv; needs -flutter_track");

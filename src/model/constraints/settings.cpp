@@ -33,11 +33,12 @@ const TextOption frameOption("constraint", "constraint_<group>_frame", "",
                              "name of the -frame whose axes are x, y, z of the clamped "
                              "components; default: the global axes");
 const TextOption imageOption("constraint", "constraint_<group>_image_of", "",
-                             "group of which this group is the periodic image by translation");
+                             "group that a translation maps onto this group, its periodic image");
 const TextOption referenceOption("coupling", "coupling_<name>_reference", "",
                                  "reference node of a coupling");
-const TextOption nodesOption("coupling", "coupling_<name>_nodes", "",
-                             "groups of nodes, or reference nodes, that are coupled to it");
+const TextOption nodesOption(
+    "coupling", "coupling_<name>_nodes", "",
+    "groups of nodes, or reference nodes, that are coupled to this reference node");
 const ChoiceOption kindOption("coupling", "coupling_<name>_kind", {"rigid", "distributed"}, "rigid",
                               "rigid: the nodes move with the reference node as one rigid body "
                               "(RBE2); distributed: the reference node follows their weighted mean "
@@ -50,11 +51,11 @@ const TextOption couplingFrameOption("coupling", "coupling_<name>_frame", "",
                                      "components; default: the global axes");
 const RealListOption weightsOption(
     "coupling", "coupling_<name>_weights", "1", "", positive,
-    "weights of a distributed coupling, one per group, each that of "
-    "every node of the group; those of a node in several groups add up");
+    "weights of a distributed coupling, one per group, which each node of the group has; the "
+    "weights of a node in several groups add up");
 const FlagOption pinnedOption("coupling", "coupling_<name>_pinned", false,
-                              "rotations of reference nodes that follow a rigid coupling; on: they "
-                              "stay free; off: they follow");
+                              "free rotations of reference nodes that a rigid coupling moves; off: "
+                              "their rotations follow the coupling too");
 const TextOption equationOption("equation", "equation_<name>", "",
                                 "linear equation of displacements, such as a:x - 2*b:y + c:rz = "
                                 "0.1; a, b: groups of one node or reference nodes; x, y, z: "
@@ -63,18 +64,20 @@ const TextOption equationOption("equation", "equation_<name>", "",
 const TextOption sectionOption("bolt", "bolt_<name>_section", "",
                                "surface group inside a body that cuts the shank of a bolt");
 const RealOption boltForceOption("bolt", "bolt_<name>_force", 0.0, "N", nonNegative,
-                                 "tension that a first step without pressure and friction gives "
-                                 "the bolt; its length is kept from then on");
+                                 "bolt tension, applied in a first step without pressure and "
+                                 "friction; the length of the bolt is constant afterwards");
 const RealOption shorteningOption("bolt", "bolt_<name>_shortening", 0.0, "m", anyReal,
                                   "length by which the two sides of the section are drawn "
                                   "together, instead of -bolt_<name>_force");
-const RealListOption boltAxisOption("bolt", "bolt_<name>_axis", "0,0,1", "", anyReal,
-                                    "direction of the bolt, for the sign of its normal; default: "
-                                    "the normal of a face of the section");
+const RealListOption boltAxisOption(
+    "bolt", "bolt_<name>_axis", "0,0,1", "", anyReal,
+    "direction of the bolt, which decides the sign of the section's normal; default: the normal of "
+    "a face of the section");
 
-const FlagOption underPressureOption("bolt", "bolt_under_pressure", false,
-                                     "pressures and other loads that the sweep scales act in the "
-                                     "first step, for brakes whose parts are loose without them");
+const FlagOption underPressureOption(
+    "bolt", "bolt_under_pressure", false,
+    "pressures, and other loads that the sweep scales, in the first step too, for brakes with "
+    "parts that are loose without them");
 
 std::vector<mesh::ReferenceRequest> referencesGiven() {
   std::set<std::string> names;

@@ -9,11 +9,11 @@ namespace {
 
 const ChoiceOption lawOption("friction", "friction_law", {"constant", "exponential", "table"},
                              "constant",
-                             "factor on -flutter_friction at the sliding speed |w|: 1, or "
-                             "1 + (r - 1) exp(-|w|/v), or that of a table");
-const RealOption ratioOption("friction", "friction_static_ratio", 1, "", nonNegative,
-                             "ratio r of the exponential law: coefficient at rest over that at "
-                             "high speed");
+                             "factor on -flutter_friction at the sliding speed |w|; constant: 1; "
+                             "exponential: 1 + (r - 1) exp(-|w|/v); table: from a table");
+const RealOption ratioOption(
+    "friction", "friction_static_ratio", 1, "", nonNegative,
+    "ratio r of the exponential law: coefficient at rest divided by that at high speed");
 const RealOption decayOption("friction", "friction_decay_speed", 1, "m/s", positive,
                              "decay speed v of the exponential law");
 const RealListOption tableSpeedOption("friction", "friction_table_speed", "0", "m/s", nonNegative,

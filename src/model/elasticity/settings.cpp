@@ -39,9 +39,9 @@ const RealListOption gravityOption("load", "load_gravity", "0,0,0", "m/s2", anyR
 const RealListOption accelerationOption("load", "load_<body>_acceleration", "0,0,0", "m/s2",
                                         anyReal,
                                         "force per mass of a body, added to -load_gravity");
-const RealOption spinOption("load", "load_<body>_spin", 0.0, "rad/s", anyReal,
-                            "speed of rotation whose centrifugal forces act on a body that does "
-                            "not move otherwise");
+const RealOption spinOption(
+    "load", "load_<body>_spin", 0.0, "rad/s", anyReal,
+    "speed of rotation for the centrifugal forces on a body that has no other motion");
 const RealListOption spinAxisOption("load", "load_<body>_spin_axis", "0,0,1", "", anyReal,
                                     "direction of the axis of -load_<body>_spin");
 const RealListOption spinOriginOption("load", "load_<body>_spin_origin", "0,0,0", "m", anyReal,
@@ -56,9 +56,10 @@ const RealListOption axisOption("motion", "motion_<body>_axis", "0,0,1", "", any
                                 "direction of the rotation axis, right-handed");
 const RealListOption originOption("motion", "motion_<body>_origin", "0,0,0", "m", anyReal,
                                   "point on the rotation axis");
-const FlagOption convectiveOption("motion", "motion_convective", false,
-                                  "convective terms (gyroscopic and rotation stiffness) of the "
-                                  "matter of moving bodies; off: approximation A");
+const FlagOption convectiveOption(
+    "motion", "motion_convective", false,
+    "convective terms (gyroscopic and rotation stiffness) of the matter of moving bodies; off: "
+    "approximation A, without these terms");
 
 std::vector<std::string> incompatibleGiven() {
   auto names = incompatibleOption.list();

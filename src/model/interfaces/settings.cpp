@@ -31,10 +31,9 @@ const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, 
                               "role of an interface; sliding: friction opposes the sliding "
                               "velocity; sticking: no tangential motion; frictionless: no "
                               "tangential force; tied: bonded");
-const RealOption factorOption("contact", "contact_<interface>_friction_factor", 1.0, "",
-                              nonNegative,
-                              "coefficient of friction of a sliding interface divided by "
-                              "-flutter_friction");
+const RealOption factorOption(
+    "contact", "contact_<interface>_friction_factor", 1.0, "", nonNegative,
+    "ratio of the coefficient of friction of a sliding interface to -flutter_friction");
 const RealOption frictionOption(
     "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
     "fixed coefficient of friction of a sliding interface, in place of -flutter_friction; sticking "
@@ -48,21 +47,21 @@ const WordOrRealOption gapOption(
     "initial gap, without load; measured: the distance between the two "
     "surfaces of the mesh; negative: interference fit");
 const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
-                               "side with one gap unknown per node; finer: the pad if the two "
-                               "meshes match, otherwise the side with the finer mesh");
+                               "slave side, whose nodes have the gaps as unknowns; finer: the pad "
+                               "if the two meshes match, otherwise the side with the finer mesh");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance between two faces that the program pairs if the "
                               "two meshes do not match; 0 = automatic (half the size of a face)");
 const FlagOption separationOption("contact", "contact_<interface>_separation", true,
                                   "separation of the two sides; off: they stay in contact, also "
-                                  "under tension, and nodes with friction need pressure");
+                                  "under tension; tension at a node with friction is refused");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
 const RealOption tangentialStiffnessOption(
     "contact", "contact_<interface>_stiffness_tangential", 0.0, "N/m3", nonNegative,
-    "sticking interface with a contact stiffness: shear stress per tangential displacement of the "
-    "layer");
+    "tangential contact stiffness of a sticking interface with a soft layer: shear stress per "
+    "tangential displacement of the layer");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
     "slave surface group of a tie, preferably the one with the finer mesh");

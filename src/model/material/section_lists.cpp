@@ -9,8 +9,8 @@ namespace {
 
 const TextOption sectionsOption(
     "material", "material_<body>_sections", "",
-    "volume groups that make up a body, each with a material of its own; options that a section "
-    "does not have are those of the body");
+    "volume groups (sections) that make up a body, each with a material of its own; an option that "
+    "is not given for a section has the value of the body");
 
 }  // namespace
 

@@ -13,8 +13,8 @@ namespace {
 
 const FileOption fileOption(
     "mesh", "mesh_file",
-    "mesh (.msh, .unv), shape (.step, .iges, .brep), which is meshed in memory, or geometry: a "
-    ".geo, which is code, is run and meshed in memory");
+    "mesh (.msh, .unv), shape (.step, .iges, .brep) or geometry (.geo); a shape is meshed in "
+    "memory; a .geo is code: gmsh executes it and meshes its geometry");
 const RealOption scaleOption("mesh", "mesh_scale", 1.0, "", positive,
                              "factor on all coordinates: 0.001 for a mesh in mm and all other "
                              "values in SI units");

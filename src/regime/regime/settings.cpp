@@ -19,18 +19,19 @@ const RealOption timeOption("regime", "regime_time", 0, "s", nonNegative,
                             "and 10 e-folding times of the mode, at most 4000 cycles)");
 const RealOption stepOption(
     "regime", "regime_step", 0, "s", nonNegative,
-    "time step, at least 16 in a period of the mode and at most 1e8 in a march; 0 = automatic (a "
-    "128th of the period, at most 0.8 of the stable step)");
+    "time step; at least 16 steps per period of the mode and at most 1e8 steps in total; 0 = "
+    "automatic (a 128th of the period, at most 0.8 of the stable step)");
 const RealOption startOption(
     "regime", "regime_start_factor", 0.5, "", Range{0, 100, true, false},
     "initial amplitude relative to the one at which the first node separates or sticks");
-const ChoiceOption startsOption("regime", "regime_starts", {"fastest", "each", "all"}, "fastest",
-                                "starts of the motion: on the fastest growing unstable mode, on "
-                                "each of them, or on each and on their sum");
+const ChoiceOption startsOption(
+    "regime", "regime_starts", {"fastest", "each", "all"}, "fastest",
+    "start of the motion; fastest: on the fastest growing unstable mode; each: one motion per "
+    "unstable mode; all: also one on the sum of these modes");
 const ChoiceOption boundaryOption(
     "regime", "regime_boundary", {"massless", "mass"}, "massless",
-    "boundary of the reduced model: massless with the leapfrog rule, or with its mass by the "
-    "scheme of Moreau and Jean, to check the first");
+    "contact boundary of the reduced model; massless: without mass, by the leapfrog rule; mass: "
+    "with its mass, by the scheme of Moreau and Jean, as a check");
 
 const FlagOption cycleOption(
     "regime", "regime_cycle", false,

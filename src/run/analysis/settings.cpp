@@ -15,22 +15,22 @@ namespace {
 const FlagOption dryRunOption("general", "dry_run", false,
                               "check the input, estimate the memory of a run, and solve and write "
                               "nothing");
-const FlagOption fullOption("steady", "steady_full", false,
-                            "solve for steady sliding in all unknowns, as a check, instead of in "
-                            "those of the contact");
+const FlagOption fullOption(
+    "steady", "steady_full", false,
+    "solution for steady sliding in all unknowns, as a check; off: in the unknowns of the contact");
 const IntegerOption pathOption(
     "steady", "steady_path", 20, 0, 1'000'000,
-    "largest number of contact nodes that may open or close between neighbouring points of a sweep "
-    "whose events are solved for; 0 = none");
-const IntegerOption releasedOption(
-    "flutter", "flutter_released", 150, 0, 100'000,
-    "largest number of contact nodes by which active sets that share a factorisation and a basis "
-    "may differ; 0 = no sharing");
+    "largest number of contact nodes that differ between two points of a sweep if the program "
+    "locates each opening and closing between them; 0 = no search");
+const IntegerOption releasedOption("flutter", "flutter_released", 150, 0, 100'000,
+                                   "largest number of contact nodes in which active sets with a "
+                                   "common factorisation and basis differ; 0 = no sharing");
 
 const IntegerOption componentModesOption(
     "report", "report_component_modes", 0, 0, 1000,
-    "number of elastic modes of each body by itself, free in space: they are listed with their "
-    "frequencies, and name what bodies do that are not of revolution, such as bending");
+    "number of elastic modes of each body by itself, free in space; the run lists their "
+    "frequencies and names the motion of bodies by them (such as bending), except that of bodies "
+    "of revolution");
 
 /// Adds frictions to those of the sweep.
 void addFrictions(sweep::Settings& sweep, const std::vector<double>& more) {

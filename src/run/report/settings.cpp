@@ -24,8 +24,7 @@ const IntegerOption animatedOption(
     "number of fastest growing modes of the whole sweep written as a time series over one period");
 const IntegerOption piecesOption(
     "report", "report_pieces", 8, 1, 1'000'000,
-    "most files that the VTK form of one field is written into; on more ranks, neighbouring ranks "
-    "share a file");
+    "largest number of VTK files per field; on more ranks, neighbouring ranks share a file");
 const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames of one period");
 
 /// Returns true if the folder belongs to the case: an options file names it, or it is results/NAME
