@@ -44,16 +44,16 @@ struct EquationOrigin {
   Point direction{};   ///< in which it holds the node
 };
 
-/// A component whose force gives those of the equations. An equation Σ w u = value exerts the
-/// forces λ w, where λ sums factor · force over its pivots.
+/// A component whose force determines the forces of its equations. An equation Σ w u = value exerts
+/// the forces λ w. Here λ is the sum of factor · force over the pivots of the equation.
 struct EquationPivot {
   PetscInt row;                                 ///< owned node · dimension + component
   std::vector<std::pair<int, double>> origins;  ///< index into Constraints::origins, and factor
 };
 
 /// The components that are held at the nodes owned by this rank. They refer to the axes of the
-/// node: x, y, z or, where a support is in other directions, turned axes. Turned axes have
-/// the held components first.
+/// node: x, y, z or, where a support is in other directions, turned axes. In turned axes, the held
+/// components come first.
 struct Constraints {
   std::vector<unsigned char> held;  ///< [owned node · dimension + component] 1 if held
   std::vector<int> heldBy;  ///< [owned node · dimension + component] index into groups, or −1
@@ -73,8 +73,8 @@ struct Constraints {
   /// on nodes that follow it
   std::vector<unsigned char> supported;
   std::vector<EquationSettings> equations;
-  /// Values of held components that no sweep scales, for their rows, owned node · dimension +
-  /// component: the lengths of bolts. Constraints::displacement is zero there.
+  /// [owned node · dimension + component] Values of held components that no sweep scales: the
+  /// lengths of bolts. Constraints::displacement is zero for these components.
   std::map<PetscInt, double> locked;
 
   /// Returns the direction of a component of an owned node.
@@ -87,8 +87,8 @@ struct Constraints {
 /// the others.
 PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term);
 
-/// Not collective. Keeps the length of a bolt, [section of the mesh]: the displacement of its
-/// reference node along the normal, m.
+/// Not collective. Fixes the length of the bolt with this section, an index into Mesh::sections.
+/// `opening` is the displacement of its reference node along the normal, m.
 void lockBolt(const mesh::Mesh& mesh, int section, double opening, Constraints& constraints);
 
 /// Collective. Returns the supports. Throws Error for a component that is given twice or does not

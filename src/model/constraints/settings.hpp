@@ -15,9 +15,9 @@ namespace squeal::constraints {
 
 /// The supports of one group, or of one reference node.
 struct ClampSettings {
-  std::string components;         ///< of the displacement that are held, some of xyz
+  std::string components;         ///< held components of the displacement, some of xyz
   VectorValue displacement = {};  ///< of these components, m
-  std::string rotations;          ///< of the rotation of a reference node that are held
+  std::string rotations;          ///< held components of the rotation of a reference node
   VectorValue angle = {};         ///< of these rotations, rad
   std::string frame;              ///< the axes of x, y, z; empty: the global ones
 };
@@ -33,7 +33,7 @@ struct CouplingSettings {
   CouplingKind kind = CouplingKind::rigid;
   std::vector<std::string> groups;  ///< groups of nodes, or reference nodes
   std::vector<double> weights;      ///< [group] of each of its nodes, if distributed
-  std::string components;           ///< coupled ones of the nodes, some of xyz, if rigid
+  std::string components;           ///< coupled components of the nodes, some of xyz, if rigid
   std::string frame;                ///< the axes of these components; empty: the global ones
   bool pinned = false;              ///< rotations of reference nodes in the groups stay free
 };
@@ -57,8 +57,8 @@ struct EquationSettings {
 struct BoltSettings {
   std::string name;
   std::string section;               ///< surface group inside a body
-  std::optional<double> force = {};  ///< tension of the first step, N; later its length is kept
-  std::optional<double> shortening = {};  ///< the length that is kept, m, in place of a force
+  std::optional<double> force = {};  ///< tension of the first step, N; then the length is fixed
+  std::optional<double> shortening = {};  ///< fixed shortening, m, instead of a force
   std::optional<VectorValue> axis = {};   ///< of the bolt
 };
 

@@ -27,8 +27,8 @@ Assembled assemble(const mesh::Mesh& mesh, elasticity::Bodies bodies, interfaces
 void requireSupports(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                      const Contact& contact);
 
-/// Collective. Keeps the lengths of bolts from now on: `openings` of their sections along the
-/// normal, m, [section of the mesh].
+/// Collective. Fixes the lengths of the bolts: `openings`, [section of the mesh], are the openings
+/// of their sections along the normal, m.
 void lockBolts(Contact& contact, const elasticity::Bodies& bodies,
                const std::vector<double>& openings);
 

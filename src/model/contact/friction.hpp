@@ -13,8 +13,8 @@ class FrictionLaw {
   FrictionLaw() = default;
   /// Returns 1 + (r − 1) exp(−|w|/v) for the static ratio r and the decay speed v, m/s.
   static FrictionLaw exponential(double staticRatio, double decaySpeed);
-  /// Returns the law that interpolates these factors at ascending speeds, m/s, linearly; it is
-  /// constant beyond the table.
+  /// Returns the law that interpolates linearly between these factors at ascending speeds, m/s. It
+  /// is constant beyond the table.
   static FrictionLaw table(std::vector<double> speeds, std::vector<double> factors);
   bool constant() const { return kind_ == Kind::constant; }
   /// Returns φ at the sliding speed |w|, m/s.

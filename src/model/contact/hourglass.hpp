@@ -10,15 +10,16 @@
 
 namespace squeal::contact {
 
-/// Collective. Returns the hourglass modes without strain energy that neighbours, supports and this
-/// contact leave, in words: body, number and a cell; an empty text if there are none. No body may
-/// have a rigid-body mode there. Only exposed cells can have such modes, Bodies::exposed; the first
-/// 2000 are examined with the others taken as rigid.
+/// Collective. Describes the hourglass modes without strain energy that neighbours, supports and
+/// this contact do not prevent: their body, their number and one of their cells. Returns an empty
+/// text if there are none. No body may have a rigid-body mode with this contact. Only the cells in
+/// Bodies::exposed can have such modes. The first 2000 of them are examined, and the others are
+/// treated as rigid.
 std::string hourglassModes(const mesh::Mesh& mesh, const Contact& contact,
                            const elasticity::Bodies& bodies, const SupportingContact& holding);
 
-/// Collective. Throws Error if there are such modes with closed frictionless contact. Warns if
-/// there are more cells than are examined.
+/// Collective. Throws Error if there are such modes with closed frictionless contact. Warns if not
+/// all exposed cells are examined.
 void rejectHourglassModes(const mesh::Mesh& mesh, const Contact& contact,
                           const elasticity::Bodies& bodies);
 

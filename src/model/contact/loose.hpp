@@ -19,15 +19,14 @@ struct RigidBodyMode {
   bool isReference = false;        ///< the part is a reference node
 };
 
-/// Collective. Returns the part with the rigid-body mode of the least support by constraints,
-/// springs, bushings and this contact. Returns none if all parts are
-/// supported.
+/// Collective. Returns the rigid-body mode that constraints, springs, bushings and this contact
+/// support least. Returns none if all parts are supported.
 std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact& contact,
                                            const elasticity::Bodies& bodies,
                                            const SupportingContact& holding);
 
-/// Collective. Returns 1 for each connected part that takes part in a rigid-body mode with these
-/// supports, [part].
+/// Collective. Returns for each connected part, [part], 1 if it moves in a rigid-body mode with
+/// these supports.
 std::vector<unsigned char> looseParts(const mesh::Mesh& mesh, const Contact& contact,
                                       const elasticity::Bodies& bodies,
                                       const SupportingContact& holding);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The matrix B of the change −B w* of the friction forces with a change w* of the
-/// relative velocity [4.7, M.20].
+/// The matrix B: a change w* of the relative velocity changes the friction forces by −B w* [4.7,
+/// M.20].
 #include <vector>
 
 #include "model/contact/contact.hpp"
 
 namespace squeal::contact {
 
-/// The change −B w* of the friction force of one contact node by a change w* of its relative
-/// velocity [4.7, M.20]:
+/// The factors of B for one contact node. A change w* of its relative velocity changes its friction
+/// force by −B w* [4.7, M.20]:
 ///   B = across (1 − ττᵀ − nnᵀ) + along ττᵀ.
 struct VelocityResponse {
   double across = 0;  ///< f R_N φ / |w|, N·s/m; zero in the plane, which has one tangent

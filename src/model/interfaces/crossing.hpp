@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Check that the surfaces on which bodies slide do not move through themselves.
+/// Check that the base velocity is tangential to the surfaces on which bodies slide.
 #include "model/coupling/exchange.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/interfaces/nodes.hpp"
@@ -11,12 +11,12 @@ namespace squeal::interfaces {
 /// Collective. Warns of each sliding interface whose base velocity V has a component along the
 /// normal n of the contact surface. With convective terms on a body, throws Error instead.
 ///
-/// On the flat facets of a round body, V·n is not zero either. It changes its sign within each
-/// facet, however, and its mean over the facets around a node is at most 0.015 of the mean of
-/// |V·n|, on structured and unstructured meshes. The surface crosses itself if these means are at
-/// least 0.2 of the mean of |V·n| and exceed 0.01 of |V|. An axis is therefore reported if it is
-/// off by more than 0.016 of the radius and, on linear faces, by more than 0.16 of the angle of a
-/// facet.
+/// On the flat facets of a round body, V·n is not zero even for a correct axis. It changes its sign
+/// within each facet, however. Its mean over the facets around a node is at most 0.015 of the mean
+/// of |V·n|, on structured and unstructured meshes. The velocity counts as not tangential if these
+/// means are at least 0.2 of the mean of |V·n| and exceed 0.01 of |V|. An axis is therefore
+/// reported if it is wrong by more than 0.016 of the radius and, on linear faces, by more than 0.16
+/// of the angle of a facet.
 void checkCrossing(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                    const elasticity::Bodies& bodies, const Interfaces& all);
 

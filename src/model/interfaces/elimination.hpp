@@ -18,7 +18,7 @@ struct Source {
   Point direction{};   // in which it holds the node
   int component = 0, group = -1;
   bool isTurned = false;              // the direction is not that of the component
-  int interface = -1, coupling = -1;  // which the node follows; −1: not this one
+  int interface = -1, coupling = -1;  // through which the node follows others; −1: none
   int option = -1;                    // index into Constraints::equations
   double value = 0;                   // m, or rad
   Point place{};
@@ -54,7 +54,7 @@ class Elimination {
   const std::map<PetscInt, Equation>& solved() const { return solved_; }
   /// Returns the equations that depend on the others, exactly or nearly.
   const std::vector<const Source*>& idle() const { return idle_; }
-  /// Throws Error if a component depends on others and one belongs to a contact node, whose
+  /// Throws Error if an equation with several components contains one of a contact node, whose
   /// unknowns are not Cartesian components.
   void rejectContact() const;
 

@@ -8,16 +8,17 @@
 
 namespace squeal::interfaces {
 
-/// Collective. Solves these equations for components of nodes that follow no other. A component
-/// with a definite value is held: Constraints::held. Others depend on components of further nodes:
-/// Constraints::dependent. If the support of a tied node depends on those of other nodes within
-/// `leastPivot`, the support holds the tied node and constrains no master: TiedNode::apart. Sets
-/// InterfaceReport::carried. Throws Error, naming support or equation and position, for
-/// contradictory equations, and for a component that would depend on contact nodes.
+/// Collective. Solves these equations for components of nodes that follow no others. If a component
+/// has a definite value, it is held: Constraints::held. Other components depend on components of
+/// further nodes: Constraints::dependent. The equation of a tied node with a support may depend on
+/// other equations, up to weights below `leastPivot`. The support then holds the tied node and
+/// constrains no master: TiedNode::apart. Sets InterfaceReport::carried. Throws Error, naming
+/// support or equation and position, for contradictory equations, and for a component that would
+/// depend on contact nodes.
 void solveEquations(const mesh::Mesh& mesh, Interfaces& all);
 
-/// The least weight of a pivot in its equation. With a smaller bound, nodes between the held ones
-/// would be held too, by equations that differ only by quadrature errors.
+/// The smallest weight of a pivot in its equation. With a smaller bound, equations that differ only
+/// by quadrature errors would also hold the nodes between the held ones.
 constexpr double leastPivot = 0.05;
 
 }  // namespace squeal::interfaces

@@ -14,8 +14,8 @@
 
 namespace squeal::interfaces {
 
-/// Collective. Returns the layer nodes of this rank with a gap, images included, for the contact
-/// nodes of `all`, which are layer nodes where their interface has a layer.
+/// Collective. Returns the layer nodes of this rank with a gap, including images. On interfaces
+/// with a layer, the contact nodes of `all` are layer nodes.
 std::vector<mesh::LayerNode> layersInContact(const mesh::Mesh& mesh, const Interfaces& all,
                                              Mat periodic);
 

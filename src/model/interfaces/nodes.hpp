@@ -60,8 +60,8 @@ struct TiedNode {
   Connection connection;
   std::vector<coupling::PartShare> masterParts;
   Point offset;  ///< Σ P_il x_l − x_i in the file, m: from the node to its position on the master
-  /// [component] 1 if a support holds it instead of the tie: the conditions of other nodes then
-  /// imply the condition of the support on the masters
+  /// [component] 1 if a support holds the component instead of the tie. The conditions of other
+  /// nodes then already imply the condition that the support would put on the masters.
   std::array<unsigned char, 3> apart{};
 };
 
@@ -71,18 +71,19 @@ struct SlaveSide {
   int sign;             ///< +1 if it is the pad, −1 if it is the disc
 };
 
-/// The nodes of an interface without a condition because they follow from another one.
+/// The nodes of an interface that have no condition on it because another interface determines
+/// them.
 struct LossReport {
   PetscInt nodes = 0;
   Point first{};                    ///< the place of one of them, m
-  std::vector<std::string> owners;  ///< labels of the interfaces that they follow from
+  std::vector<std::string> owners;  ///< labels of the interfaces that determine them
 };
 
 /// The cells that the adjustment of a tie stretches or compresses.
 struct StrainReport {
-  PetscInt cells = 0;  ///< with a change of a distance of corners by more than a tenth
-  double change = 0;   ///< largest change of a distance of two corners, relative to it
-  Point where{};       ///< their middle in the file, m
+  PetscInt cells = 0;  ///< cells in which a distance of corners changes by more than a tenth
+  double change = 0;   ///< largest relative change of a distance of two corners
+  Point where{};       ///< middle of these two corners in the file, m
 };
 
 /// A report on an interface, the same on all ranks.
@@ -98,7 +99,7 @@ struct InterfaceReport {
   PetscInt dropped = 0;    ///< touching nodes without a condition: too little covered, or left
                            ///< to another interface
   LossReport loss;
-  PetscInt bonded = 0;  ///< nodes of a contact that a tie binds to what they touch
+  PetscInt bonded = 0;  ///< nodes of a contact that a tie binds to the touching side
   // The following apply only to ties.
   PetscInt carried = 0;          ///< held components of tied nodes that the master carries
   PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
@@ -150,7 +151,7 @@ struct Interfaces {
   /// Returns the slave side of a contact interface with this surface, borrowed; null if there is
   /// none.
   const SlaveSide* slaveOf(const std::string& surface) const;
-  /// Returns the labels of the interfaces with a mark other than zero, [interface].
+  /// Returns the labels of the interfaces whose `marks`, [interface], are not zero.
   std::vector<std::string> labels(const std::vector<int>& marks) const;
 };
 
