@@ -9,8 +9,8 @@
 namespace squeal::direct {
 
 /// Collective. Solves the problem in all unknowns by SLEPc with shift-and-invert at zero. Returns
-/// the `count` eigenvalues nearest to zero, with all others at the distance of the last one. With a
-/// band, returns all eigenvalues in it (low ≤ Im s ≤ high, |s| ≤ high), at most `limit`;
+/// the `count` eigenvalues nearest to zero, and all others with the same |s| as the last one. With
+/// a band, returns all eigenvalues in it (low ≤ Im s ≤ high, |s| ≤ high), at most `limit`;
 /// ComplexModes::coveredTo is the end of the covered part. `trial` is T, N×n, for the shapes.
 /// Throws Error if the solver does not converge.
 pencil::ComplexModes solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,

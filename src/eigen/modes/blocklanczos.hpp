@@ -11,12 +11,12 @@ namespace squeal::modes {
 /// Name of the type, for EPSSetType and -eps_type.
 constexpr const char* blockLanczosType = "blocklanczos";
 
-/// Registers the type with SLEPc, once. It takes the options of EPS (nev, ncv: most vectors of the
-/// basis, tol, max_it: most restarts), EPS monitors and convergence tests,
-/// and
-///   -eps_blocklanczos_blocksize <8>, right-hand sides that are solved for together,
-///   -eps_blocklanczos_pole <true>, whether further poles are placed amid the wanted eigenvalues,
-///     where the inertia counts those below.
+/// Registers the type with SLEPc, once. It supports EPS monitors and convergence tests, and the
+/// options of EPS nev, ncv (largest number of basis vectors), tol and max_it (largest number of
+/// restarts). Its own options are
+///   -eps_blocklanczos_blocksize <8>: number of right-hand sides per block solve,
+///   -eps_blocklanczos_pole <true>: places further poles amid the wanted eigenvalues, where the
+///     inertia counts the eigenvalues below.
 /// The spectral transformation must be shift-and-invert.
 void registerBlockLanczos();
 
@@ -37,7 +37,7 @@ struct BlockLanczosResult {
   int below = 0;
 };
 
-/// Collective. Calls EPSSolve on a solver of this type and returns the facts. Throws Error if the
+/// Collective. Calls EPSSolve on a solver of this type and returns the results. Throws Error if the
 /// second pole cannot be factorised or the basis cannot be extended.
 BlockLanczosResult solveBlockLanczos(EPS eps);
 

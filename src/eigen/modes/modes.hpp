@@ -35,10 +35,11 @@ struct Label {
 };
 
 /// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
-/// Unless `-modes_solver` selects one of these, LAPACK replaces them if most modes of a small
-/// problem are wanted, or if EPS too has missed modes of a problem of at most 2000 unknowns. An
-/// unconfirmed count is not an error. Throws Error if a given count exceeds the number of unknowns,
-/// if the solver does not converge, or if an eigenvalue is not positive within round-off.
+/// Unless `-modes_solver` selects one of these, LAPACK replaces them in two cases: if most modes of
+/// a small problem are requested, or if EPS too has missed modes of a problem of at most 2000
+/// unknowns. An unconfirmed count does not throw. Throws Error if a given count exceeds the number
+/// of unknowns, if the solver does not converge, or if an eigenvalue is not positive within
+/// round-off.
 Modes compute(const factor::AssociatedSystem& system, const Settings& settings,
               const Label& label = {});
 

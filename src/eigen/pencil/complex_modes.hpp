@@ -95,8 +95,8 @@ struct BodyCorrelation {
 };
 
 /// Returns the name of a mode from the motions of the bodies that have at least 0.15 of its kinetic
-/// energy, at most three, largest first: "disc (0,4) out of plane + pad rigid about x". A body
-/// whose motion is unclear is named without one; empty if that is so for all.
+/// energy, at most three, largest first: "disc (0,4) out of plane + pad rigid about x". If the
+/// motion of a body is unclear, the name contains only the body. Empty if all motions are unclear.
 std::string modeName(const std::vector<Component>& components);
 
 /// A complex mode d = real + i imaginary in nodal displacements, N entries. Its scaling makes the
@@ -119,8 +119,8 @@ struct Derivative {
   /// d²s/dθ² by the nearest eigenvalue [M.90], 1/s per unit²; NaN: unknown
   Complex second = {NAN, NAN};
 
-  /// Returns the change of θ at which the second derivative changes the growth rate by a tenth of
-  /// what the first one does; NaN if the second is unknown.
+  /// Returns the change of θ at which the second-order change of the growth rate is a tenth of the
+  /// first-order one; NaN if the second derivative is unknown.
   double growthHoldsTo() const;
 };
 
@@ -176,8 +176,8 @@ struct ComplexModes {
   int unstableCount() const;
   /// Returns the number of eigenvalues with this verdict.
   int count(Verdict verdict) const;
-  /// Returns the verdict on the point: the first of unstable, uncertified, undecided, neutral and
-  /// stable that an eigenvalue has; uncertified if there is none.
+  /// Returns the verdict on the point: the first in the order unstable, uncertified, undecided,
+  /// neutral, stable that one of its eigenvalues has; uncertified if there are no eigenvalues.
   Verdict verdict() const;
   /// Returns the number of eigenvalues that are not certified.
   int uncertifiedCount() const;

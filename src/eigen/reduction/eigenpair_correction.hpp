@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Improvement of known eigenpairs of dense quadratic problems after their basis has grown. For
-/// some tens of eigenvalues out of some hundred, this takes a fraction of the time of a full solve.
+/// some tens out of some hundreds of eigenvalues, this takes a fraction of the time of a full
+/// solve.
 #include <mpi.h>
 
 #include <vector>
@@ -25,8 +26,8 @@ struct CorrectionTask {
 ///   (A − σB)⁻¹ B,   A = [0 I; −K −Z],   B = [I 0; 0 M],
 /// is projected on the vectors of the group, the vectors of its neighbours, and the operator times
 /// the former. The groups of all problems are distributed over the ranks, and all ranks get the
-/// same pairs. Returns false, [task], if that fails or if two pairs have become one; the pairs are
-/// then in an undefined state. Throws Error on all ranks if LAPACK fails.
+/// same pairs. Returns for each task false if this fails or if two pairs have become one; the pairs
+/// of this task are then in an undefined state. Throws Error on all ranks if LAPACK fails.
 std::vector<bool> correctPairs(MPI_Comm comm, const std::vector<CorrectionTask>& tasks);
 
 }  // namespace squeal::reduction

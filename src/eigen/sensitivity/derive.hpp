@@ -28,13 +28,13 @@ struct CriticalPoint {
   sweep::Parameters at;
   double angularFrequency = 0;  ///< rad/s
   bool isCrossing = true;       ///< one eigenvalue crosses the axis; otherwise two meet there, or
-                                ///< one at zero
+                                ///< one is zero
 };
 
-/// Collective. Adds to the mode at a critical friction its derivatives [M.89], all but that by the
-/// friction itself: none if a vector is not found, or if the growth does not depend on the
-/// friction. `forms` contains the one of the parameter "friction". The other arguments are those of
-/// deriveShapes().
+/// Collective. Adds to the mode at a critical friction the derivatives of this friction [M.89] with
+/// respect to all parameters except the friction itself. Adds none if a vector is not found, or if
+/// the growth does not depend on the friction. `forms` must include the form of the parameter
+/// "friction". The other arguments are those of deriveShapes().
 void deriveCritical(const CriticalPoint& point, const pencil::Pencil& pencil,
                     const StartSpace& start, const factor::AssociatedSystem& system,
                     const Forms& forms, pencil::CriticalMode& mode);

@@ -49,8 +49,8 @@ class Basis {
   linalg::Block prolonged(const linalg::DenseView& interior) const;
 
   /// Collective. Adds K0⁻¹ times the columns of `residuals`, by a block solve; combinations that
-  /// depend on others or on V are dropped. The rows of the boundary unknowns do not count, since
-  /// the constraint modes cover them. Returns the number of columns added.
+  /// depend linearly on others or on V are omitted. The rows of the boundary unknowns are ignored,
+  /// since the constraint modes represent them. Returns the number of columns added.
   PetscInt add(linalg::Block residuals);
   /// Collective. Appends the vectors that add() found in an earlier run, by this rank's rows, and
   /// restores its state.

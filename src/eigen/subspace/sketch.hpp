@@ -5,8 +5,9 @@
 /// For a matrix Ω with k columns of independent random signs [M.39],
 ///   ‖Ωᵀ r‖² / k
 /// has the mean ‖r‖² and a relative standard deviation of √(2/k) (Johnson and Lindenstrauss 1984;
-/// Achlioptas 2003). For k = 64 the norm has a relative standard deviation of 9 %. From a stored Ωᵀ
-/// A V of a basis V follow the norms of residuals A V q without computing their n entries.
+/// Achlioptas 2003). For k = 64 the norm has a relative standard deviation of 9 %. The norms of
+/// residuals A V q in a basis V follow from a stored Ωᵀ A V, without computing the n entries of the
+/// residuals.
 #include <optional>
 #include <vector>
 

@@ -11,8 +11,9 @@
 namespace squeal::sweep_solver {
 
 /// Collective. Adds to a tracked line the mode at each critical friction that is the root of a
-/// function: its name and the parts of the free modes in it, and, if `derives`, the derivatives of
-/// the friction. The derivatives of each call `progress` before, which may throw.
+/// function: the name of the mode, the shares of the free modes in it and, if `derives`, the
+/// derivatives of the critical friction. Calls `progress`, which may throw, before the derivatives
+/// of each critical friction.
 void addCriticalModes(SweepProblem& problem, const reduction::ReducedProblem& reduced,
                       const stability::Line& line, bool derives,
                       const std::function<void(const std::string&)>& progress,

@@ -23,8 +23,8 @@ struct SweepPlan {
   std::vector<std::size_t> order;                 ///< all points in this order
 };
 
-/// Returns the plan of a sweep; with `together`, the points of a batch share the corrections of one
-/// basis; without it, each point is a batch.
+/// Returns the plan of a sweep. With `together`, the points of a batch share the corrections of one
+/// basis. Without it, each point is a batch.
 SweepPlan planOf(const SweepProblem& problem, const std::vector<double>& dampings, bool together);
 
 }  // namespace squeal::sweep_solver

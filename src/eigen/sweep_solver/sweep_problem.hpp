@@ -19,8 +19,8 @@ namespace squeal::sweep_solver {
 
 /// An active set, and the consecutive steady points that have it.
 struct PointRange {
-  std::size_t first = 0, last = 0;  ///< steady points [first, last); none if the active set is only
-                                    ///< passed through between points
+  std::size_t first = 0, last = 0;  ///< steady points [first, last); none if the active set occurs
+                                    ///< only between points
   PetscInt openNodes = 0;           ///< contact nodes that are not active, over all ranks
   /// [boundary unknown of all ranks] 1 if it is an unknown of these points
   std::vector<unsigned char> has = {};

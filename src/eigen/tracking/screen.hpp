@@ -21,11 +21,11 @@ struct StepEnd {
 };
 
 /// Collective. Appends the events found within the step between `low` and `high`. A cubic through
-/// the values and slopes at both ends selects pairs of neutral eigenvalues that may meet and growth
-/// rates that may change sign twice. These candidates are examined in between in their own
-/// subspace. This finds mergers wider than about 1e-5 of the step, and arches of the growth rate
-/// whose cubic falls to a tenth of the values at the ends. If an examination fails or is undecided,
-/// appends a gap.
+/// the values and slopes at both ends selects candidates: pairs of neutral eigenvalues that may
+/// meet, and growth rates that may change sign twice. The candidates are examined within the step,
+/// in their own subspace. This finds mergers wider than about 1e-5 of the step, and double sign
+/// changes of the growth rate whose cubic falls to a tenth of the values at the ends. If an
+/// examination fails or is undecided, appends a gap.
 void screen(Family& family, const StepEnd& low, const StepEnd& high,
             const std::vector<ContinuedPair>& singles, std::vector<Event>& events,
             std::vector<Gap>& gaps);

@@ -70,8 +70,8 @@ struct Piece {
 
 /// Collective. Tracks all eigenvalues of the band over ascending frictions. A continuation is
 /// certain if the trace of the product of the spectral projectors at both ends, tr(Π Π') [M.41], is
-/// close to the number of eigenvalues joined. Other steps are halved: for two eigenvalues that mix,
-/// only in their common subspace; otherwise with all eigenvalues.
+/// close to the number of eigenvalues joined. Other steps are halved. For two eigenvalues that mix,
+/// this is done only in their common subspace, otherwise with all eigenvalues.
 ///
 /// By convention, where two neutral branches merge, the one of lower frequency becomes the growing
 /// one; where a growing and a decaying branch become neutral, the growing one gets the lower

@@ -22,8 +22,8 @@ struct Triples {
   }
 };
 
-/// The symmetry of a matrix. Contributions are summed in any order, so a `rounded` matrix is
-/// symmetric only within round-off; `symmetric` and `skew` matrices are made exactly symmetric or
+/// The symmetry of a matrix. Contributions are summed in any order. A `rounded` matrix is therefore
+/// symmetric only within round-off. `symmetric` and `skew` matrices are made exactly symmetric or
 /// skew.
 enum class SymmetryClass { rounded, symmetric, skew };
 

@@ -11,10 +11,11 @@
 namespace squeal::elasticity {
 
 /// Collective. Checks that the motion of each body leaves the laws of its materials unchanged: the
-/// law at a point, moved with the matter, is the law at the place that the point reaches. Such are
-/// isotropic laws, axes of a cylinder about the axis of rotation, an axis of transverse isotropy
-/// along it, and uniform laws under translation. Otherwise throws Error with `convective` terms,
-/// and warns without: under approximation A the axes stay at rest while the matter moves.
+/// law at a point, moved with the matter, is the law at the place that the point reaches. This is
+/// true for isotropic laws, for cylindrical axes about the axis of rotation, for an axis of
+/// transverse isotropy along it, and for uniform laws under translation. Otherwise throws Error
+/// with `convective` terms, and warns without them: under approximation A the axes stay at rest
+/// while the matter moves.
 void checkCarriedAxes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                       const std::vector<Motion>& motions, bool convective);
 

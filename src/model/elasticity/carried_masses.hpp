@@ -19,10 +19,10 @@ struct CarriedMass {
 };
 
 /// Collective. Returns the masses at nodes of moving bodies and at reference nodes that couplings
-/// connect only with bodies of one motion. Warns of those connected with bodies that move
-/// differently, which do not count. With convective terms, throws Error for a mass that is not
-/// steady in the axes of the vehicle: a rotating one must have its centre on the axis and an
-/// inertia that looks the same at all angles, both within a thousandth.
+/// connect only with bodies of one motion. Omits masses that are connected with bodies of different
+/// motions, and warns of them. With convective terms, throws Error for a mass that is not steady in
+/// the axes of the vehicle. A rotating mass must have its centre on the axis and an inertia that is
+/// the same at all angles, both within a thousandth.
 std::vector<CarriedMass> carriedMasses(const mesh::Mesh& mesh, const Settings& settings,
                                        const std::vector<constraints::CouplingSettings>& couplings,
                                        const std::vector<Motion>& motions);

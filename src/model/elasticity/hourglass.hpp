@@ -24,9 +24,9 @@ struct ExposedCell {
   std::array<mesh::Point, 20> point;
 };
 /// Collective. Returns the exposed cells of all ranks, by material group and tag; none without
-/// reduced integration. The cells around an edge inside a body hold each other's hourglass modes:
-/// together they have only rigid motions without strain. Cells in a row do not, nor do those of an
-/// L.
+/// reduced integration. The cells around an edge inside a body prevent each other's hourglass
+/// modes: the only motions of these cells together without strain are rigid. Cells in a row do not
+/// prevent them, nor do the cells of an L.
 std::vector<ExposedCell> exposedCells(const mesh::Mesh& mesh,
                                       const std::vector<material::Material>& materials);
 /// Collective. Warns of each material group with such cells.

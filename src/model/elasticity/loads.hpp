@@ -13,7 +13,7 @@
 
 namespace squeal::elasticity {
 
-/// What the loads depend on; borrowed.
+/// The data on which the loads depend; borrowed.
 struct LoadInput {
   const mesh::Mesh& mesh;
   const std::vector<material::Material>& materials;  ///< [material group]

@@ -8,12 +8,12 @@
 
 namespace squeal::gmshreader {
 
-/// Makes a shape the model of gmsh. Lengths come in millimetres from STEP and IGES, whatever their
-/// unit, and as they are from BREP. Solids that touch are cut where they do, so that their meshes
-/// share nodes there. Each solid and face becomes a physical group by the last part of its label,
-/// entities of equal labels together. One without a label of its own is `solid_N` or `face_N`, with
-/// the number that gmsh shows for the file. Throws Error if there is no solid; warns of labels
-/// whose faces are not found again after the cuts.
+/// Makes a shape the model of gmsh. Lengths from STEP and IGES are converted to millimetres,
+/// whatever their unit; those from BREP are unchanged. Touching solids are cut along their common
+/// faces, so that their meshes share nodes there. Each solid and face becomes a physical group,
+/// named by the last part of its label. Entities of equal labels form one group. An entity without
+/// a label is `solid_N` or `face_N`, with the number that gmsh shows for the file. Throws Error if
+/// there is no solid. Warns of labels whose faces cannot be identified after the cuts.
 void importShape(const std::string& file, const meshfile::ShapeMesh& mesh, const Warn& warn);
 
 }  // namespace squeal::gmshreader

@@ -5,8 +5,8 @@
 
 namespace squeal::mesh {
 
-/// Adds a layer node for each node of the surfaces InterfaceRequest::layered, and an image for each
-/// layer node of an image. Follows pairNodes() and straighten().
+/// Adds a layer node for each node of the surfaces InterfaceRequest::layered. If the node is a
+/// periodic image, its layer node is an image too. Call this after pairNodes() and straighten().
 void addLayers(WholeMesh& mesh, const Request& request);
 
 }  // namespace squeal::mesh

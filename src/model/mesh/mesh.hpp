@@ -89,8 +89,8 @@ struct SectionPair {
   int lowerPart;   ///< connected part of the lower node
 };
 
-/// A node in no cell, at the place of a node on a surface whose compliant layer it moves with: the
-/// layer lies between the two.
+/// A node of a compliant layer. It belongs to no cell and lies at the place of a node on a surface;
+/// the layer is between these two nodes.
 struct LayerNode {
   PetscInt node;   ///< local node on the surface (owned)
   PetscInt layer;  ///< local node (owned)
@@ -106,12 +106,12 @@ struct InterfaceMatch {
   bool nearlyMatching = false;  ///< they do not match, but most nodes of the pad have a partner
 };
 
-/// What `-mesh_straighten` has done to the whole mesh.
+/// The changes that `-mesh_straighten` has made to the whole mesh.
 struct Straightened {
-  PetscInt folded = 0;     ///< cells whose Jacobian was not positive, those of all rounds
+  PetscInt folded = 0;     ///< cells whose Jacobian was not positive, in all rounds
   PetscInt cells = 0;      ///< cells with a node that was moved
   PetscInt nodes = 0;      ///< nodes moved
-  PetscInt rounds = 0;     ///< a round takes the cells that the one before it has folded
+  PetscInt rounds = 0;     ///< a round straightens the cells that the previous one folded
   double largestMove = 0;  ///< m
 };
 
@@ -142,7 +142,7 @@ struct Mesh {
   /// [local node] gmsh's tag; the two nodes of a split shared node repeat it. It is 0 and −1 at
   /// reference nodes, and −1 − tag at the layer node of a node with this tag.
   std::vector<PetscInt> nodeTag;
-  /// [local node] connected part (0 … parts−1) of the bodies once contact is cut
+  /// [local node] connected part (0 … parts−1) of the bodies without contact
   std::vector<int> nodePart;
   int parts = 0;
   std::vector<std::string> partName;          ///< [part] names of its bodies joined by '+'
@@ -197,8 +197,8 @@ std::string text(const Point& p);
 /// geometry may include other files, and gmsh may mesh it otherwise than before.
 std::string checksum(const Mesh& mesh);
 
-/// A GroupRequest names a group of the mesh that a later stage asks for. `option` is the option
-/// that names it, with its dash, for messages where the group is missing or unsuitable.
+/// A GroupRequest names a group of the mesh that a later stage needs. `option` is the option that
+/// names it, with its dash, for messages where the group is missing or unsuitable.
 struct GroupRequest {
   std::string name, option;
 };
@@ -208,13 +208,13 @@ struct InterfaceRequest {
   std::string name;
   std::string label;         ///< the kind of interface and its name: unique, for messages
   GroupRequest pad, disc;    ///< an empty name for the disc stands for a rigid obstacle
-  bool discIsSlave = false;  ///< the nodes of the disc bear the gaps, also if the meshes match
-  /// Surfaces whose nodes need layer nodes: those that may bear the gaps over a compliant layer.
+  bool discIsSlave = false;  ///< the nodes of the disc have the gaps, also if the meshes match
+  /// Surfaces whose nodes need layer nodes: those that may have the gaps above a compliant layer.
   std::vector<std::string> layered = {};
 };
 
-/// A PeriodicRequest asks for a periodic constraint: the group `image` is the group `of`,
-/// translated.
+/// A PeriodicRequest requests a periodic constraint: the group `image` is the translated group
+/// `of`.
 struct PeriodicRequest {
   std::string image, of;
   std::string option;  ///< the option that asks for it, with its dash, for messages

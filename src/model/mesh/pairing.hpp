@@ -8,9 +8,9 @@
 namespace squeal::mesh {
 
 /// Finds the partner of each periodic image and of each contact node, and fills primary, images,
-/// pairs and interfaces of the mesh. An interface whose sides are not meshed alike gets no
-/// pairs. Throws Error for an image without a partner, for images that are not meshed alike or go
-/// round in a circle, and for a pad that is its own disc.
+/// pairs and interfaces of the mesh. An interface gets no pairs if the meshes of its sides do not
+/// match. Throws Error for an image without a partner, for an image whose mesh differs from that of
+/// its primary, for images that follow each other in a circle, and for a pad that is its own disc.
 void pairNodes(WholeMesh& mesh, const Request& request);
 
 }  // namespace squeal::mesh

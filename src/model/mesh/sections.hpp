@@ -8,13 +8,13 @@
 
 namespace squeal::mesh {
 
-/// Doubles the nodes of each section; the cells on its upper side, to which its normal points, take
-/// the new nodes, and so do elements of other groups there. Fills WholeMesh::sections and
+/// Doubles the nodes of each section. The cells on its upper side, to which its normal points, get
+/// the new nodes, and so do elements of other groups on this side. Fills WholeMesh::sections and
 /// WholeMesh::sectionPairs. Throws Error, naming option and place, for a section that is not flat,
 /// that does not cut through its body, or whose nodes belong to another body or section, for an
-/// axis across its normal, and for another option whose group has a face of a section: where nodes
-/// are doubled, the group would mean one of the two sides. The position of a reference node may be
-/// the centre of a section.
+/// axis perpendicular to its normal, and for another option whose group has a face of a section.
+/// Such a group would be ambiguous, since the nodes of its two sides are different. The position of
+/// a reference node may be the centre of a section.
 void cutSections(WholeMesh& mesh, std::map<std::string, meshfile::GroupElements>& groups,
                  const Request& request);
 

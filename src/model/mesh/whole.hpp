@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The whole mesh, which rank 0 keeps between reading and distribution. Not
-/// collective: for rank 0 only.
+/// The whole mesh, which rank 0 stores between reading and distribution. Not collective: for rank 0
+/// only.
 #include "model/mesh/mesh.hpp"
 #include "model/meshfile/contents.hpp"
 #include "model/meshfile/reader.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Where gmsh is called. Not collective.
+/// The call of gmsh. Not collective.
 #include "base/system/child_limits.hpp"
 #include "model/meshfile/contents.hpp"
 #include "model/meshfile/job.hpp"

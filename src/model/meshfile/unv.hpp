@@ -9,16 +9,16 @@ namespace squeal::meshfile {
 /// The numbers of nodes and elements of a .unv file.
 struct UnvContents {
   std::int64_t nodes = 0, elements = 0;
-  /// False if gmsh would leave out groups, those of the section 2467 as Salome writes it, or all
-  /// but the first word of a name: read a UnvCopy then.
+  /// False if gmsh would omit groups (those of section 2467 as Salome writes it) or all words of a
+  /// name except the first. In this case, read a UnvCopy.
   bool groupsAreRead = true;
 };
 
 /// Not collective. Returns the contents of a .unv file. Throws Error, with the line, unless the
 /// sections of nodes (2411) and elements (2412) hold tags that are positive and given once, finite
-/// coordinates, and elements on existing nodes. Throws Error also if two groups (2435,
-/// 2452, 2467, 2477) have the same name. gmsh's reader
-/// silently leaves a section at a line that it does not understand.
+/// coordinates, and elements on existing nodes. Throws Error also if two groups (2435, 2452, 2467,
+/// 2477) have the same name. These checks are necessary since gmsh's reader silently ends a section
+/// at a line that it does not understand.
 UnvContents requireSoundUnv(const std::string& file);
 
 /// A UnvCopy is a copy of a sound .unv file in the folder for temporary files, with the groups as

@@ -20,17 +20,19 @@ struct NamedMode {
   NamedMotion motion;  ///< of a body of revolution, or of Sections; without a name in the plane
 };
 
-/// Names what each body does in a mode: the rigid motion that has 0.9 of its kinetic energy, or the
-/// diameters and circles of a body of revolution, or the elastic modes of the body by itself of one
-/// name, or again a rigid motion, that have 0.6. In space.
+/// Names the motion of each body in a mode, only in space. The name is the first of these that
+/// applies: a rigid motion with 0.9 of the kinetic energy of the body; the nodal diameters and
+/// circles of a body of revolution, with 0.6; the elastic modes of the body by itself that have the
+/// same name, with 0.6 together; a rigid motion with 0.6.
 class BodyMotions {
  public:
   /// Collective. Takes the owned nodes of each body, [body], and borrows the mesh during the
-  /// lifetime of the object. A body that turns is analysed about its axis, another one about the
-  /// principal axis of inertia about which it looks most alike. Its motions across the axis, which
-  /// come in pairs, have one name: along or about a diameter. The weight of a node is the
-  /// diagonal of the mass matrix there; a common factor would change no share. Takes the elastic
-  /// modes of each body by itself, [body]; empty: none.
+  /// lifetime of the object. A rotating body is analysed about its axis of rotation. Another body
+  /// is analysed about the principal axis of inertia about which it is closest to a body of
+  /// revolution. The rigid motions of a body of revolution across its axis come in pairs, and both
+  /// have one name: along or about a diameter. The weight of a node is the diagonal of the mass
+  /// matrix there; a common factor would not change the shares. Takes the elastic modes of each
+  /// body by itself, [body]; empty: none.
   BodyMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
               const std::vector<std::vector<PetscInt>>& nodes, std::vector<OwnModes> own = {});
   /// Returns the frequencies and names of the elastic modes, [body].

@@ -32,14 +32,14 @@ struct NodalProducts {
   std::span<const double> damping = {};    ///< C u; empty: the forms of C are not wanted
 };
 
-/// What stores or dissipates energy: bodies, springs, bushings, point masses, the springs and
-/// dashpots of groups to the ground, and the compliant layers of interfaces. Ties, couplings and
-/// equations are constraints and store none.
+/// The components that store or dissipate energy: bodies, springs, bushings, point masses, the
+/// springs and dashpots of groups to the ground, and the compliant layers of interfaces. Ties,
+/// couplings and equations are constraints and store no energy.
 class Components {
  public:
   /// Collective. Borrows all arguments during the lifetime of the object. Where bodies share nodes,
-  /// it assembles the matrices of each of them once and keeps the rows of these nodes. Takes the
-  /// elastic modes of each body by itself, [body]; empty: none name motions.
+  /// it assembles the matrices of each of them once and keeps the rows of these nodes. `own` are
+  /// the elastic modes of each body by itself, [body], which name motions; empty: none.
   Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
              const contact::Contact& contact, std::vector<OwnModes> own = {});
   /// Returns the components, without shares: bodies in the order of the mesh, then the others.

@@ -33,10 +33,10 @@ bool isRevolved(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis
 /// Collective. Returns true if a body of revolution is longer than 3 of its radii.
 bool isBar(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis);
 
-/// What is clear about the motion of a body.
+/// The name of the motion of a body.
 struct NamedMotion {
   std::string name;  ///< such as "(0,4) out of plane"; empty if none is clear
-  double share = 0;  ///< of the kinetic energy of the body that the name explains
+  double share = 0;  ///< share of this motion in the kinetic energy of the body
 };
 
 /// The Fourier analysis of motions of a body of revolution. The cylindrical components of a motion

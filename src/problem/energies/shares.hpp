@@ -26,9 +26,9 @@ std::string nameOfMotion(const Components& components, const elasticity::Bodies&
 struct ComplexMode {
   const terms::Motion& motion;
   const terms::MotionForces& force;
-  /// What friction adds to the growth rate, [owned contact node], 1/s.
+  /// Contribution of friction to the growth rate, [owned contact node], 1/s.
   const std::vector<pencil::GrowthParts>& friction;
-  /// What modal damping takes from the growth rate, 1/s, ≤ 0; 0 without.
+  /// Contribution of modal damping to the growth rate, 1/s, ≤ 0; 0 without modal damping.
   double modalDamping = 0;
 };
 
@@ -40,9 +40,10 @@ std::vector<pencil::Component> sharesOfComplexMode(const Components& components,
                                                    const contact::Contact& contact,
                                                    const ComplexMode& mode);
 
-/// Collective. Returns what modal damping C_m adds to the growth rate of a motion of the energy E,
+/// Collective. Returns the contribution of modal damping C_m to the growth rate of a motion with
+/// the energy E,
 ///   −|s|² c xᴴ C_m x / E,   1/s,
-/// from the damping terms of the pencil that C of the bodies leaves.
+/// computed as the damping terms of the pencil minus C of the bodies.
 double modalGrowth(const pencil::Pencil& pencil, const linalg::ComplexVector& unknowns,
                    const elasticity::Bodies& bodies, const terms::Motion& motion, double energy);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The part of a field that functions explain, in a weighted least-squares fit. Not collective.
+/// Weighted least-squares fits of a field by functions. Not collective.
 #include <span>
 #include <vector>
 
@@ -8,9 +8,10 @@
 
 namespace squeal::energies {
 
-/// Fits of functions p_k with the Gram matrix G_kl = Σ w p_k p_l. A field u with b_k = Σ w p_k u is
-/// explained by u ≈ Σ c_k p_k, G c = b, and cᵀ b of Σ w u² is the explained part. Directions in
-/// which G is below 1e-9 of its largest eigenvalue are left out: there the functions are dependent.
+/// Fits by functions p_k with the Gram matrix G_kl = Σ w p_k p_l and the weights w. For a field u
+/// with b_k = Σ w p_k u, the fit is u ≈ Σ c_k p_k with G c = b. It explains the part cᵀ b of Σ w
+/// u². Directions in which G is below 1e-9 of its largest eigenvalue are omitted, since the
+/// functions are dependent there.
 class WeightedFit {
  public:
   WeightedFit() = default;

@@ -17,10 +17,11 @@ void requireExportFolder(MPI_Comm comm, const ExportSettings& settings,
                          const std::filesystem::path& results);
 
 /// Collective. Writes the matrices of the pencil to the folder of `-report_matrices`, and
-/// options.txt, an -options_file that solves it again. Terms that depend on the steady state of one
-/// point are written as they are there. `steadyPoints` is the number of steady states of the sweep
-/// to which the pencil applies. Throws Error if it does not apply to all, if the sweep has several
-/// points and the pencil has such terms, and if the folder or a file cannot be written.
+/// options.txt, an -options_file that solves it again. Terms that depend on the steady state of a
+/// point are written with their values at this point. `steadyPoints` is the number of steady states
+/// of the sweep to which the pencil applies. Throws Error if the pencil does not apply to all
+/// points, if it has terms of one point and the sweep has several points, and if the folder or a
+/// file cannot be written.
 void exportPencil(const pencil::Pencil& pencil, const ExportSettings& settings,
                   const sweep::Sweep& sweep, std::size_t steadyPoints);
 

@@ -86,7 +86,7 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
 
 /// Collective. Returns the contribution of friction at each contact node to the growth rate of the
 /// mode by cause, [owned contact node]; closed[k] is set for the closed gaps. At open nodes it is
-/// zero, except on tri6 and quad8 faces that are partly closed. `force` holds the forces and the
+/// zero, except on tri6 and quad8 faces that are partly closed. `force` contains the forces and the
 /// energy of the mode.
 ///
 /// The mode u = T x satisfies Tᵀ r* = (J T)ᵀ R_T*. The real part of its product with (s x)ᴴ is,
