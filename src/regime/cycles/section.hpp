@@ -22,8 +22,9 @@ struct Pass {
 struct Passes {
   int count = 0;
   Pass sum;
-  /// The pass that differs least from the preceding one, √J over √J. Between the two a node must
-  /// have separated or stuck: slowly growing linear motions would differ even less.
+  /// The pass with the smallest relative difference from the preceding one, in the energy norm.
+  /// Only passes between which a node has separated or stuck are compared, since slowly growing
+  /// linear motions would differ even less.
   Pass nearest;
   double change = -1;  ///< of `nearest`; -1: there is none
   void add(const Passes& other);

@@ -11,8 +11,9 @@
 
 namespace squeal::cycles {
 
-/// A direction in the unknowns (q, v, period, friction), all in √J: the scale of q is the
-/// frequency, that of period and friction the norm of the motion over their values.
+/// A direction in the unknowns (q, v, period, friction), all scaled to √J. The scale of q is the
+/// angular frequency. The scale of the period is the norm of the motion divided by the period, and
+/// likewise for the friction.
 using Direction = std::vector<double>;
 
 /// Floquet multipliers: the factors of disturbances of a periodic motion per period.

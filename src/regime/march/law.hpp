@@ -12,7 +12,7 @@ namespace squeal::march {
 ///   −(h K_z + C_z)⁻¹ B   and   (h K_z/2 + C_z)⁻¹ B,   B = R_N df/d|w| ττᵀ,
 /// in the rows that are free in steady sliding, from slopes df/d|w|, [node], s/m. If μ < 1, the
 /// slips of the massless boundary do not grow although the coefficient is one step old. With h = 0,
-/// μ is the ratio of a falling law to the damping; infinite without damping.
+/// μ is the ratio of the slope of a falling law to the damping; infinite without damping.
 double lawGain(const ReducedModel& model, double h, const std::vector<double>& slopes);
 
 /// Returns the slopes of the coefficients in steady sliding, [node].

@@ -36,8 +36,8 @@ struct ChosenSet {
 /// modified Newton method).
 class CondensedProblem {
  public:
-  /// Returns true if the problem is linear at each point except for the contact. What solveOnSets()
-  /// returns is then already a solution, up to corrections of round-off.
+  /// Returns true if the problem is linear at each point except for the contact. The result of
+  /// solveOnSets() is then already a solution, up to corrections of round-off.
   static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
   /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and all
   /// sticking nodes held, during the lifetime of the object.
@@ -59,7 +59,7 @@ class CondensedProblem {
     return std::move(solveTogether({at}, true).front());
   }
   /// Collective. Returns, for each set, the forces and gaps with its nodes closed and all others
-  /// open. Their signs are not checked, and convective terms are left out. Sets of one call share
+  /// open. Their signs are not checked, and convective terms are omitted. Sets of one call share
   /// block solves.
   std::vector<impedance::ContactSolution> solveOnSets(const std::vector<ChosenSet>& sets);
   /// Collective. The same of one set.

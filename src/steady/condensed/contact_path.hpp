@@ -34,8 +34,8 @@ struct ContactInterval {
 };
 
 /// Collective. Precomputes in blocks the states that traceContact() will probably need on these
-/// paths: on the sets between their ends, at the changes and in the order by linear interpolation.
-/// This affects only the run time.
+/// paths. Linear interpolation between the ends of a path predicts the changes, their order and the
+/// sets in between. This affects only the run time.
 void precomputeContact(CondensedProblem& problem, const std::vector<ContactInterval>& intervals);
 
 /// Collective. Follows the steady state from a solution along the line to `to`, which differs in

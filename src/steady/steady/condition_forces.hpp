@@ -22,9 +22,9 @@ struct ConditionForces {
   Wrench periodicity;                   ///< on images and primaries
 };
 
-/// Finds the forces of all conditions in the order in which nodes depend on others: periodic
-/// images, then the slaves of ties and coupled nodes of the highest level. Each passes its force on
-/// to the nodes that it depends on.
+/// Finds the forces of all conditions, beginning with the nodes on which no others depend: periodic
+/// images, then the slaves of ties and the coupled nodes, from the highest level down. Each node
+/// passes its force on to the nodes on which it depends.
 class Conditions {
  public:
   /// Collective. Borrows the contact during the lifetime of the object.

@@ -9,9 +9,9 @@
 namespace squeal::steady {
 
 /// Collective. Returns the tangential forces on the pads at the contact nodes, [contact node], N:
-/// friction by the law, and the reactions on sticking nodes. The latter balance the nodal forces r,
-/// N entries, N, and friction along the surface, in the rows of A without an unknown of T. `slip`
-/// includes the slip of released nodes.
+/// friction by the law, and the reactions on sticking nodes. In the rows of A without an unknown of
+/// T, these reactions balance the nodal forces r (N entries, in newtons) and the friction along the
+/// surface. `slip` includes the slip of released nodes.
 std::vector<Point> tangentialForces(const contact::Contact& contact, const Solution& solution,
                                     const std::vector<contact::Slip>& slip, Vec nodalForces);
 
@@ -30,9 +30,10 @@ std::vector<Point> forcesOnPads(const contact::Contact& contact, const Solution&
 Resultant resultantOf(const contact::Contact& contact, int interface, const Solution& solution,
                       const std::vector<Point>& onPads);
 
-/// Collective. Returns `contactForces`, N entries, with the forces of ties and couplings added: on
-/// the slaves, the forces that balance the nodal forces of the bodies, and on the masters, their
-/// opposites. The slaves of the highest level come first, since no other slave depends on them.
+/// Collective. Returns `contactForces`, N entries, with the forces of ties and couplings added: the
+/// slaves get the forces that balance the nodal forces of the bodies, and the masters get the
+/// opposite forces. The slaves of the highest level come first, since no other slave depends on
+/// them.
 OwnedVec withTieForces(const contact::Contact& contact, Vec nodalForces, OwnedVec contactForces);
 
 }  // namespace squeal::steady

@@ -42,7 +42,7 @@ struct Resultant {
   std::optional<double>
       stickingLimit;       ///< coefficient of friction of a sticking interface, if given
   PetscInt overLimit = 0;  ///< sticking nodes above the limit of the interface
-  PetscInt pulled = 0;     ///< those of them under tension, for which no coefficient suffices
+  PetscInt pulled = 0;     ///< sticking nodes under tension, for which no coefficient suffices
   PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
   PetscInt unheld = 0;     ///< closed nodes of a sticking interface without tangential force
   /// Magnitude of the sum of the moments on both sides, N·m. It is not zero if there is a distance
@@ -75,8 +75,8 @@ struct Solution {
   /// Largest resultant of the forces on a connected part (contact, supports and load), divided by
   /// the sum of the magnitudes of all nodal forces.
   double imbalance = 0;
-  /// If another solution at the same parameters is known: the number of contact nodes, over all
-  /// ranks, whose state differs; otherwise 0.
+  /// Number of contact nodes, over all ranks, whose state differs from that in another known
+  /// solution at the same parameters; 0 if no other solution is known.
   PetscInt nodesOfAnother = 0;
 };
 

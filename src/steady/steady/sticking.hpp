@@ -16,7 +16,7 @@ struct Solution;
 /// The state of a node of a sticking interface along the surface.
 enum class Hold : unsigned char {
   held,     ///< no jump
-  open,     ///< free, without a force: it is open, or it separates or slides whenever it is held
+  open,     ///< free, without a force: the node is open, or separates or slides if it is held
   released  ///< free, with the friction −f R_N d on the pad
 };
 
@@ -49,8 +49,8 @@ bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std
 /// Collective. Returns the revised holds of a solution; none if they do not change. A held or
 /// released node that has opened is freed, and one that has closed is held. On interfaces with
 /// `_release`, a node above its limit is released, and a node that slides along its friction
-/// instead of against it is held again. Each node is held again at most once, so the revisions end:
-/// afterwards it stays free, without a force, although it closes.
+/// instead of against it is held again. Each node is held again at most once, so that the revisions
+/// end. After that it stays free and without a force, even if it closes.
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution);
 
 }  // namespace squeal::steady

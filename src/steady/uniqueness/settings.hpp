@@ -6,8 +6,8 @@ namespace squeal::uniqueness {
 
 struct Settings {
   bool wanted = true;
-  int dense = 1000;  ///< contact nodes up to which the condensed matrix A is formed
-  int pMatrix = 18;  ///< contact nodes n up to which the P-matrix test is made, with 2^n pivots
+  int dense = 1000;  ///< largest number of contact nodes for which the condensed matrix A is formed
+  int pMatrix = 18;  ///< largest number n of contact nodes for the P-matrix test, with 2^n pivots
 
   /// Reads the options; the limits only if the examination is enabled.
   static Settings given();
