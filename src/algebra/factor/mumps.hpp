@@ -34,8 +34,9 @@ class MumpsFactor {
   /// Makes MUMPS report the signs of all pivots, for inertia(). Pivots below `zero` times the norm
   /// of the scaled matrix count as zero; with 0, MUMPS decides (about 1e-21).
   void enableInertia(double zero = 0);
-  /// Makes the next analyse() and factorise() eliminate all rows but these, 0-based and given on
-  /// rank 0, where schurComplement() then has the rest. solve() must not be called.
+  /// Makes the next analyse() and factorise() eliminate all rows except these, which are 0-based
+  /// and given on rank 0. schurComplement() then returns their Schur complement on rank 0. solve()
+  /// must not be called.
   void keep(const std::vector<PetscInt>& rows);
   /// Not collective. Returns the Schur complement of the rows of keep(), in their order, on rank 0:
   /// the entries (i, j) with j ≤ i at [i · size + j]; others are undefined.
@@ -47,7 +48,8 @@ class MumpsFactor {
   double memory() const { return 1e6 * id_.infog[16]; }
   /// Collective. Factorises the matrix; without an argument, that of the preceding analyse(). If
   /// necessary, it enlarges the workspace for pivoting and stores the factor on disk. Throws Error
-  /// if memory is short even so. Returns the reason for any other failure; empty on success.
+  /// if the memory is still not sufficient. Returns the reason for any other failure; empty on
+  /// success.
   std::string factorise(Mat matrix = nullptr);
   /// Collective. Computes X = A⁻¹ B, each by this rank's rows, column after column.
   void solve(const double* b, double* x, PetscInt columns);

@@ -12,7 +12,7 @@ namespace squeal::factor {
 ///   S = K_ww − K_wy K_yy⁻¹ K_yw
 /// of a symmetric matrix with a definite K_yy: this rank's rows of w × all of w. `own` are the
 /// global rows of w on this rank, in any order; the columns follow the ranks, each in its order.
-/// Rank 0 has S as a whole for a while, 8 bytes for each pair of w. Throws Error if the
+/// Rank 0 temporarily stores all of S, 8 bytes for each pair of w. Throws Error if the
 /// factorisation fails.
 linalg::DenseMatrix schurComplement(Mat matrix, const std::vector<PetscInt>& own);
 

@@ -14,8 +14,8 @@ namespace squeal::factor {
 inline constexpr char solverPrefix[] = "modes_st_";
 
 /// Collective. Returns a solver that applies the LDLᵀ factorisation of MUMPS once (KSPPREONLY),
-/// unless the options with this prefix say otherwise. The solver shares the matrix, which is not
-/// yet factorised.
+/// unless options with this prefix select another solver. The solver shares the matrix, which is
+/// not yet factorised.
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
 /// Collective. Calls KSPSetUp. Returns the reason if the factorisation fails; empty on success.
 /// Throws Error if the analysis estimates more memory than is free, or if PETSc rejects an option

@@ -33,7 +33,7 @@ void writeFile(const std::filesystem::path& path, const std::string& text);
 /// error. Throws WriteError.
 void reserve(const std::filesystem::path& path, unsigned long long bytes);
 
-/// Not collective. Returns when the content of a file, or the entries of a folder, are on the disk.
+/// Not collective. Waits until the content of a file, or the entries of a folder, are on the disk.
 /// Throws WriteError.
 void sync(const std::filesystem::path& path);
 

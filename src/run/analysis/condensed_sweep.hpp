@@ -15,8 +15,8 @@ namespace squeal::analysis {
 /// the contact between neighbouring points. All members are collective.
 class CondensedSweep {
  public:
-  /// Collective. Borrows all arguments during the life of the object, in which `current` must not
-  /// be asked for another active set. `states` has the states of the first points.
+  /// Collective. Borrows all arguments during the lifetime of the object. During this time, do not
+  /// request another active set from `current`. `states` has the states of the first points.
   CondensedSweep(const SteadyInput& input, CurrentSystem& current, SteadyStates& states);
   /// Adds the missing states, and the path between them, and logs them.
   void solve(StateLog& log);

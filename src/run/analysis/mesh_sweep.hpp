@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady points whose active sets differ little share one factorisation and one basis: those of
-/// the nodes that are closed at any of the points.
+/// Steady points whose active sets differ little share one factorisation and one basis. These
+/// belong to the contact in which a node is closed if it is closed at any of the points.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,8 +20,9 @@ namespace squeal::analysis {
 /// sets that differ in at most `-flutter_released` nodes.
 std::vector<PointGroup> groupsOf(const SlidingBrake& brake);
 
-/// Returns the unknowns of `all` in two parts: those that `interior` has too, and the boundary, the
-/// gaps and sticking nodes that are free only in `all`, which is borrowed.
+/// Divides the unknowns of `all`, which is borrowed, into two parts. The interior consists of the
+/// unknowns that `interior` has too. The boundary consists of the gaps and the tangential
+/// displacements of sticking nodes that are free only in `all`.
 subspace::Substructure substructureOf(const contact::CoupledSystem& all,
                                       const contact::CoupledSystem& interior);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// What the modes of a segment are made of: the components of the model, and the free modes.
+/// The contents of the modes of a segment: the shares of the components of the model, and of the
+/// free modes.
 #include "algebra/factor/associated_system.hpp"
 #include "eigen/pencil/participation.hpp"
 #include "eigen/sweep_solver/results.hpp"

@@ -27,9 +27,8 @@ struct Model {
   }
 };
 
-/// Collective. Reads the mesh, moves the nodes of ties that ask for it, and assembles the bodies
-/// and their contact, with bolts that are not tightened yet. Throws Error as the stages document
-/// it.
+/// Collective. Reads the mesh, moves the nodes of adjusted ties, and assembles the bodies and their
+/// contact. The bolts are not tightened yet. Throws Error as the stages document it.
 Model buildModel(MPI_Comm comm, const ModelSettings& settings);
 
 /// Collective. Throws Error if a body is loose, pointing to the audit, and if nothing slides or

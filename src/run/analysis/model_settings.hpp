@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Settings of all rooms of the floor `model`, and what they ask of the mesh. Not collective.
+/// Settings of all rooms of the floor `model`, and the groups that they need from the mesh. Not
+/// collective.
 #include "model/constraints/settings.hpp"
 #include "model/contact/settings.hpp"
 #include "model/elasticity/settings.hpp"

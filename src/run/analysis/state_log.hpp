@@ -14,7 +14,7 @@ class StateLog {
   StateLog(MPI_Comm comm, checkpoint::Checkpoint& checkpoint, SteadyStates& states);
   /// Collective. Writes an entry if one is due.
   void write();
-  /// Collective. Writes the last entry if one is due, or if the states took long.
+  /// Collective. Writes the last entry if one is due, or if the computation of the states was long.
   void finish();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// What the log reports about steady states.
+/// Messages of the log on steady states.
 #include <string>
 
 #include "run/analysis/model.hpp"

@@ -10,9 +10,9 @@
 namespace squeal::analysis {
 
 /// Collective. Solves a first step with the forces of the bolts and the loads that no sweep scales,
-/// without swept friction and, unless Settings::boltsUnderPressure is set, without pressure, and
-/// keeps the lengths that it gives. Does nothing without forces of bolts. Throws Error if the step
-/// has no solution.
+/// and then fixes the lengths of the bolts. The step has no swept friction and, unless
+/// Settings::boltsUnderPressure is set, no pressure. Does nothing if no bolt has a force. Throws
+/// Error if the step has no solution.
 void tightenBolts(Model& model, const constraints::Settings& settings);
 
 /// Collective. Returns the tension of each bolt in a steady state, N, [section of the mesh].

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Tables of what the modes are made of: the components of the model, and the free modes.
+/// Tables of the contents of the modes: the shares of the components of the model, and of the free
+/// modes.
 #include <string>
 
 #include "run/analysis/analysis.hpp"
