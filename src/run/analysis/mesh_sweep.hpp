@@ -20,7 +20,7 @@ namespace squeal::analysis {
 /// sets that differ in at most `-flutter_released` nodes.
 std::vector<PointGroup> groupsOf(const SlidingBrake& brake);
 
-/// Divides the unknowns of `all`, which is borrowed, into two parts. The interior consists of the
+/// Returns the unknowns of `all`, which is borrowed, in two parts. The interior consists of the
 /// unknowns that `interior` has too. The boundary consists of the gaps and the tangential
 /// displacements of sticking nodes that are free only in `all`.
 subspace::Substructure substructureOf(const contact::CoupledSystem& all,
