@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Tables of what the modes are made of: the components of the model, and the free modes.
+#include <array>
 #include <string>
 
+#include "eigen/pencil/complex_modes.hpp"
 #include "run/analysis/analysis.hpp"
 
 namespace squeal::report {
+
+/// A column of the tables of components: a cause of growth.
+struct GrowthColumn {
+  const char* name;
+  double pencil::GrowthParts::*value;  ///< 1/s
+};
+inline constexpr std::array growthColumns{
+    GrowthColumn{"damping_1_per_s", &pencil::GrowthParts::damping},
+    GrowthColumn{"follower_1_per_s", &pencil::GrowthParts::follower},
+    GrowthColumn{"friction_damping_1_per_s", &pencil::GrowthParts::turning},
+    GrowthColumn{"law_slope_1_per_s", &pencil::GrowthParts::slope},
+    GrowthColumn{"convective_1_per_s", &pencil::GrowthParts::convective},
+    GrowthColumn{"gyroscopic_1_per_s", &pencil::GrowthParts::gyroscopic}};
 
 /// Returns components.csv: the shares of each component in the stored complex modes.
 std::string componentTable(const analysis::Analysis& analysis);
