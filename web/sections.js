@@ -76,6 +76,21 @@ function maps() {
   return [...new Set(all.map(keyOf))].map(mapAt);
 }
 
+/** The elastic modes of each body by itself, one table per body. */
+function makeComponentModes() {
+  const c = data.componentModes;
+  if (!c || !c.body.length) return;
+  const head = ["mode", "frequency Hz", "motion", "share %"];
+  const percentage = (share) => (share === null ? "" : digits(100 * share, 4));
+  const line =
+      (i) => [c.mode[i], digits(c.frequency_hz[i], 8), c.motion[i], percentage(c.motion_share[i])];
+  const tableOfBody = (name) => {
+    const list = c.body.map((_, i) => i).filter((i) => c.body[i] === name);
+    return [make("h3", {textContent: name}), tableOf(head, list.map(line))];
+  };
+  section("Elastic modes of each body by itself", ...[...new Set(c.body)].flatMap(tableOfBody));
+}
+
 function makePoints() {
   const p = data.points;
   const head = ["point", "unstable modes", "largest growth 1/s", "at Hz", "verdict"];
@@ -135,6 +150,7 @@ function makeRecipe() {
 }
 
 function makeSections() {
+  makeComponentModes();
   makePoints();
   makeCritical();
   makeInfluences();

@@ -26,6 +26,8 @@ from squeal.parts import (
 from squeal.schema import VERDICTS as GRAVITY
 from squeal.summary import read_summary
 
+FOLLOWED = ("branches", "critical", "critical_sensitivities")
+CRITICAL = ("active_set", "branch", "partner", "kind", "direction", *PARAMETERS)
 SAME_CRITICAL = 1e-7  # relative; ten times -flutter_critical_tolerance by default
 
 
@@ -41,6 +43,9 @@ def merge(out, folders):
         f"{name}.csv is not merged: {', '.join(map(str, folders))} have none"
         for name, folders in left.items()
     ]
+    others = _other_files(parts)
+    if others:
+        said.append(f"tables that stay in the parts and are not merged: {', '.join(others)}")
     grid = np.prod([tables["stability_map"][name].astype(float).nunique() for name in PARAMETERS])
     points = len(tables["stability_map"])
     if points < grid:
@@ -122,6 +127,11 @@ def _joined_tables(parts, taken):
     return tables, left
 
 
+def _other_files(parts):
+    """Returns the files of the tables that no merge joins."""
+    return sorted(set().union(*(part.others for part in parts)))
+
+
 def _in_order(table, name):
     """Sorts the rows as one run over the whole grid would write them."""
     keys = ["damping", "speed", "pressure"]
@@ -131,54 +141,58 @@ def _in_order(table, name):
 
 
 def _renumbered(parts):
-    """Renumbers the branches and active sets in branches.csv and critical.csv of each part.
+    """Renumbers the branches and active sets in the tables of branches and critical frictions of
+    each part.
 
     Branches are numbered along a line of equal speed, pressure and damping. If two parts follow
     the same line, the numbers of the later part continue those of the earlier one; branches of
     different parts are not joined. Active sets are numbered through all parts; 0 stays 0. A
-    critical friction that both parts have found appears once.
+    critical friction that both parts have found appears once, with its derivatives.
     """
     last, sets, found, results = {}, 0, [], []
     for part in parts:
-        made = {}
-        counts = {}
-        branches = part.tables.get("branches")
-        critical = part.tables.get("critical")
-        if branches is not None:
-            for line, rows in branches.groupby(_line(branches)):
-                counts[line] = int(rows["branch"].astype(int).max())
-        for name, table in (("branches", branches), ("critical", critical)):
-            if table is None:
-                continue
-            shift = pd.Series(
-                [last.get(line, 0) for line in _line(table)], index=table.index, dtype=int
-            )
-            made[name] = table.copy()
-            for column in ("branch", "partner"):
-                if column in table:
-                    numbers = table[column].astype(int)
-                    made[name][column] = numbers.where(numbers <= 0, numbers + shift).astype(str)
-            numbers = table["active_set"].astype(int)
-            made[name]["active_set"] = numbers.where(numbers <= 0, numbers + sets).astype(str)
+        tables = {name: part.tables[name] for name in FOLLOWED if name in part.tables}
+        made = {name: _shifted(table, last, sets) for name, table in tables.items()}
+        critical = tables.get("critical")
         if critical is not None:
-            fresh = np.array(
-                [
-                    not any(_same_critical(row, known) for known in found)
-                    for row in critical.to_dict("records")
-                ],
-                bool,
-            )
-            found += critical[fresh].to_dict("records")
-            made["critical"] = made["critical"][fresh]
-        for line, count in counts.items():
-            last[line] = last.get(line, 0) + count
+            rows = critical.to_dict("records")
+            new = [not any(_same_critical(row, known) for known in found) for row in rows]
+            found += [row for row, is_new in zip(rows, new) if is_new]
+            made["critical"] = made["critical"][np.array(new, bool)]
+            if "critical_sensitivities" in made:
+                dropped = {_critical_key(row) for row, is_new in zip(rows, new) if not is_new}
+                derivatives = tables["critical_sensitivities"].to_dict("records")
+                kept = [_critical_key(row) not in dropped for row in derivatives]
+                made["critical_sensitivities"] = made["critical_sensitivities"][
+                    np.array(kept, bool)
+                ]
+        if "branches" in tables:
+            for line, lines in tables["branches"].groupby(_line(tables["branches"])):
+                last[line] = last.get(line, 0) + int(lines["branch"].astype(int).max())
         sets += len(part.summary.get("active_sets", []))
         results.append(made)
     return results
 
 
+def _shifted(table, last, sets):
+    """Returns a table with its branches after the `last` of their lines, and its active sets after
+    as many as `sets`."""
+    made = table.copy()
+    shift = pd.Series([last.get(line, 0) for line in _line(table)], index=table.index, dtype=int)
+    for column, by in (("branch", shift), ("partner", shift), ("active_set", sets)):
+        if column in table:
+            numbers = table[column].astype(int)
+            made[column] = numbers.where(numbers <= 0, numbers + by).astype(str)
+    return made
+
+
 def _line(table):
     return pd.Series(keys_of(table, PARAMETERS[1:]), index=table.index, dtype=object)
+
+
+def _critical_key(row):
+    """Returns the cells that critical.csv and critical_sensitivities.csv have alike."""
+    return tuple(row.get(name) for name in CRITICAL)
 
 
 def _same_critical(one, other):
@@ -246,9 +260,7 @@ def _joined_summary(parts, taken, out, left):
         ),
         "not_merged": {
             "results.h5": "mode shapes and fields are in the parts",
-            "modes.csv, steady_*.csv, reactions.csv, contact_path.csv, onset.csv, regime*.csv": (
-                "in the parts"
-            ),
+            **dict.fromkeys(_other_files(parts), "in the parts"),
             **{f"{name}.csv": "not in all parts" for name in left},
         },
         "frictions": sorted(frictions, key=lambda entry: [entry[name] for name in order]),
@@ -325,7 +337,8 @@ HELP = """squeal-merge [--variants] OUT DIR...: joins the results of several run
 
 The folders DIR hold the results of runs over parts of one grid of parameters. The new folder OUT
 holds summary.json and the tables that all parts have; squeal-plot, squeal-report and squeal.open()
-read it. Mode shapes and fields stay in the parts. The parts may differ only in -flutter_friction,
+read it. Mode shapes, fields and tables that have more than rows of points and critical frictions
+stay in the parts; the command names these tables. The parts may differ only in -flutter_friction,
 _speed, _pressure and _damping.
 --variants: the parts may differ in any option. OUT holds variants.csv, with a row for each part and
 a column for each option that differs.

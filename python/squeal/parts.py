@@ -9,8 +9,21 @@ from scipy.spatial import cKDTree
 from squeal.files import ResultsError, read_text
 from squeal.keys import PARAMETERS, key_of
 from squeal.results import Results
+from squeal.schema import TABLES as SCHEMA
 
-TABLES = ("eigenvalues", "stability_map", "branches", "critical", "friction_work", "sensitivities")
+# Tables that a merge joins: each of their rows is of one point or of one critical friction.
+TABLES = (
+    "eigenvalues",
+    "stability_map",
+    "branches",
+    "critical",
+    "critical_sensitivities",
+    "friction_work",
+    "components",
+    "participation",
+    "participation_bodies",
+    "sensitivities",
+)
 NEEDED = ("eigenvalues", "stability_map")
 # Options that change no number, and beginnings of their names. They include those that the program
 # ignores when it resumes a run (src/base/checkpoint).
@@ -45,6 +58,7 @@ class Part:
         self.tables = {
             name: self.results.texts[name] for name in TABLES if name in self.results.texts
         }
+        self.others = [_file_of(name) for name in self.results.texts if name not in TABLES]
         for name in NEEDED:
             if name not in self.tables:
                 raise ResultsError(f"{self.folder / name}.csv is missing")
@@ -71,6 +85,12 @@ class Part:
             else np.full(len(rows), np.nan)
         )
         return rows["s"].to_numpy(), np.nan_to_num(errors), rows["verdict"].to_numpy()
+
+
+def _file_of(name):
+    """Returns the file of a table; one name for those of all points."""
+    kind, point, _ = name.partition("_")
+    return f"{kind}_*.csv" if name not in SCHEMA and point else f"{name}.csv"
 
 
 def read_parts(folders, out):

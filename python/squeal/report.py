@@ -148,6 +148,7 @@ def _data(results, with_shapes):
         "criticalSensitivities": columns(results.critical_sensitivities),
         "components": columns(results.table("components"), REPEATED),
         "participation": columns(results.table("participation"), REPEATED),
+        "componentModes": columns(results.component_modes),
         "steady": _steady_forces(summary),
         "regimes": regime.diagrams(results),
         "stages": {

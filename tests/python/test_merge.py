@@ -50,7 +50,8 @@ class Merge(OnParts):
 
     def test_rows_are_those_of_the_parts_letter_by_letter(self):
         self.merge("layers_2", "layers_1")
-        for name in ("eigenvalues", "stability_map", "friction_work"):
+        shares = ("components", "participation", "participation_bodies")
+        for name in ("eigenvalues", "stability_map", "friction_work", *shares):
             parts = pd.concat(
                 [text_of(self.made / part / f"{name}.csv") for part in ("layers_1", "layers_2")],
                 ignore_index=True,
@@ -119,6 +120,42 @@ class Merge(OnParts):
         self.assertGreater(len(new), 0)
         self.assertTrue((new["branch"] > most).all())
         self.assertTrue(((new["partner"] > most) | (new["partner"] <= 0)).all())
+
+    def test_derivatives_follow_their_critical_frictions(self):
+        """chain_high finds the critical frictions of chain_low again, and one more."""
+        self.merge("chain_low", "chain_high")
+        keys = ["active_set", "branch", "partner", "kind", "direction", *PARAMETERS]
+        merged = text_of(self.out / "critical_sensitivities.csv")
+        criticals = text_of(self.out / "critical.csv")
+        self.assertEqual(
+            merged[keys].drop_duplicates().to_numpy().tolist(), criticals[keys].to_numpy().tolist()
+        )
+        self.assertEqual(set(criticals["active_set"]), {"1", "2"})
+        low, high = (
+            text_of(self.made / part / "critical_sensitivities.csv")
+            for part in ("chain_low", "chain_high")
+        )
+        fresh = high[high["friction"].astype(float) > 1]
+        self.assertGreater(len(fresh), 0)
+        values = [name for name in merged if name not in ("active_set", "branch", "partner")]
+        self.assertEqual(
+            merged[values].to_numpy().tolist(),
+            [*low[values].to_numpy().tolist(), *fresh[values].to_numpy().tolist()],
+        )
+
+    def test_every_table_is_merged_or_named(self):
+        for parts in (("layers_2", "layers_1"), ("chain_low", "chain_high")):
+            said = self.merge(*parts)
+            named = [line for line in said if "stay in the parts and are not merged: " in line]
+            left = named[0].partition("merged: ")[2].split(", ")
+            self.assertIn("modes.csv", left)
+            written = {path.name for part in parts for path in (self.made / part).glob("*.csv")}
+            for name in written:
+                joined = (self.out / name).exists()
+                kinds = {name, name.partition("_")[0] + "_*.csv"}
+                self.assertEqual(len(kinds & set(left)), 0 if joined else 1, name)
+            summary = json.loads((self.out / "summary.json").read_text())
+            self.assertEqual(sorted({"results.h5", *left}), sorted(summary["not_merged"]))
 
     def test_tables_that_only_some_parts_have_are_named(self):
         without = self.copy("layers_2")

@@ -2,6 +2,7 @@
 // Derivatives of critical frictions of two elastic layers and of a brake, against differences of
 // two solutions and by their sums.
 #include <gtest/gtest.h>
+#include <petsclog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,34 @@ TEST(CriticalSensitivity, OfTermsThatFollowTheSteadyState) {
                     {{"young_lining", {"material_lining_young", 1.5e9}},
                      {"speed", {"flutter_speed", 1}},
                      {"pressure", {"flutter_pressure", 1}}});
+}
+
+/// Returns the number of nonlinear solutions since the start of PETSc's log.
+int solutionsSoFar() {
+  PetscLogEvent event = -1;
+  PetscStageLog log = nullptr;
+  check(PetscLogEventGetId("SNESSolve", &event));
+  check(PetscLogGetStageLog(&log));
+  int count = 0;
+  for (int stage = 0; stage < log->numStages && event >= 0; ++stage) {
+    PetscEventPerfInfo info;
+    check(PetscLogEventGetPerfInfo(stage, event, &info));
+    count += info.count;
+  }
+  return count;
+}
+
+// The derivatives of a critical friction take the steady state that its mode needs.
+TEST(CriticalSensitivity, TakesNoSteadyStateOfItsOwn) {
+  check(PetscLogDefaultBegin());
+  const auto solutions = [](const std::string& changes) {
+    const int before = solutionsSoFar();
+    brake(changes);
+    return solutionsSoFar() - before;
+  };
+  const int without = solutions("");
+  EXPECT_GT(without, 2);  // those of the points of the sweep
+  EXPECT_EQ(solutions("-flutter_sensitivities"), without);
 }
 
 // All moduli and all densities by one factor change no eigenvalue of damping that is proportional

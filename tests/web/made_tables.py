@@ -48,6 +48,13 @@ def write(folder, results, names):
     reshape(folder)
 
 
+def write_component_modes(folder, rows):
+    """Writes the modes of bodies by themselves: `rows` lists (body, mode, Hz, motion, share)."""
+    head = ["body", "mode", "frequency_hz", "motion", "motion_share"]
+    quoted = [[*row[:3], f'"{row[3]}"' if row[3] else "", row[4]] for row in rows]
+    _save(folder / "component_modes.csv", head, quoted)
+
+
 def _contributions(random, names, growth):
     """Terms of components that add up to the growth rate: bodies damp, interfaces feed."""
     parts = np.zeros((len(names), len(COLUMNS)))
@@ -66,4 +73,4 @@ def _save(path, head, rows):
     path.write_text("\n".join(lines) + "\n")
 
 
-__all__ = ["COLUMNS", "TABLES", "write"]
+__all__ = ["COLUMNS", "TABLES", "write", "write_component_modes"]

@@ -16,6 +16,12 @@ import squeal
 from squeal import report
 
 BAD = "<b id=bad>shim"
+BY_ITSELF = "Elastic modes of each body by itself"
+OWN_MODES = [
+    ("disc", 1, 1234.5678, "disc (0,2) out of plane", 0.98765),
+    ("disc", 2, 2345.6789, "", ""),
+    (BAD, 1, 4567.8912, "bending 1", 0.75),
+]
 
 
 class Shares(Pages):
@@ -27,6 +33,7 @@ class Shares(Pages):
         cls.made = Path(cls.temporary.name) / "made"
         shutil.copytree(cls.folder, cls.made, ignore=shutil.ignore_patterns("vtk", "report.html"))
         made_tables.write(cls.made, run, [*names, ("interface", "disc"), ("layer", BAD)])
+        made_tables.write_component_modes(cls.made, OWN_MODES)
         (cls.made / "report.html").write_text(report.build(squeal.open(cls.made)))
         cls.components = rows(cls.made / "components.csv")
         cls.participation = rows(cls.made / "participation.csv")
@@ -117,6 +124,25 @@ class Shares(Pages):
         self.assertEqual(labels[-1], "all others")
         self.assertEqual(len(self.cells("sharetables", 2)), 1 + len(table))
 
+    def more(self, title):
+        """The headings and the tables of a section below the eigenvalues; None without it."""
+        return self.run_script(
+            "const box = [...element('more').querySelectorAll('details')].find((one) =>"
+            " one.querySelector('summary').textContent === arguments[0]);"
+            "return box && [[...box.querySelectorAll('h3')].map((one) => one.textContent),"
+            " [...box.querySelectorAll('table')].map((table) => [...table.rows].map((row) =>"
+            " [...row.cells].map((cell) => cell.textContent)))]",
+            title,
+        )
+
+    def test_modes_of_bodies_by_themselves_have_a_table_for_each_body(self):
+        bodies, tables = self.more(BY_ITSELF)
+        self.assertEqual(bodies, ["disc", BAD])
+        head = ["mode", "frequency Hz", "motion", "share %"]
+        first = ["1", "1234.5678", "disc (0,2) out of plane", "98.77"]
+        self.assertEqual(tables[0], [head, first, ["2", "2345.6789", "", ""]])
+        self.assertEqual(tables[1], [head, ["1", "4567.8912", "bending 1", "75"]])
+
     def test_the_bodies_with_most_kinetic_energy_are_shown_first(self):
         for friction, mode in self.kept()[:3]:
             self.select(friction, mode)
@@ -192,7 +218,8 @@ class Shares(Pages):
         self.assertTrue(self.element("energies").is_displayed())
 
     def test_names_are_text_and_nothing_is_logged(self):
-        self.assertIn(BAD, self.text("sharetables"))
+        for place in ("sharetables", "more"):
+            self.assertIn(BAD, self.text(place))
         self.assertEqual(self.driver.find_elements(By.ID, "bad"), [])
         label = "&lt;b id=bad&gt;shim (layer)</text>"
         self.assertIn(label, self.run_script("return figures.kinetic.svg()"))
@@ -219,6 +246,8 @@ class Shares(Pages):
         self.open_page(less / "report.html")
         for name in ("shares", "changes", "criticalchanges"):
             self.assertFalse(self.element(name).is_displayed(), name)
+        self.assertIsNone(self.more(BY_ITSELF))
+        self.assertIsNotNone(self.more("Points of the sweep"))
         self.assertTrue(self.element("stability").is_displayed())
         self.assertIn("estimated from the surface", self.text("energetic"))
         self.assertEqual(self.driver.get_log("browser"), [])

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/petsc/matrix.hpp"
+
 namespace squeal::reduction {
 namespace {
 
@@ -12,12 +14,6 @@ Complex powerOf(Complex s, int power) { return power == 0 ? 1.0 : power == 1 ? s
 bool isReal(const std::vector<Complex>& vector) {
   return std::all_of(vector.begin(), vector.end(),
                      [](const auto& entry) { return entry.imag() == 0; });
-}
-
-bool isSymmetric(Mat matrix) {
-  PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
-  check(MatIsSymmetricKnown(matrix, &known, &symmetric));
-  return known && symmetric;
 }
 
 }  // namespace

@@ -17,14 +17,16 @@ struct Place {
   sensitivity::CriticalPoint point;
   const stability::LinePiece* piece;
   reduction::PointProblem problem;
-  linalg::DenseProblem projected;  // on the basis
+  linalg::DenseProblem projected;                                  // on the basis
+  std::function<sensitivity::Forms(const pencil::Pencil&)> forms;  // empty: not derived
   Complex s() const { return {0, point.angularFrequency}; }
 };
 
 /// Collective. Returns critical frictions from one on that are roots of a function, and sets it to
 /// the next one. Equal eigenvalues that split at an end of the sweep have no slope, and neither has
-/// a jump.
-std::vector<Place> nextPlaces(const reduction::ReducedProblem& reduced, const stability::Line& line,
+/// a jump. Each steady state is found once, for the terms and the derivatives.
+std::vector<Place> nextPlaces(SweepProblem& problem, const reduction::ReducedProblem& reduced,
+                              const stability::Line& line, bool derives,
                               const stability::TrackedLine& tracked, std::size_t& next) {
   std::vector<Place> places;
   while (next < tracked.criticals.size() && places.size() < together) {
@@ -34,15 +36,20 @@ std::vector<Place> nextPlaces(const reduction::ReducedProblem& reduced, const st
     const auto& piece = line.pieces.at(critical.piece);
     sweep::Parameters at = line.at;
     at.friction = critical.friction;
-    auto problem = piece.source.at(at);
-    if (!problem) continue;
-    auto projected = reduced.project(*problem);
+    const tracking::ProblemSource& source = piece.source;
+    std::optional<PointBetween> between;
+    if (derives || !source.local) between = problem.between(at, piece.like);
+    if (!between && !source.local) continue;
+    if (!between) between.emplace();
+    reduction::PointProblem there{at, source.shared.with(std::move(between->terms)), source.set};
+    auto projected = reduced.project(there);
     const bool isCrossing = critical.kind == tracking::Event::Kind::crossing;
     places.push_back({i,
                       {at, critical.angularFrequency, isCrossing},
                       &piece,
-                      std::move(*problem),
-                      std::move(projected)});
+                      std::move(there),
+                      std::move(projected),
+                      derives ? std::move(between->forms) : nullptr});
   }
   return places;
 }
@@ -67,22 +74,20 @@ void addCriticalModes(SweepProblem& problem, const reduction::ReducedProblem& re
                       stability::TrackedLine& tracked) {
   tracked.criticalModes.resize(tracked.criticals.size());
   for (std::size_t next = 0; next < tracked.criticals.size();) {
-    auto places = nextPlaces(reduced, line, tracked, next);
+    auto places = nextPlaces(problem, reduced, line, derives, tracked, next);
     if (places.empty()) return;
     const auto vectors = vectorsOf(reduced, places);
     std::vector<pencil::ComplexMotion> motions;
     for (std::size_t i = 0; i < places.size(); ++i) motions.push_back({places[i].s(), &vectors[i]});
     auto found = problem.describe(motions, *line.modes);
     for (std::size_t i = 0; i < places.size(); ++i) {
-      auto& [index, point, piece, at, projected] = places[i];
+      auto& [index, point, piece, at, projected, forms] = places[i];
       auto& mode = tracked.criticalModes[index] = std::move(found[i]);
-      if (!derives) continue;
+      if (!forms) continue;
       progress(formatted("derivatives of the critical friction %.6g", point.at.friction));
       const sensitivity::StartSpace start{reduced.basis().vectors(), problem.system->k0(),
                                           std::move(projected)};
-      problem.withForms(point.at, piece->like, at.pencil, [&](const sensitivity::Forms& forms) {
-        sensitivity::deriveCritical(point, at.pencil, start, *problem.system, forms, mode);
-      });
+      sensitivity::deriveCritical(point, at.pencil, start, *problem.system, forms(at.pencil), mode);
     }
   }
 }

@@ -33,6 +33,14 @@ struct PathPiece {
   double from = 0, to = 0;           ///< friction
 };
 
+/// The data of a point between those of the sweep.
+struct PointBetween {
+  std::vector<pencil::Term> terms;  ///< that belong only to this point
+  /// Collective. Returns the forms yᴴ (∂P/∂θ) x of all parameters θ. Borrows the pencil, which
+  /// contains the terms of the point, during the life of the forms. Empty: no derivatives.
+  std::function<sensitivity::Forms(const pencil::Pencil&)> forms;
+};
+
 /// The problem of consecutive steady points that share a basis and a factorisation, from a mesh or
 /// from matrix files. Handles are borrowed.
 class SweepProblem {
@@ -60,12 +68,11 @@ class SweepProblem {
 
   /// Collective. Returns the terms that belong only to steadyPoints[i].
   virtual std::vector<pencil::Term> termsOf(std::size_t /*i*/) const { return {}; }
-  /// Collective. Returns the same for a point between those of the sweep, for problems whose
-  /// termsOf() is not empty; none if the point has no steady state, or another active set than
-  /// steadyPoints[like].
-  virtual std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& /*at*/,
-                                                           std::size_t /*like*/) {
-    return std::vector<pencil::Term>();
+  /// Collective. Returns a point between those of the sweep; none if it has no steady state, or
+  /// another active set than steadyPoints[like]. Its forms borrow this problem.
+  virtual std::optional<PointBetween> between(const sweep::Parameters& /*at*/,
+                                              std::size_t /*like*/) {
+    return PointBetween();
   }
   /// Collective. Adds to `point`, which belongs to steadyPoints[i], its friction work and the
   /// requested sensitivities. `pencil` belongs to the point; the search for left vectors starts
@@ -78,12 +85,6 @@ class SweepProblem {
       const std::vector<pencil::ComplexMotion>& motions, const modes::Modes& /*modes*/) const {
     return std::vector<pencil::CriticalMode>(motions.size());
   }
-  /// Collective. Calls `use` with the forms yᴴ (∂P/∂θ) x of all parameters θ at a point between
-  /// those of the sweep. The terms of the point are those of `pencil`. Does not call it if the
-  /// point has no steady state, or another active set than steadyPoints[like].
-  virtual void withForms(const sweep::Parameters& /*at*/, std::size_t /*like*/,
-                         const pencil::Pencil& /*pencil*/,
-                         const std::function<void(const sensitivity::Forms&)>& /*use*/) {}
 };
 
 }  // namespace squeal::sweep_solver

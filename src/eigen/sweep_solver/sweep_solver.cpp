@@ -261,9 +261,9 @@ class SweepSolver {
       std::optional<reduction::PointProblem> problem;
       if (state_.affine)
         problem.emplace(reduction::PointProblem{at, set.pencil.with({}), set.number});
-      else if (auto terms = problem_.termsAt(at, like))
+      else if (auto point = problem_.between(at, like))
         problem.emplace(
-            reduction::PointProblem{at, set.pencil.with(std::move(*terms)), set.number});
+            reduction::PointProblem{at, set.pencil.with(std::move(point->terms)), set.number});
       return problem;
     };
     return {set.pencil, problemAt, state_.affine, set.number};

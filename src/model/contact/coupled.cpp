@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/petsc/object.hpp"
+#include "base/petsc/matrix.hpp"
 #include "base/system/error.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
@@ -28,9 +28,7 @@ Projection project(const Contact& contact, const Transformation& transformation,
   // PETSc stores the workspace of a product for the next product with the same pattern.
   for (const Mat result : {projection.matrix.get(), projection.reaction.get()})
     check(MatProductClear(result));
-  PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
-  check(MatIsSymmetricKnown(x, &known, &symmetric));
-  if (known && symmetric) check(MatSetOption(projection.matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  if (isSymmetric(x)) check(MatSetOption(projection.matrix, MAT_SYMMETRIC, PETSC_TRUE));
   return projection;
 }
 
@@ -115,14 +113,9 @@ Projection partOf(const Projection& all, IS columns) {
   Projection part;
   if (!all) return part;
   check(MatCreateSubMatrix(all.matrix, columns, columns, MAT_INITIAL_MATRIX, part.matrix.out()));
-  PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
-  check(MatIsSymmetricKnown(all.matrix, &known, &symmetric));
-  if (known && symmetric) check(MatSetOption(part.matrix, MAT_SYMMETRIC, PETSC_TRUE));
-  PetscInt first = 0, end = 0;
-  check(MatGetOwnershipRange(all.reaction, &first, &end));
-  OwnedIS rows;
-  check(ISCreateStride(commOf(all.reaction), end - first, first, 1, rows.out()));
-  check(MatCreateSubMatrix(all.reaction, rows, columns, MAT_INITIAL_MATRIX, part.reaction.out()));
+  if (isSymmetric(all.matrix)) check(MatSetOption(part.matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  check(MatCreateSubMatrix(all.reaction, ownRows(all.reaction), columns, MAT_INITIAL_MATRIX,
+                           part.reaction.out()));
   return part;
 }
 

@@ -276,19 +276,14 @@ MaterialRows materialRows(const mesh::Mesh& mesh, const Bodies& bodies, int grou
            });
   };
   auto sums = cellMatrices(mesh, bodies, uses, nullptr);
-  std::vector<PetscInt> rows;
-  for (const PetscInt node : nodes)
-    for (int d = 0; d < mesh.dimension; ++d)
-      rows.push_back(mesh.dimension * (mesh.firstNode + node) + d);
-  OwnedIS own;
-  check(ISCreateGeneral(mesh.comm, rows.size(), rows.data(), PETSC_COPY_VALUES, own.out()));
+  const OwnedIS own = rowsOf(mesh, nodes);
   MaterialRows part;
-  const auto rowsOf = [&](Assembly& sum, OwnedMat& kept) {
+  const auto keep = [&](Assembly& sum, OwnedMat& kept) {
     const OwnedMat all = sum.finish(SymmetryClass::rounded);
     check(MatCreateSubMatrix(all, own, nullptr, MAT_INITIAL_MATRIX, kept.out()));
   };
-  rowsOf(sums.stiffness, part.stiffness);
-  rowsOf(sums.mass, part.mass);
+  keep(sums.stiffness, part.stiffness);
+  keep(sums.mass, part.mass);
   return part;
 }
 
@@ -312,6 +307,16 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec di
     k.add(nodes, onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
   });
   return k.finish(SymmetryClass::symmetric);
+}
+
+OwnedIS rowsOf(const mesh::Mesh& mesh, const std::vector<PetscInt>& nodes) {
+  std::vector<PetscInt> rows;
+  for (const PetscInt node : nodes)
+    for (int d = 0; d < mesh.dimension; ++d)
+      rows.push_back(mesh.dimension * (mesh.firstNode + node) + d);
+  OwnedIS own;
+  check(ISCreateGeneral(mesh.comm, rows.size(), rows.data(), PETSC_COPY_VALUES, own.out()));
+  return own;
 }
 
 std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {

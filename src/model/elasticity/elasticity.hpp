@@ -94,6 +94,8 @@ MaterialRows materialRows(const mesh::Mesh& mesh, const Bodies& bodies, int grou
 OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec displacement,
                             std::optional<int> group = {});
 
+/// Collective. Returns the rows of nodal vectors at some owned nodes, [node][component].
+OwnedIS rowsOf(const mesh::Mesh& mesh, const std::vector<PetscInt>& nodes);
 /// Collective. Returns a nodal vector of zeros, with N entries and the block size `dimension`.
 OwnedVec nodalVector(const mesh::Mesh& mesh);
 /// Collective. Returns the values of a nodal vector, [local node][component], including ghosts.

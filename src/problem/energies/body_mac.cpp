@@ -3,12 +3,12 @@
 
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
-#include "problem/energies/own_modes.hpp"
 
 namespace squeal::energies {
 
-BodyMac::BodyMac(const mesh::Mesh& mesh, const elasticity::Bodies& bodies)
-    : mesh_(mesh), nodes_(nodesOfBodies(mesh)) {
+BodyMac::BodyMac(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                 std::vector<std::vector<PetscInt>> nodes)
+    : mesh_(mesh), nodes_(std::move(nodes)) {
   OwnedVec diagonal;
   check(MatCreateVecs(bodies.mass, diagonal.out(), nullptr));
   check(MatGetDiagonal(bodies.mass, diagonal));

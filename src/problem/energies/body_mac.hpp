@@ -15,8 +15,10 @@ namespace squeal::energies {
 /// factor cancels.
 class BodyMac {
  public:
-  /// Collective. Borrows the mesh during the lifetime of the object.
-  BodyMac(const mesh::Mesh& mesh, const elasticity::Bodies& bodies);
+  /// Collective. Takes the owned nodes of each body, [body], and borrows the mesh during the
+  /// lifetime of the object.
+  BodyMac(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+          std::vector<std::vector<PetscInt>> nodes);
   /// Collective. Returns the MAC of a motion, by its real and imaginary nodal values, with each of
   /// some real motions, [motion][body]; 0 for a body that does not move. All values are this rank's
   /// rows.

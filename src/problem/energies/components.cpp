@@ -38,12 +38,9 @@ void addScaled(OwnedMat& sum, double factor, Mat x) {
 }  // namespace
 
 Components::Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-                       const contact::Contact& contact, std::vector<OwnModes> own)
-    : mesh_(mesh),
-      bodies_(bodies),
-      contact_(contact),
-      mac_(mesh, bodies),
-      nodesOf_(nodesOfBodies(mesh)) {
+                       const contact::Contact& contact,
+                       const std::vector<std::vector<PetscInt>>& nodes, std::vector<OwnModes> own)
+    : mesh_(mesh), bodies_(bodies), contact_(contact), mac_(mesh, bodies, nodes) {
   const auto& settings = bodies.settings;
   for (const auto& body : mesh.bodies) list_.push_back({.kind = "body", .name = body});
   firstGround_ = list_.size();
@@ -74,17 +71,17 @@ Components::Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   groundDashpots_ = elasticity::groundOf(mesh, settings).dashpots;
   linkDamping_ = elasticity::formMatrix(mesh, bodies.links, &Form::damping);
   pointMass_ = elasticity::formMatrix(mesh, masses, &Form::mass);
-  findBodies();
+  findBodies(nodes);
   if (mpi::any(mesh.comm, !sharedNodes_.empty())) keepSharedRows();
-  motions_.emplace(mesh, bodies, nodesOf_, std::move(own));
+  motions_.emplace(mesh, bodies, nodes, std::move(own));
 }
 
 /// Finds the body of each owned node, and the nodes that bodies share.
-void Components::findBodies() {
-  std::vector<int> bodies(mesh_.ownedNodes, 0);
+void Components::findBodies(const std::vector<std::vector<PetscInt>>& nodes) {
+  std::vector<int> bodies(mesh_.ownedNodes, 0);  // number of those with the node
   bodyOf_.assign(mesh_.ownedNodes, none);
-  for (std::size_t body = 0; body < nodesOf_.size(); ++body)
-    for (const PetscInt node : nodesOf_[body])
+  for (std::size_t body = 0; body < nodes.size(); ++body)
+    for (const PetscInt node : nodes[body])
       bodyOf_[node] = ++bodies[node] > 1 ? several : int(body);
   for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
     if (bodies[node] > 1) sharedNodes_.push_back(node);

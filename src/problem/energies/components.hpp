@@ -37,11 +37,13 @@ struct NodalProducts {
 /// couplings and equations are constraints and store no energy.
 class Components {
  public:
-  /// Collective. Borrows all arguments during the lifetime of the object. Where bodies share nodes,
-  /// it assembles the matrices of each of them once and keeps the rows of these nodes. `own` are
-  /// the elastic modes of each body by itself, [body], which name motions; empty: none.
+  /// Collective. Borrows mesh, bodies and contact during the lifetime of the object. Where bodies
+  /// share nodes, it assembles the matrices of each of them once and keeps the rows of these nodes.
+  /// `nodes` are the owned nodes of each body, [body]. `own` are the elastic modes of each body by
+  /// itself, [body], which name motions; empty: none.
   Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-             const contact::Contact& contact, std::vector<OwnModes> own = {});
+             const contact::Contact& contact, const std::vector<std::vector<PetscInt>>& nodes,
+             std::vector<OwnModes> own = {});
   /// Returns the components, without shares: bodies in the order of the mesh, then the others.
   const std::vector<pencil::Component>& list() const { return list_; }
   /// Collective. Returns the forms of a nodal vector, [component]. Their sums are the forms of the
@@ -69,7 +71,7 @@ class Components {
     std::string name;
     std::vector<mesh::Matrix3> springs, dashpots;
   };
-  void findBodies();
+  void findBodies(const std::vector<std::vector<PetscInt>>& nodes);
   void keepSharedRows();
   void addBodies(const NodalProducts& products, Vec u, std::vector<Forms>& forms) const;
   void addShared(Vec u, std::vector<Forms>& forms) const;
@@ -85,10 +87,9 @@ class Components {
   std::size_t firstGround_ = 0, firstForm_ = 0;
   std::vector<std::optional<std::size_t>> ofInterface_;  // [interface] component
   std::vector<int> bodyOf_;  // [owned node] body; `none` in no cell, `several` where bodies meet
-  std::vector<std::vector<PetscInt>> nodesOf_;  // [body] owned nodes
-  std::optional<BodyMotions> motions_;          // always set
-  std::vector<PetscInt> sharedNodes_;           // owned nodes of several bodies
-  std::vector<SharedRows> shared_;              // [body]; empty unless nodes are shared
+  std::optional<BodyMotions> motions_;  // always set
+  std::vector<PetscInt> sharedNodes_;   // owned nodes of several bodies
+  std::vector<SharedRows> shared_;      // [body]; empty unless nodes are shared
   std::vector<GroundGroup> ground_;
   std::vector<attachments::Form> attached_;  // springs, bushings and masses
   std::vector<std::size_t> ofForm_;          // [form] component

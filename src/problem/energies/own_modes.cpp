@@ -8,7 +8,7 @@
 #include "algebra/factor/associated_system.hpp"
 #include "algebra/linalg/columns.hpp"
 #include "base/petsc/arrays.hpp"
-#include "base/petsc/object.hpp"
+#include "base/petsc/matrix.hpp"
 #include "base/system/mpi.hpp"
 #include "eigen/modes/modes.hpp"
 #include "problem/matrices/associated.hpp"
@@ -26,12 +26,8 @@ struct BodyMatrices {
 
 /// Collective. Adds the square part of some rows of a matrix to a sum, which is created if null.
 void addSquare(Mat rows, IS columns, OwnedMat& sum) {
-  PetscInt first = 0, end = 0;
-  check(MatGetOwnershipRange(rows, &first, &end));
-  OwnedIS all;
-  check(ISCreateStride(commOf(rows), end - first, first, 1, all.out()));
   OwnedMat square;
-  check(MatCreateSubMatrix(rows, all, columns, MAT_INITIAL_MATRIX, square.out()));
+  check(MatCreateSubMatrix(rows, ownRows(rows), columns, MAT_INITIAL_MATRIX, square.out()));
   if (!sum)
     sum = std::move(square);
   else
@@ -41,12 +37,7 @@ void addSquare(Mat rows, IS columns, OwnedMat& sum) {
 /// Collective. Returns the matrices of a body; null ones if no material group belongs to it.
 BodyMatrices matricesOf(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, int body,
                         const std::vector<PetscInt>& nodes) {
-  std::vector<PetscInt> rows;
-  for (const PetscInt node : nodes)
-    for (int d = 0; d < mesh.dimension; ++d)
-      rows.push_back(mesh.dimension * (mesh.firstNode + node) + d);
-  OwnedIS own;
-  check(ISCreateGeneral(mesh.comm, rows.size(), rows.data(), PETSC_COPY_VALUES, own.out()));
+  const OwnedIS own = elasticity::rowsOf(mesh, nodes);
   BodyMatrices sums;
   for (int group = 0; group < std::ssize(mesh.materialGroups); ++group) {
     if (mesh.materialGroups[group].body != body) continue;
@@ -146,9 +137,8 @@ std::vector<std::vector<PetscInt>> nodesOfBodies(const mesh::Mesh& mesh) {
 }
 
 std::vector<OwnModes> ownModes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-                               int count) {
+                               const std::vector<std::vector<PetscInt>>& nodes, int count) {
   if (count == 0) return {};
-  const auto nodes = nodesOfBodies(mesh);
   std::vector<OwnModes> found(nodes.size());
   for (std::size_t body = 0; body < nodes.size(); ++body)
     if (BodyMatrices matrices = matricesOf(mesh, bodies, body, nodes[body]); matrices.stiffness)

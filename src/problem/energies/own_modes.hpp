@@ -20,13 +20,14 @@ struct OwnModes {
   linalg::DenseMatrix vectors;  ///< (dimension · owned nodes of the body) × count, M-orthonormal
 };
 
-/// Collective. Returns the `count` lowest elastic modes of each body, [body], or as many as it has;
-/// an empty list for 0. They are the eigenvectors of
+/// Collective. Takes the owned nodes of each body, [body]. Returns the `count` lowest elastic modes
+/// of each body, [body], or as many as it has; an empty list for 0. They are the eigenvectors of
 ///   (K_b + σ M_b) x = (ω² + σ) M_b x,   σ = 0.01 wᵀ K_b w / wᵀ M_b w,   w = X − X_c,
 /// where X are the coordinates of the nodes of the body and X_c is their centre. The shift σ is
 /// thus small compared with the squared frequency at which the body stretches. Modes with ω² ≤ 1e-6
 /// σ are rigid and omitted. The list of a body without mass is empty. Throws Error as
 /// modes::compute() does.
-std::vector<OwnModes> ownModes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, int count);
+std::vector<OwnModes> ownModes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                               const std::vector<std::vector<PetscInt>>& nodes, int count);
 
 }  // namespace squeal::energies

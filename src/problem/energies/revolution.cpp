@@ -9,6 +9,7 @@
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "problem/energies/legendre.hpp"
+#include "problem/energies/profile.hpp"
 
 namespace squeal::energies {
 namespace {
@@ -180,7 +181,7 @@ std::vector<double> Revolution::moments(const double* values) const {
 }
 
 /// Collective. Returns the number of nodal circles of the motion along the axis with n nodal
-/// diameters: the changes of sign of its mean over rings, where it is above 5 % of its largest.
+/// diameters, from its mean over rings.
 int Revolution::circles(int diameters, const std::vector<std::vector<double>>& moments) const {
   std::vector<double> best;  // coefficients over the meridian at the angle with most motion
   double largest = 0;
@@ -203,20 +204,10 @@ int Revolution::circles(int diameters, const std::vector<std::vector<double>>& m
     sums[ring_[k]] += body_.mass[k] * u, sums[rings + ring_[k]] += body_.mass[k];
   }
   mpi::sumAlike(mesh_.comm, sums);
-  double most = 0;
+  std::vector<double> profile;
   for (int ring = 0; ring < rings; ++ring)
-    if (sums[rings + ring] > 0) {
-      sums[ring] /= sums[rings + ring];
-      most = std::max(most, std::abs(sums[ring]));
-    }
-  int count = 0, sign = 0;
-  for (int ring = 0; ring < rings; ++ring) {
-    if (sums[rings + ring] <= 0 || std::abs(sums[ring]) < 0.05 * most) continue;
-    const int now = sums[ring] > 0 ? 1 : -1;
-    if (sign != 0 && now != sign) ++count;
-    sign = now;
-  }
-  return count;
+    if (sums[rings + ring] > 0) profile.push_back(sums[ring] / sums[rings + ring]);
+  return signChanges(profile);
 }
 
 NamedMotion Revolution::name(const std::vector<const double*>& parts) const {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "problem/energies/legendre.hpp"
+#include "problem/energies/profile.hpp"
 
 namespace squeal::energies {
 namespace {
@@ -84,7 +86,7 @@ std::vector<Point> Sections::motionsAt(const Family& family, std::size_t node) c
 }
 
 /// Returns the number of nodal sections of p(ζ) of the direction that moves most, less one for
-/// bending: its changes of sign where it is above 5 % of its largest value.
+/// bending.
 int Sections::order(const Family& family, const std::vector<double>& coefficients) const {
   constexpr int points = 100;
   const double* best = coefficients.data();
@@ -95,43 +97,44 @@ int Sections::order(const Family& family, const std::vector<double>& coefficient
       best = c;
   }
   std::vector<double> profile;
-  double most = 0;
   for (int i = 0; i <= points; ++i) {
     const auto p = legendre<degrees>(2.0 * i / points - 1);
     double value = 0;
     for (std::size_t k = 0; k < degrees; ++k) value += best[k] * p[k];
     profile.push_back(value);
-    most = std::max(most, std::abs(value));
   }
-  int count = 0, sign = 0;
-  for (const double value : profile) {
-    if (std::abs(value) < 0.05 * most) continue;
-    const int now = value > 0 ? 1 : -1;
-    if (sign != 0 && now != sign) ++count;
-    sign = now;
-  }
+  const int count = signChanges(profile);
   return family.kind == Family::Kind::bending ? count - 1 : count;
 }
 
+/// Collective. Returns Σ m p·u of the motions p of all families in turn, and at the end Σ m |u|².
+std::vector<double> Sections::moments(const double* values) const {
+  std::vector<double> sums;
+  for (const auto& family : families_) sums.resize(sums.size() + family.size(), 0.0);
+  double square = 0;
+  for (std::size_t k = 0; k < body_.nodes.size(); ++k) {
+    const double* value = values + 3 * body_.nodes[k];
+    const Point u{value[0], value[1], value[2]};
+    double* sum = sums.data();
+    for (const auto& family : families_)
+      for (const Point& motion : motionsAt(family, k))
+        *sum++ += body_.mass[k] * mesh::dot(motion, u);
+    square += body_.mass[k] * mesh::dot(u, u);
+  }
+  sums.push_back(square);
+  mpi::sumAlike(mesh_.comm, sums);
+  return sums;
+}
+
 NamedMotion Sections::name(const double* values) const {
+  const std::vector<double> all = moments(values);
+  if (!(all.back() > 0)) return {};
   NamedMotion best;
+  auto first = all.begin();
   for (const auto& family : families_) {
-    std::vector<double> sums(family.size(), 0.0);
-    double total = 0;
-    for (std::size_t k = 0; k < body_.nodes.size(); ++k) {
-      const double* value = values + 3 * body_.nodes[k];
-      const Point u{value[0], value[1], value[2]};
-      const auto motions = motionsAt(family, k);
-      for (std::size_t i = 0; i < sums.size(); ++i)
-        sums[i] += body_.mass[k] * mesh::dot(motions[i], u);
-      total += body_.mass[k] * mesh::dot(u, u);
-    }
-    sums.push_back(total);
-    mpi::sumAlike(mesh_.comm, sums);
-    total = sums.back();
-    sums.pop_back();
-    if (!(total > 0)) return {};
-    const double share = family.fit.explained(sums) / total;
+    const std::span sums(first, family.size());
+    first += family.size();
+    const double share = family.fit.explained(sums) / all.back();
     if (share < clear || share <= best.share) continue;
     const int number = order(family, family.fit.coefficients(sums));
     if (number < 1) continue;

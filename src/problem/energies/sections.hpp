@@ -50,6 +50,7 @@ class Sections {
     std::size_t size() const;
   };
   std::vector<Point> motionsAt(const Family& family, std::size_t node) const;
+  std::vector<double> moments(const double* values) const;
   int order(const Family& family, const std::vector<double>& coefficients) const;
 
   const mesh::Mesh& mesh_;

@@ -43,9 +43,11 @@ class MatrixSweep : public sweep_solver::SweepProblem {
                                              const modes::Modes& modes) const override {
     return analysis::describe(*system, motions, modes);
   }
-  void withForms(const sweep::Parameters& at, std::size_t, const pencil::Pencil& ofPoint,
-                 const std::function<void(const sensitivity::Forms&)>& use) override {
-    use(sensitivity::parameterForms(ofPoint, at));
+  std::optional<sweep_solver::PointBetween> between(const sweep::Parameters& at,
+                                                    std::size_t) override {
+    return sweep_solver::PointBetween{{}, [at](const pencil::Pencil& ofPoint) {
+                                        return sensitivity::parameterForms(ofPoint, at);
+                                      }};
   }
 
  private:

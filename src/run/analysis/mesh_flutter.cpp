@@ -134,8 +134,10 @@ Flutter meshFlutter(const SlidingBrake& brake, const sweep_solver::Request& requ
                     checkpoint::Checkpoint& checkpoint, CurrentSystem& current) {
   const auto& [mesh, bodies, contact] = brake.model;
   terms::Influences influences(*mesh, bodies, contact, brake.mesh().terms);
-  const energies::Components components(*mesh, bodies, contact,
-                                        energies::ownModes(*mesh, bodies, brake.mesh().ownModes));
+  const auto nodes = energies::nodesOfBodies(*mesh);
+  const energies::Components components(
+      *mesh, bodies, contact, nodes,
+      energies::ownModes(*mesh, bodies, nodes, brake.mesh().ownModes));
   Flutter all{.ownModes = components.ownModes()};
   std::vector<std::string> lost;  // groups without results
   std::string firstReason;

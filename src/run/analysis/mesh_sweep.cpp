@@ -224,31 +224,41 @@ std::vector<pencil::Term> MeshSweep::termsOf(const steady::Solution& solution) c
   return terms::pointTerms(brake_.model.contact, *all_, solution, change, brake_.mesh().terms);
 }
 
-/// Collective. Calls `use` with the steady state at a point; not unless it has the active set of
-/// the point `like`.
-void MeshSweep::withSolution(const sweep::Parameters& at, std::size_t like,
-                             const std::function<void(const steady::Solution&)>& use) {
+/// Collective. Returns the steady state at a point, borrowed if it is one of the sweep.
+std::shared_ptr<const steady::Solution> MeshSweep::solutionAt(const sweep::Parameters& at) {
   sweep::Parameters steady = at;
   steady.damping = 1;
-  const auto useIfShared = [&](const steady::Solution& solution) {
-    if (solution.converged && contact::sameOnAllRanks(brake_.comm(), steady::activeSet(solution),
-                                                      steady::activeSet(steadyAt(like))))
-      use(solution);
-  };
   const auto& solutions = brake_.states.solutions;
   const auto known = std::ranges::find(solutions, steady, &steady::Solution::at);
-  if (known != solutions.end()) return useIfShared(*known);
+  if (known != solutions.end()) return {std::shared_ptr<void>(), &*known};
   if (!problem_)
     problem_ = std::make_unique<steady::Problem>(*brake_.model.mesh, brake_.model.bodies,
                                                  brake_.model.contact);
-  useIfShared(problem_->solve(steady, current_.of(anywhere_)));
+  return std::make_shared<const steady::Solution>(problem_->solve(steady, current_.of(anywhere_)));
 }
 
-std::optional<std::vector<pencil::Term>> MeshSweep::termsAt(const sweep::Parameters& at,
-                                                            std::size_t like) {
-  std::optional<std::vector<pencil::Term>> terms;
-  withSolution(at, like, [&](const steady::Solution& solution) { terms = termsOf(solution); });
-  return terms;
+std::optional<sweep_solver::PointBetween> MeshSweep::between(const sweep::Parameters& at,
+                                                             std::size_t like) {
+  const auto solution = solutionAt(at);
+  if (!solution->converged || !contact::sameOnAllRanks(brake_.comm(), steady::activeSet(*solution),
+                                                       steady::activeSet(steadyAt(like))))
+    return {};
+  return sweep_solver::PointBetween{termsOf(*solution), [=, this](const pencil::Pencil& ofPoint) {
+                                      return formsOf(at, solution, ofPoint);
+                                    }};
+}
+
+/// Collective. Returns the forms at a point with this steady state.
+sensitivity::Forms MeshSweep::formsOf(const sweep::Parameters& at,
+                                      std::shared_ptr<const steady::Solution> solution,
+                                      const pencil::Pencil& ofPoint) const {
+  const auto prestress = std::make_shared<const OwnedMat>(
+      steady::prestressOf(*brake_.model.mesh, brake_.model.bodies, *solution));
+  const auto state = std::make_shared<const terms::BodyPoint>(
+      terms::BodyPoint{at, *interior_, *solution, *prestress});
+  // The forms borrow the state.
+  return [solution, prestress, state, forms = influences_.forms(ofPoint, *state)](
+             const sensitivity::EigenTriple& triple) { return forms(triple); };
 }
 
 std::vector<pencil::CriticalMode> MeshSweep::describe(
@@ -258,17 +268,6 @@ std::vector<pencil::CriticalMode> MeshSweep::describe(
     found[i].name = energies::nameOfMotion(components_, brake_.model.bodies,
                                            linalg::product(trial, *motions[i].x));
   return found;
-}
-
-void MeshSweep::withForms(const sweep::Parameters& at, std::size_t like,
-                          const pencil::Pencil& pencil,
-                          const std::function<void(const sensitivity::Forms&)>& use) {
-  withSolution(at, like, [&](const steady::Solution& solution) {
-    const OwnedMat prestress =
-        steady::prestressOf(*brake_.model.mesh, brake_.model.bodies, solution);
-    const terms::BodyPoint state{at, *interior_, solution, prestress};
-    use(influences_.forms(pencil, state));
-  });
 }
 
 void MeshSweep::addComponents(sweep_solver::ModalSegment& segment) const {

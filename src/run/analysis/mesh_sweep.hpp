@@ -34,14 +34,12 @@ class MeshSweep : public sweep_solver::SweepProblem {
             terms::Influences& influences, const energies::Components& components);
   const PointGroup& group() const { return group_; }
   std::vector<pencil::Term> termsOf(std::size_t i) const override;
-  std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& at,
-                                                   std::size_t like) override;
+  std::optional<sweep_solver::PointBetween> between(const sweep::Parameters& at,
+                                                    std::size_t like) override;
   void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override;
   std::vector<pencil::CriticalMode> describe(const std::vector<pencil::ComplexMotion>& motions,
                                              const modes::Modes& modes) const override;
-  void withForms(const sweep::Parameters& at, std::size_t like, const pencil::Pencil& pencil,
-                 const std::function<void(const sensitivity::Forms&)>& use) override;
   /// Collective. Adds to the modes of a segment the shares of the components, and to its complex
   /// modes the parts of the free modes in them.
   void addComponents(sweep_solver::ModalSegment& segment) const;
@@ -69,8 +67,10 @@ class MeshSweep : public sweep_solver::SweepProblem {
   std::optional<double> frictionOfPointBefore() const;
   std::vector<sweep_solver::PathPiece> piecesAfter(std::size_t point);
   std::vector<pencil::Term> termsOf(const steady::Solution& solution) const;
-  void withSolution(const sweep::Parameters& at, std::size_t like,
-                    const std::function<void(const steady::Solution&)>& use);
+  std::shared_ptr<const steady::Solution> solutionAt(const sweep::Parameters& at);
+  sensitivity::Forms formsOf(const sweep::Parameters& at,
+                             std::shared_ptr<const steady::Solution> solution,
+                             const pencil::Pencil& pencil) const;
 
   const SlidingBrake& brake_;
   PointGroup group_;

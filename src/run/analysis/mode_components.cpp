@@ -48,9 +48,12 @@ void addParticipations(const factor::AssociatedSystem& system,
 
 void addCorrelations(const energies::BodyMac& mac, Mat trial, sweep_solver::ModalSegment& segment) {
   std::map<std::size_t, PetscInt> columns;  // free mode -> column of the nodal values
-  for (const auto& point : segment.points)
-    for (const auto& shape : point.shapes)
-      for (const std::size_t mode : principalModes(shape.participations)) columns.emplace(mode, 0);
+  for (auto& point : segment.points)
+    for (auto& shape : point.shapes)
+      for (const std::size_t mode : principalModes(shape.participations)) {
+        columns.emplace(mode, 0);
+        shape.correlations.push_back({mode, {}});
+      }
   if (columns.empty()) return;
   PetscInt rows = 0, nodalRows = 0;
   check(MatGetLocalSize(trial, &nodalRows, &rows));
@@ -63,13 +66,12 @@ void addCorrelations(const energies::BodyMac& mac, Mat trial, sweep_solver::Moda
   linalg::appendProduct(trial, unknowns, nodal);
   for (auto& point : segment.points)
     for (auto& shape : point.shapes) {
-      const auto modes = principalModes(shape.participations);
       std::vector<std::span<const double>> motions;
-      for (const std::size_t mode : modes) motions.push_back(nodal.column(columns.at(mode)));
+      for (const auto& one : shape.correlations)
+        motions.push_back(nodal.column(columns.at(one.mode)));
       const ReadArray real(shape.real), imaginary(shape.imaginary);
       auto macs = mac.of({real.data(), imaginary.data()}, motions);
-      for (std::size_t i = 0; i < modes.size(); ++i)
-        shape.correlations.push_back({modes[i], std::move(macs[i])});
+      for (std::size_t i = 0; i < macs.size(); ++i) shape.correlations[i].mac = std::move(macs[i]);
     }
 }
 

@@ -43,20 +43,21 @@ std::string participationRows(const std::string& head, const pencil::Shape& shap
 }  // namespace
 
 std::string componentTable(const analysis::Analysis& analysis) {
-  std::string table =
-      sweep::parameterColumns() +
-      ",mode,growth_rate_1_per_s,frequency_hz,kind,component,strain_share,kinetic_share,motion,"
-      "motion_share,damping_1_"
-      "per_s,follower_1_per_s,friction_damping_1_per_s,law_slope_1_per_s,convective_1_per_s,"
-      "gyroscopic_1_per_s\n";
+  std::string table = sweep::parameterColumns() +
+                      ",mode,growth_rate_1_per_s,frequency_hz,kind,component,strain_share,"
+                      "kinetic_share,motion,motion_share";
+  for (const auto& column : growthColumns) table += std::string(",") + column.name;
+  table += "\n";
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       for (const auto& shape : point.shapes)
-        for (const auto& [kind, name, strain, kinetic, motion, share, growth] : shape.components)
+        for (const auto& [kind, name, strain, kinetic, motion, share, growth] : shape.components) {
           table += modeHead(point, shape) + kind + "," + name +
-                   formatted(",%.15e,%.15e,", strain, kinetic) + motionCells(motion, share) +
-                   formatted(",%.9e,%.9e,%.9e,%.9e,%.9e,%.9e\n", growth.damping, growth.follower,
-                             growth.turning, growth.slope, growth.convective, growth.gyroscopic);
+                   formatted(",%.15e,%.15e,", strain, kinetic) + motionCells(motion, share);
+          for (const auto& column : growthColumns)
+            table += formatted(",%.9e", growth.*column.value);
+          table += "\n";
+        }
   return table;
 }
 

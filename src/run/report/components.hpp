@@ -2,11 +2,26 @@
 #pragma once
 /// Tables of the contents of the modes: the shares of the components of the model, and of the free
 /// modes.
+#include <array>
 #include <string>
 
+#include "eigen/pencil/complex_modes.hpp"
 #include "run/analysis/analysis.hpp"
 
 namespace squeal::report {
+
+/// A column of the tables of components: a cause of growth.
+struct GrowthColumn {
+  const char* name;
+  double pencil::GrowthParts::*value;  ///< 1/s
+};
+inline constexpr std::array growthColumns{
+    GrowthColumn{"damping_1_per_s", &pencil::GrowthParts::damping},
+    GrowthColumn{"follower_1_per_s", &pencil::GrowthParts::follower},
+    GrowthColumn{"friction_damping_1_per_s", &pencil::GrowthParts::turning},
+    GrowthColumn{"law_slope_1_per_s", &pencil::GrowthParts::slope},
+    GrowthColumn{"convective_1_per_s", &pencil::GrowthParts::convective},
+    GrowthColumn{"gyroscopic_1_per_s", &pencil::GrowthParts::gyroscopic}};
 
 /// Returns components.csv: the shares of each component in the stored complex modes.
 std::string componentTable(const analysis::Analysis& analysis);

@@ -15,6 +15,7 @@
 #include "run/fieldfile/hdf5.hpp"
 #include "run/fieldfile/vtu.hpp"
 #include "run/report/branches.hpp"
+#include "run/report/components.hpp"
 #include "run/report/names.hpp"
 #include "run/report/nodal_fields.hpp"
 #include "run/report/regime_fields.hpp"
@@ -225,17 +226,13 @@ void writeShares(Hdf5File& file, const std::string& group, const ShareTable& tab
       const auto known = std::ranges::find(names, name);
       const double index = double(known - names.begin());
       if (known == names.end()) names.push_back(name);
-      const auto& growth = one.growth;
-      rows.push_back({double(table.mode[i]), index, one.strain, one.kinetic, growth.damping,
-                      growth.follower, growth.turning, growth.slope, growth.convective,
-                      growth.gyroscopic});
+      rows.push_back({double(table.mode[i]), index, one.strain, one.kinetic});
+      for (const auto& column : growthColumns) rows.back().push_back(one.growth.*column.value);
     }
   if (rows.empty()) return;
-  file.writeTable(
-      group, "components",
-      {"mode", "component", "strain_share", "kinetic_share", "damping_1_per_s", "follower_1_per_s",
-       "friction_damping_1_per_s", "law_slope_1_per_s", "convective_1_per_s", "gyroscopic_1_per_s"},
-      rows);
+  std::vector<std::string> columns{"mode", "component", "strain_share", "kinetic_share"};
+  for (const auto& column : growthColumns) columns.push_back(column.name);
+  file.writeTable(group, "components", columns, rows);
   file.writeAttribute(group + "/components", "components", joined(names, ","));
 }
 

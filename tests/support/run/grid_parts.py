@@ -29,7 +29,7 @@ LAYERS = [
     "-flutter_track",
     "on",
 ]
-CHAIN = ["external_chain", "-flutter_friction"]
+CHAIN = ["external_chain", "-flutter_sensitivities", "-flutter_friction"]
 RUNS = {
     "layers": [*LAYERS, "-flutter_speed", "1,2"],
     "layers_1": LAYERS,

@@ -6,35 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "algebra/factor/symmetric_solver.hpp"
+#include "support/algebra/chain.hpp"
 #include "support/model/model.hpp"
 
 namespace squeal::test {
 namespace {
 
-constexpr PetscInt order = 200;
-
-/// Collective. Returns A − shift I. With ranks of unequal size, the last one has no rows.
-OwnedMat chain(double shift, bool lastIsEmpty = false) {
-  int rank = 0, ranks = 1;
-  check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  check(MPI_Comm_size(PETSC_COMM_WORLD, &ranks));
-  PetscInt local = PETSC_DECIDE;
-  if (lastIsEmpty && ranks > 1) local = rank == 0 ? order : 0;
-  OwnedMat matrix;
-  check(MatCreateAIJ(PETSC_COMM_WORLD, local, local, order, order, 3, nullptr, 3, nullptr,
-                     matrix.out()));
-  PetscInt first = 0, last = 0;
-  check(MatGetOwnershipRange(matrix, &first, &last));
-  for (PetscInt i = first; i < last; ++i)
-    for (PetscInt j = std::max<PetscInt>(i - 1, 0); j <= std::min(i + 1, order - 1); ++j)
-      check(MatSetValue(matrix, i, j, i == j ? 2 - shift : -1, INSERT_VALUES));
-  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-  check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
-  return matrix;
-}
-
-double eigenvalue(int k) { return 2 - 2 * std::cos(k * M_PI / (order + 1)); }
+double eigenvalue(int k) { return 2 - 2 * std::cos(k * M_PI / (chainOrder + 1)); }
 
 /// Collective. Returns the largest error of A⁻¹ (A X) over all ranks, X with 3 columns of the known
 /// shapes sin(jkπ/(n + 1)), A X = (λ_k − shift) X.
@@ -44,7 +22,7 @@ double errorOfSolves(factor::MumpsFactor& factor, Mat matrix, double shift) {
   const PetscInt rows = last - first;
   std::vector<double> b(3 * rows), x(3 * rows);
   const auto shape = [&](PetscInt i, int k) {
-    return std::sin((first + i + 1) * k * M_PI / (order + 1));
+    return std::sin((first + i + 1) * k * M_PI / (chainOrder + 1));
   };
   for (int k = 1; k <= 3; ++k)
     for (PetscInt i = 0; i < rows; ++i)

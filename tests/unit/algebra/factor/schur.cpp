@@ -6,36 +6,15 @@
 #include <gtest/gtest.h>
 
 #include "base/system/concatenation.hpp"
-#include "base/system/mpi.hpp"
-#include "support/harness/ranks.hpp"
+#include "support/algebra/chain.hpp"
 
 namespace squeal::test {
 namespace {
 
-constexpr PetscInt order = 200;
-
-/// Collective. With ranks of unequal size, the last one has no rows.
-OwnedMat chain(bool lastIsEmpty) {
-  OwnedMat matrix;
-  PetscInt local = PETSC_DECIDE;
-  if (lastIsEmpty) local = mpi::rank(PETSC_COMM_WORLD) == 0 ? order : 0;
-  check(MatCreateAIJ(PETSC_COMM_WORLD, local, local, order, order, 3, nullptr, 3, nullptr,
-                     matrix.out()));
-  PetscInt first = 0, last = 0;
-  check(MatGetOwnershipRange(matrix, &first, &last));
-  for (PetscInt i = first; i < last; ++i)
-    for (PetscInt j = std::max<PetscInt>(i - 1, 0); j <= std::min(i + 1, order - 1); ++j)
-      check(MatSetValue(matrix, i, j, i == j ? 2 : -1, INSERT_VALUES));
-  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-  check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
-  return matrix;
-}
-
 TEST(SchurComplement, OfAChainIsOneOfLongerSprings) {
   const std::vector<PetscInt> kept{180, 3, 4, 61, 199, 120, 90};
   for (const bool lastIsEmpty : {false, true}) {
-    const OwnedMat matrix = chain(lastIsEmpty);
+    const OwnedMat matrix = chain(0, lastIsEmpty);
     PetscInt first = 0, last = 0;
     check(MatGetOwnershipRange(matrix, &first, &last));
     std::vector<PetscInt> own;
@@ -53,7 +32,7 @@ TEST(SchurComplement, OfAChainIsOneOfLongerSprings) {
     // The distance to the neighbour before or after that is kept, or to the wall.
     const auto gap = [&](std::ptrdiff_t k) {
       const PetscInt from = k == 0 ? -1 : sorted[k - 1],
-                     to = k == std::ssize(sorted) ? order : sorted[k];
+                     to = k == std::ssize(sorted) ? chainOrder : sorted[k];
       return double(to - from);
     };
     for (PetscInt i = 0; i < found.rows(); ++i)

@@ -11,27 +11,23 @@
 #include "support/model/mesh_checks.hpp"
 #include "support/model/mesh_text.hpp"
 
-namespace squeal {
+namespace squeal::test {
 namespace {
 
 namespace fs = std::filesystem;
-using test::changed;
-using test::expectMessage;
-using test::layer;
-using test::messageOf;
 
 // Version 2 repeats a cell for each of its groups.
 TEST(MeshFile, GroupsOfVersion2MayOverlap) {
   auto text =
-      changed(test::quadranglesMsh2(), "$PhysicalNames\n3\n", "$PhysicalNames\n4\n2 4 \"right\"\n");
+      changed(quadranglesMsh2(), "$PhysicalNames\n3\n", "$PhysicalNames\n4\n2 4 \"right\"\n");
   text = changed(changed(text, "$Elements\n6", "$Elements\n7"), "$EndElements",
                  "7 3 2 4 1 2 3 6 5\n$EndElements");
-  const auto file = test::writeFile("overlap.msh", text);
-  test::setOptions("-mesh_file " + file + layer);
-  EXPECT_EQ(test::readMesh().totalCells, 2);
-  expectMessage(messageOf(file, layer + test::material("right", "1", "0.3", "1")),
+  const auto file = writeFile("overlap.msh", text);
+  setOptions("-mesh_file " + file + layer);
+  EXPECT_EQ(readMesh().totalCells, 2);
+  expectMessage(messageOf(file, layer + material("right", "1", "0.3", "1")),
                 {"cells 6 of group 'layer' and 7 of group 'right' have the same nodes"});
-  expectMessage(messageOf(file, test::material("right", "1", "0.3", "1")),
+  expectMessage(messageOf(file, material("right", "1", "0.3", "1")),
                 {"group 'layer' has no material", "(cell 5)"});
 }
 
@@ -44,14 +40,14 @@ TEST(MeshFile, GroupsOfUnvHaveTheirWholeNames) {
   fs::create_directories(folder);
   setenv("TMPDIR", folder.c_str(), 1);
   for (const char* section : {"2435", "2452", "2467", "2477"}) {
-    auto text = changed(test::quadranglesUnv(), "  2477\n", std::string("  ") + section + "\n");
+    auto text = changed(quadranglesUnv(), "  2477\n", std::string("  ") + section + "\n");
     text = changed(changed(text, "\nbottom\n", "\nface of it\n"), "\ntop\n", "\nface  above\r\n");
-    const auto file = test::writeFile("names.unv", text);
-    test::setOptions("-mesh_file " + file + layer +
-                     "-load_face_of_it_pressure 1 -load_face_above_pressure 1");
-    const auto mesh = test::readMesh();
+    const auto file = writeFile("names.unv", text);
+    setOptions("-mesh_file " + file + layer +
+               "-load_face_of_it_pressure 1 -load_face_above_pressure 1");
+    const auto mesh = readMesh();
     EXPECT_EQ(mesh.totalCells, 2) << section;
-    const auto areas = test::areaVectors(mesh);
+    const auto areas = areaVectors(mesh);
     EXPECT_NEAR(areas.at("face_of_it")[1], -2, 1e-14) << section;
     EXPECT_NEAR(areas.at("face_above")[1], 2, 1e-14) << section;
     expectMessage(messageOf(file, layer + "-load_face_pressure 1"),
@@ -64,56 +60,56 @@ TEST(MeshFile, GroupsOfUnvHaveTheirWholeNames) {
 // gmsh puts the elements of one entity into all groups of that entity; many programs write 1 for
 // every entity.
 TEST(MeshFile, EachElementOfVersion2IsInTheGroupThatItNames) {
-  std::string text = changed(test::quadranglesMsh2(), "3 1 2 2 2 4 5", "3 1 2 2 1 4 5");
+  std::string text = changed(quadranglesMsh2(), "3 1 2 2 2 4 5", "3 1 2 2 1 4 5");
   text = changed(text, "4 1 2 2 2 5 6", "4 1 2 2 1 5 6");
-  test::setOptions("-mesh_file " + test::writeFile("one_entity.msh", text) + layer +
-                   "-constraint_bottom_clamped xy");
-  const auto mesh = test::readMesh();
-  EXPECT_EQ(test::total(static_cast<double>(mesh.nodeGroups.at("bottom").size())),
+  setOptions("-mesh_file " + writeFile("one_entity.msh", text) + layer +
+             "-constraint_bottom_clamped xy");
+  const auto mesh = readMesh();
+  EXPECT_EQ(total(static_cast<double>(mesh.nodeGroups.at("bottom").size())),
             3);  // not all six
 }
 
 // A surface with two names, as a shared contact surface has, is written twice in version 2.
 TEST(MeshFile, ASurfaceWithTwoNamesIsNotDoubled) {
   const std::string file = SQUEAL_OUTPUT_DIR "/two_names.msh";
-  if (test::rankOf() == 0) {
-    std::string text = changed(test::quadranglesMsh2(), "$Elements\n6", "$Elements\n8");
+  if (rankOf() == 0) {
+    std::string text = changed(quadranglesMsh2(), "$Elements\n6", "$Elements\n8");
     text = changed(text, "$EndElements", "7 1 2 4 2 4 5\n8 1 2 4 2 5 6\n$EndElements");
     std::ofstream(file) << changed(changed(text, "$PhysicalNames\n3", "$PhysicalNames\n4"),
                                    "2 3 \"layer\"", "1 4 \"roof\"\n2 3 \"layer\"");
   }
   check(MPI_Barrier(PETSC_COMM_WORLD));
   for (const std::string surface : {"top", "roof"}) {
-    test::setOptions("-mesh_file " + file + layer + "-load_" + surface + "_pressure 1");
-    const auto mesh = test::readMesh();
-    const auto bodies = test::assembleBodies(mesh);
-    EXPECT_NEAR(test::dot(test::nodalField(mesh,
-                                           [](const mesh::Point&) {
-                                             return mesh::Point{0, 1, 0};
-                                           }),
-                          bodies.load),
+    setOptions("-mesh_file " + file + layer + "-load_" + surface + "_pressure 1");
+    const auto mesh = readMesh();
+    const auto bodies = assembleBodies(mesh);
+    EXPECT_NEAR(dot(nodalField(mesh,
+                               [](const mesh::Point&) {
+                                 return mesh::Point{0, 1, 0};
+                               }),
+                    bodies.load),
                 -2, 1e-14)
         << surface;  // 1 Pa on 2 m
   }
 }
 
 TEST(MeshFile, GroupNamesWithBlanksHaveUnderscoresInOptions) {
-  const auto file = test::writeFile(
-      "blanks.msh", changed(test::quadranglesMsh2(), "\"layer\"", "\"brake  disc\""));
-  EXPECT_EQ(messageOf(file, test::material("brake__disc", "1", "0.3", "1")), "");
-  expectMessage(messageOf(file, test::material("disc", "1", "0.3", "1")),
+  const auto file =
+      writeFile("blanks.msh", changed(quadranglesMsh2(), "\"layer\"", "\"brake  disc\""));
+  EXPECT_EQ(messageOf(file, material("brake__disc", "1", "0.3", "1")), "");
+  expectMessage(messageOf(file, material("disc", "1", "0.3", "1")),
                 {"'disc'", "its groups are: bottom, brake__disc, top"});
-  const auto both = test::writeFile(
-      "blanks2.msh",
-      changed(changed(test::quadranglesMsh2(), "\"bottom\"", "\"a b\""), "\"top\"", "\"a_b\""));
+  const auto both =
+      writeFile("blanks2.msh",
+                changed(changed(quadranglesMsh2(), "\"bottom\"", "\"a b\""), "\"top\"", "\"a_b\""));
   expectMessage(messageOf(both), {"'a b'", "'a_b'", "underscores stand for blanks"});
 }
 
 TEST(MeshFile, AMeshWithoutGroupsSaysSo) {
-  const auto file = test::writeFile(
-      "nameless.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1};\n");
+  const auto file =
+      writeFile("nameless.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1};\n");
   expectMessage(messageOf(file), {"'layer'", "it has no physical groups at all"});
 }
 
 }  // namespace
-}  // namespace squeal
+}  // namespace squeal::test

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/petsc/arrays.hpp"
+#include "problem/energies/own_modes.hpp"
 #include "support/model/model.hpp"
 
 namespace squeal::test {
@@ -21,7 +22,7 @@ TEST(BodyMac, ComparesEachBodyByItself) {
   const mesh::Mesh mesh = readMesh();
   const elasticity::Bodies bodies = assembleBodies(mesh);
   ASSERT_EQ(mesh.bodies.size(), 2u);
-  const energies::BodyMac mac(mesh, bodies);
+  const energies::BodyMac mac(mesh, bodies, energies::nodesOfBodies(mesh));
   const OwnedVec x = nodalField(mesh,
                                 [](const Point&) {
                                   return Point{1, 0, 0};

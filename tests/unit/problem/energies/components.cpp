@@ -47,7 +47,7 @@ Model brake() {
 TEST(Components, HaveTheFormsOfTheirMatrices) {
   const Model model = brake();
   const auto& [mesh, bodies, contact] = model;
-  const energies::Components components(*mesh, bodies, contact);
+  const energies::Components components(*mesh, bodies, contact, energies::nodesOfBodies(*mesh));
   OwnedVec u = elasticity::nodalVector(*mesh);
   PetscInt first = 0;
   {

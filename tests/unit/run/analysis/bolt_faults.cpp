@@ -9,18 +9,12 @@
 #include "support/model/model.hpp"
 #include "support/run/bolted_columns.hpp"
 
-namespace squeal {
+namespace squeal::test::bolted {
 namespace {
-
-using test::bolted::assembly;
-using test::bolted::boltStiffness;
-using test::bolted::geometry;
-using test::bolted::optionsOf;
-using test::bolted::tightenedModel;
 
 TEST(Bolts, SectionMustCutThroughItsBody) {
   // A bar of 2 × 1 cells in two layers, with a section below one of the two cells above it.
-  const std::string file = test::writeFile("notch.geo", R"(
+  const std::string file = writeFile("notch.geo", R"(
 Point(1) = {0, 0, 0}; Point(2) = {0, 1, 0}; Line(1) = {1, 2}; Transfinite Curve{1} = 2;
 a[] = Extrude{1, 0, 0}{ Line{1}; Layers{1}; Recombine; };
 b[] = Extrude{1, 0, 0}{ Line{a[0]}; Layers{1}; Recombine; };
@@ -34,9 +28,9 @@ Physical Surface("notch") = {c[0]};
 Physical Surface("section") = {c[0], d[0]};
 )");
   const auto message = [&](const std::string& section) {
-    test::setOptions("-mesh_file " + file + test::material("bolt", "1e9", "0.3", "1000") +
-                     "-constraint_low_clamped xyz -bolt_b_force 1 -bolt_b_section " + section);
-    return test::errorOf([] { tightenedModel(); });
+    setOptions("-mesh_file " + file + material("bolt", "1e9", "0.3", "1000") +
+               "-constraint_low_clamped xyz -bolt_b_force 1 -bolt_b_section " + section);
+    return errorOf([] { tightenedModel(); });
   };
   EXPECT_NE(message("notch").find("option -bolt_b_section notch: the section does not cut through "
                                   "its body: cells on both sides of it share the node at"),
@@ -53,7 +47,7 @@ Physical Surface("section") = {c[0], d[0]};
 
 // A bar of three cells, clamped at its ends: the part between two sections is loose.
 TEST(Bolts, InSeriesAreNamed) {
-  test::setOptions("-mesh_file " + test::writeFile("series.geo", R"(
+  setOptions("-mesh_file " + writeFile("series.geo", R"(
 Point(1) = {0, 0, 0}; Point(2) = {0, 1, 0}; Line(1) = {1, 2}; Transfinite Curve{1} = 2;
 a[] = Extrude{1, 0, 0}{ Line{1}; Layers{1}; Recombine; };
 b[] = Extrude{0, 0, 1}{ Surface{a[1]}; Layers{1}; Recombine; };
@@ -64,34 +58,34 @@ Physical Surface("low") = {a[1]};
 Physical Surface("high") = {d[0]};
 Physical Surface("one") = {b[0]};
 Physical Surface("two") = {c[0]};
-)") + test::material("bolt", "1e9", "0.3", "1000") +
-                   "-constraint_low_clamped xyz -constraint_high_clamped xyz -bolt_b_section one "
-                   "-bolt_b_force 1 -bolt_c_section two -bolt_c_force 1");
-  const std::string found = test::errorOf([] { tightenedModel(); });
-  EXPECT_TRUE(test::contains(found, "body 'bolt' can move rigidly")) << found;
-  EXPECT_TRUE(test::contains(found,
-                             "as the sections of bolts 'b' and 'c' open, so the parts between "
-                             "or beyond them are loose"))
+)") + material("bolt", "1e9", "0.3", "1000") +
+             "-constraint_low_clamped xyz -constraint_high_clamped xyz -bolt_b_section one "
+             "-bolt_b_force 1 -bolt_c_section two -bolt_c_force 1");
+  const std::string found = errorOf([] { tightenedModel(); });
+  EXPECT_TRUE(contains(found, "body 'bolt' can move rigidly")) << found;
+  EXPECT_TRUE(contains(found,
+                       "as the sections of bolts 'b' and 'c' open, so the parts between "
+                       "or beyond them are loose"))
       << found;
 }
 
 // The bolt is 1 m long: a tenth of it is the limit of small strains.
 TEST(Bolts, LargeShorteningIsReported) {
   const auto warnings = [](const std::string& options) {
-    test::setOptions(assembly("bolt_faults.geo") + options);
-    return test::warningsOf([] { tightenedModel(); });
+    setOptions(assembly("bolt_faults.geo") + options);
+    return warningsOf([] { tightenedModel(); });
   };
   EXPECT_EQ(warnings("-bolt_b_shortening 0.099"), "");
   const std::string given = warnings("-bolt_b_shortening 0.2"),
                     found = warnings(formatted("-bolt_b_force %g", 0.3 * boltStiffness));
-  EXPECT_TRUE(test::contains(given,
-                             "bolt 'b' becomes 0.2 m shorter, 0.2 times the length of its "
-                             "body 'bolt' along it, 1 m"))
+  EXPECT_TRUE(contains(given,
+                       "bolt 'b' becomes 0.2 m shorter, 0.2 times the length of its "
+                       "body 'bolt' along it, 1 m"))
       << given;
-  EXPECT_TRUE(test::contains(given, "-bolt_b_shortening")) << given;
+  EXPECT_TRUE(contains(given, "-bolt_b_shortening")) << given;
   // The bolt and the sleeve are springs: F (1/k_b + 1/k_s), k_s = 2 k_b, gives 0.45 m.
-  EXPECT_TRUE(test::contains(found, "bolt 'b' becomes 0.45 m shorter")) << found;
-  EXPECT_TRUE(test::contains(found, "-bolt_b_force")) << found;
+  EXPECT_TRUE(contains(found, "bolt 'b' becomes 0.45 m shorter")) << found;
+  EXPECT_TRUE(contains(found, "-bolt_b_force")) << found;
 }
 
 TEST(Bolts, FaultsAreNamed) {
@@ -116,8 +110,8 @@ TEST(Bolts, FaultsAreNamed) {
        "option -bolt_c_section section: the bolt 'b' has this section already"},
   };
   for (const auto& [options, message] : faults) {
-    const std::string found = test::errorOf([&, &text = options] {
-      test::setOptions(assembly("bolt_faults.geo") + text);
+    const std::string found = errorOf([&, &text = options] {
+      setOptions(assembly("bolt_faults.geo") + text);
       tightenedModel();
     });
     EXPECT_NE(found.find(message), std::string::npos) << options << "\n  " << found;
@@ -132,32 +126,32 @@ TEST(Bolts, OnlyTheBoltUsesItsSection) {
         "-ground_section_stiffness 0,0,1", "-mass_section_total 1",
         "-contact_c_pad section -contact_c_disc sleeve_low",
         "-tie_t_slave sleeve_high -tie_t_master section"}) {
-    const std::string found = test::errorOf([&] {
-      test::setOptions(assembly("bolt_faults.geo") + "-bolt_b_force 1 " + option);
+    const std::string found = errorOf([&] {
+      setOptions(assembly("bolt_faults.geo") + "-bolt_b_force 1 " + option);
       tightenedModel();
     });
-    EXPECT_TRUE(test::contains(found, "group 'section' is the section of the bolt 'b' " + rule))
+    EXPECT_TRUE(contains(found, "group 'section' is the section of the bolt 'b' " + rule))
         << option << ": " << found;
-    EXPECT_TRUE(test::contains(found, "option " + option.substr(0, option.find('_')))) << found;
+    EXPECT_TRUE(contains(found, "option " + option.substr(0, option.find('_')))) << found;
   }
   // The same faces under another name.
   std::string again = geometry;
   again.insert(again.find("Physical Volume"), "Physical Surface(\"copy\") = {middle};\n");
   const auto message = [&](const std::string& options) {
-    return test::errorOf([&] {
-      test::setOptions("-mesh_file " + test::writeFile("copy.geo", again) + optionsOf("") +
-                       "-bolt_b_force 1 " + options);
+    return errorOf([&] {
+      setOptions("-mesh_file " + writeFile("copy.geo", again) + optionsOf("") + "-bolt_b_force 1 " +
+                 options);
       tightenedModel();
     });
   };
-  EXPECT_TRUE(test::contains(message("-constraint_copy_clamped z"),
-                             "option -constraint_copy_clamped: group 'copy' has a face of the "
-                             "section of the bolt 'b' " +
-                                 rule));
+  EXPECT_TRUE(contains(message("-constraint_copy_clamped z"),
+                       "option -constraint_copy_clamped: group 'copy' has a face of the "
+                       "section of the bolt 'b' " +
+                           rule));
   // A position means both sides.
   EXPECT_EQ(message("-reference_r_centre_of copy -coupling_c_reference high -coupling_c_nodes r"),
             "");
 }
 
 }  // namespace
-}  // namespace squeal
+}  // namespace squeal::test::bolted

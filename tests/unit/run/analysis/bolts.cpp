@@ -14,16 +14,8 @@
 #include "support/model/model.hpp"
 #include "support/run/bolted_columns.hpp"
 
-namespace squeal {
+namespace squeal::test::bolted {
 namespace {
-
-using test::bolted::assembly;
-using test::bolted::boltStiffness;
-using test::bolted::geometry;
-using test::bolted::geometryAt;
-using test::bolted::optionsOf;
-using test::bolted::sleeveStiffness;
-using test::bolted::tightenedModel;
 
 constexpr double force = 3e4;  // N, of the bolt
 
@@ -42,13 +34,18 @@ struct State {
   PetscInt open = 0;
 };
 
-/// Collective. Returns the state with these options.
-State stateWith(const std::string& options) {
-  test::setOptions(assembly() + options);
-  const auto model = tightenedModel();
+/// Collective. Returns the state of a model without friction.
+steady::Solution solved(const analysis::Model& model, double pressure = 1) {
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
-  const auto solution = problem.solve({.friction = 0}, system);
+  return problem.solve({.friction = 0, .pressure = pressure}, system);
+}
+
+/// Collective. Returns the state with these options.
+State stateWith(const std::string& options) {
+  setOptions(assembly() + options);
+  const auto model = tightenedModel();
+  const auto solution = solved(model);
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_LT(solution.imbalance, 1e-10);
   return {analysis::boltForces(model, solution).at(0),
@@ -81,11 +78,9 @@ TEST(Bolts, ForceAndThenSeparation) {
 
 // The row of the bolt is its tension, and the section adds nothing to the sum of all forces.
 TEST(Bolts, ForcesBalance) {
-  test::setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(1e4));
+  setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(1e4));
   const auto model = tightenedModel();
-  const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-  const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
-  const auto solution = problem.solve({.friction = 0}, system);
+  const auto solution = solved(model);
   const double tension = analysis::boltForces(model, solution).at(0);
   EXPECT_GT(tension, force);
   int found = 0;
@@ -115,11 +110,11 @@ TEST(Bolts, ForcesBalance) {
 // The rider presses the plates together, and the bolt gives way to the sleeve, unless the pressure
 // acts while the bolt is tightened. Without pressure the rider is loose.
 TEST(Bolts, PartsThatOnlyPressureHolds) {
-  const std::string file = test::writeFile("rider.geo", geometry + rider);
+  const std::string file = writeFile("rider.geo", geometry + rider);
   const double pressure = 5e3, area = 2, pressed = pressure * area,
                share = boltStiffness / (boltStiffness + sleeveStiffness);
   const std::string options = formatted("-load_rider_high_pressure %.17g ", pressure) +
-                              "-mesh_file " + file + test::material("rider", "2e9", "0", "1000") +
+                              "-mesh_file " + file + material("rider", "2e9", "0", "1000") +
                               "-constraint_rider_high_clamped xy -contact_rider_pad rider_low "
                               "-contact_rider_disc sleeve_high -contact_rider_role frictionless ";
   const std::string tightened = formatted("-bolt_b_force %.17g ", force);
@@ -130,10 +125,9 @@ TEST(Bolts, PartsThatOnlyPressureHolds) {
   const auto under = stateWith(options + tightened + "-bolt_under_pressure on ");
   EXPECT_NEAR(under.bolt / force, 1, exact);
   EXPECT_NEAR(under.joint / (force + pressed), 1, exact);
-  const std::string failure = test::errorOf([&] { stateWith(options + tightened); });
-  EXPECT_TRUE(test::contains(failure, "the step that tightens the bolts has no solution"))
-      << failure;
-  EXPECT_TRUE(test::contains(failure, "give -bolt_under_pressure on")) << failure;
+  const std::string failure = errorOf([&] { stateWith(options + tightened); });
+  EXPECT_TRUE(contains(failure, "the step that tightens the bolts has no solution")) << failure;
+  EXPECT_TRUE(contains(failure, "give -bolt_under_pressure on")) << failure;
 }
 
 TEST(Bolts, ShorteningIsTheOtherWayToSayIt) {
@@ -148,19 +142,17 @@ TEST(Bolts, ShorteningIsTheOtherWayToSayIt) {
 }
 
 TEST(Bolts, PressureOfTheSweepDoesNotScaleThem) {
-  test::setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(3000));
+  setOptions(assembly() + formatted("-bolt_b_force %.17g ", force) + pulled(3000));
   const auto model = tightenedModel();
-  const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-  const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
   for (const double pressure : {0.0, 2.0}) {
-    const auto solution = problem.solve({.friction = 0, .pressure = pressure}, system);
-    EXPECT_NEAR(analysis::boltForces(model, solution).at(0) / (force + pressure * 1000), 1, exact);
+    const double found = analysis::boltForces(model, solved(model, pressure)).at(0);
+    EXPECT_NEAR(found / (force + pressure * 1000), 1, exact);
   }
 }
 
 TEST(Bolts, FrequenciesAreThoseOfTheUncutBody) {
   const auto lambda = [](const std::string& options) {
-    test::setOptions(options + "-modes_count 4");
+    setOptions(options + "-modes_count 4");
     const auto model = tightenedModel();
     const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
     return modes::compute(system, modes::Settings::given()).lambda;
@@ -181,12 +173,10 @@ struct Pair {
 /// Collective. Returns the state of two assemblies apart from each other, with the bolts `b` and
 /// `a_b`.
 Pair pairWith(const std::string& options) {
-  test::setOptions("-mesh_file " + test::writeFile("bolts.geo", geometry + geometryAt(9, "a_")) +
-                   optionsOf("") + optionsOf("a_") + options + "-modes_count 8");
+  setOptions("-mesh_file " + writeFile("bolts.geo", geometry + geometryAt(9, "a_")) +
+             optionsOf("") + optionsOf("a_") + options + "-modes_count 8");
   const auto model = tightenedModel();
-  const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-  const contact::CoupledSystem bonded(model.bodies, model.contact, model.bonded());
-  const auto solution = problem.solve({.friction = 0}, bonded);
+  const auto solution = solved(model);
   const contact::CoupledSystem system(model.bodies, model.contact, steady::activeSet(solution));
   return {analysis::boltForces(model, solution),
           modes::compute(system, modes::Settings::given()).lambda};
@@ -219,4 +209,4 @@ TEST(Bolts, OrderOfTwoIndependentOnes) {
 }
 
 }  // namespace
-}  // namespace squeal
+}  // namespace squeal::test::bolted

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Properties of matrices.
+#include "base/petsc/owned.hpp"
+
+namespace squeal {
+
+/// Not collective. Returns true if the matrix is marked as symmetric.
+bool isSymmetric(Mat matrix);
+/// Collective. Returns this rank's rows of a matrix.
+OwnedIS ownRows(Mat matrix);
+
+}  // namespace squeal
