@@ -216,15 +216,39 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   return points;
 }
 
-/// Collective. Returns the problem of the free modes of a set, solved and corrected; `point` has
-/// only the terms of K and M.
-PointState ReducedProblem::associatedState(const PointProblem& point) {
+/// Collective. Returns the problems of the free modes of some sets, solved and corrected together;
+/// `points` have only the terms of K and M, which are the same for all.
+std::vector<PointState> ReducedProblem::associatedStates(const std::vector<PointProblem>& points) {
   std::vector<PointState> states;
-  states.push_back(
-      basis_.state(point, {point.pencil.norm(0, point.at), 0, point.pencil.norm(2, point.at)}));
-  states.front().associated = true;
+  if (points.empty()) return states;
+  const auto& [at, pencil, set] = points.front();
+  const Norms norms{pencil.norm(0, at), 0, pencil.norm(2, at)};
+  for (const auto& point : points) {
+    states.push_back(basis_.state(point, norms));
+    states.back().associated = true;
+  }
   correct(states);
-  return std::move(states.front());
+  return states;
+}
+
+/// Collective. Returns all eigenvalues ω² of the problems of the free modes, [state], which are
+/// distributed over the ranks.
+std::vector<std::vector<double>> ReducedProblem::associatedEigenvalues(
+    const std::vector<PointState>& states) const {
+  const MPI_Comm comm = basis().comm();
+  const int rank = mpi::rank(comm), ranks = mpi::size(comm);
+  std::vector<std::vector<double>> values(states.size());
+  std::string failure;
+  for (std::size_t i = rank; i < states.size() && failure.empty(); i += ranks) try {
+      linalg::DenseProblem problem = basis_.project(states[i]);
+      values[i] =
+          linalg::symmetricEigenvalues(std::move(problem.stiffness), std::move(problem.mass));
+    } catch (const Error& error) {
+      failure = error.what();
+    }
+  failTogether(comm, failure);
+  for (std::size_t i = 0; i < states.size(); ++i) mpi::broadcast(comm, values[i], i % ranks);
+  return values;
 }
 
 /// Collective. Sets the top of the band of a set from the eigenvalues ω² of its free modes.
@@ -238,17 +262,21 @@ void ReducedProblem::setBand(std::vector<double> values, PointSet& set) const {
   mpi::broadcast(basis().comm(), set.modesInBand);
 }
 
-modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
+std::vector<modes::Modes> ReducedProblem::freeModes(const std::vector<int>& sets,
+                                                    const pencil::Pencil& pencil) {
   const pencil::Pencil associated = associatedTerms(pencil);
-  const PointProblem point{{}, associated.with({}), set};
-  const PointState state = associatedState(point);
-  modes::Modes modes = reduction::freeModes(basis(), state, associated);
-  linalg::DenseProblem problem = basis_.project(state);
-  const auto values =
-      linalg::symmetricEigenvalues(std::move(problem.stiffness), std::move(problem.mass));
-  setBand(values, basis_.set(set));
-  if (count_)
-    confirmCount(basis().comm(), *count_, {band_.top, values, state.set->space.boundary()}, modes);
+  std::vector<PointProblem> points;
+  for (const int set : sets) points.push_back({{}, associated.with({}), set});
+  const auto states = associatedStates(points);
+  const auto values = associatedEigenvalues(states);
+  std::vector<modes::Modes> modes;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    modes.push_back(reduction::freeModes(basis(), states[i], associated));
+    setBand(values[i], basis_.set(sets[i]));
+    if (count_)
+      confirmCount(basis().comm(), *count_, {band_.top, values[i], states[i].set->space.boundary()},
+                   modes.back());
+  }
   return modes;
 }
 

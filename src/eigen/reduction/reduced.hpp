@@ -59,12 +59,13 @@ class ReducedProblem {
   /// of `pencil` that come after those passed to the constructor; they hold for all parameters.
   /// Throws Error if their stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
-  /// Collective. Returns the free modes in the band of a set, corrected in the same way as the
-  /// complex modes. Their vectors have the entries of all unknowns. Only K and M of `pencil` are
-  /// used. The number of modes is verified if that of the interior problem is and the two bounds of
-  /// subspace::ModeCount agree. From then on, these modes set the top of the band at the points of
-  /// the set, so the list of solve() does not depend on the other sets of the basis.
-  modes::Modes freeModes(int set, const pencil::Pencil& pencil);
+  /// Collective. Returns the free modes in the band of each of these sets, [set], corrected
+  /// together and in the same way as the complex modes. Their vectors have the entries of all
+  /// unknowns. Only K and M of `pencil` are used. The number of modes is verified if that of the
+  /// interior problem is and the two bounds of subspace::ModeCount agree. From then on, these modes
+  /// set the top of the band at the points of the set, so the list of solve() does not depend on
+  /// the other sets of the basis.
+  std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns their complex modes, [point]: the dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
   /// responses are computed at the first point of the first batch. `trial` (T, N×n) maps shapes to
@@ -118,7 +119,9 @@ class ReducedProblem {
   bool addCorrections(const std::vector<PointState*>& open);
   void store(const std::vector<PointState>& states, const std::vector<PointState*>& open, int round,
              PetscInt largest);
-  PointState associatedState(const PointProblem& point);
+  std::vector<PointState> associatedStates(const std::vector<PointProblem>& points);
+  std::vector<std::vector<double>> associatedEigenvalues(
+      const std::vector<PointState>& states) const;
   void setBand(std::vector<double> values, PointSet& set) const;
   pencil::ComplexModes result(const PointState& state) const;
   void storeShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,

@@ -18,33 +18,11 @@
 #include "eigen/sweep_solver/critical_modes.hpp"
 #include "eigen/sweep_solver/journal.hpp"
 #include "eigen/sweep_solver/mode_shapes.hpp"
+#include "eigen/sweep_solver/point_text.hpp"
 #include "eigen/sweep_solver/sweep_plan.hpp"
 
 namespace squeal::sweep_solver {
 namespace {
-
-std::string pointText(const pencil::ComplexModes& point) {
-  std::string text =
-      formatted("%s: %d of %zu eigenvalues unstable", sweep::parameterText(point.at).c_str(),
-                point.unstableCount(), point.eigenvalues.size());
-  for (const auto verdict : {pencil::Verdict::undecided, pencil::Verdict::uncertified})
-    if (const int count = point.count(verdict); count > 0)
-      text += formatted(", %d %s", count, pencil::text(verdict));
-  if (point.bandTop > 0 && std::isfinite(point.bandTop))
-    text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
-  text += formatted(", worst backward error %.1e", point.worstBackwardError());
-  if (point.tolerance > 0) text += formatted(", estimated error %.1e", point.worstErrorEstimate());
-  return text;
-}
-
-/// Throws Error if an eigenvalue is not finite: overflow in the eigenvalue problems must not reach
-/// the results.
-void requireFiniteEigenvalues(const pencil::ComplexModes& point) {
-  for (const auto& e : point.eigenvalues)
-    if (!std::isfinite(e.s.real()) || !std::isfinite(e.s.imag()) || !std::isfinite(e.backwardError))
-      throw Error("an eigenvalue at " + sweep::parameterText(point.at) +
-                  " is not finite: check the magnitudes of materials and factors");
-}
 
 /// The accuracy of unsolved points is zero.
 bool isSolved(const pencil::ComplexModes& point) { return point.accuracy > 0; }
@@ -170,12 +148,9 @@ class SweepSolver {
   /// Collective. Computes the free modes of each active set, which set the top of its band, unless
   /// the checkpoint contains them.
   void findModes() {
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      auto& segment = state_.segments[k];
-      if (segment.points.empty()) continue;
-      if (!state_.hasSetModes) restrictModes(k);
-      segment.shapes = shapesOf(segment.modes);
-    }
+    if (!state_.hasSetModes) restrictModes();
+    for (auto& segment : state_.segments)
+      if (!segment.points.empty()) segment.shapes = shapesOf(segment.modes);
     state_.hasSetModes = true;
   }
 
@@ -207,19 +182,31 @@ class SweepSolver {
       for (auto& segment : state_.segments) segment.solves = reduced_->basis().solves();
   }
 
-  /// Collective. Computes the free modes of one active set in the basis that all sets share.
-  void restrictModes(std::size_t k) {
+  /// Collective. Computes the free modes of the active sets in the basis that they share.
+  void restrictModes() {
     Stage stage(pencil_.comm(), "modes");
-    auto& segment = state_.segments[k];
-    if (std::ranges::count(problem_.ranges[k].has, 1) == 0) {
-      segment.modes = onAllUnknowns(interiorModes_, reduced_->basis());
-    } else {
-      segment.modes = reduced_->freeModes(sets_[k].number, pencil_);
+    std::vector<int> numbers;
+    std::vector<ModalSegment*> restricted;
+    for (std::size_t k = 0; k < sets_.size(); ++k) {
+      auto& segment = state_.segments[k];
+      if (segment.points.empty()) continue;
+      if (std::ranges::count(problem_.ranges[k].has, 1) == 0) {
+        segment.modes = onAllUnknowns(interiorModes_, reduced_->basis());
+        continue;
+      }
+      numbers.push_back(sets_[k].number);
+      restricted.push_back(&segment);
     }
-    const auto& residuals = segment.modes.relativeResidual;
-    stage.finish(formatted("%zu free modes with %" PetscInt_FMT " open nodes, residuals up to %.1e",
-                           residuals.size(), segment.openNodes,
-                           residuals.empty() ? 0 : std::ranges::max(residuals)));
+    auto modes = reduced_->freeModes(numbers, pencil_);
+    for (std::size_t i = 0; i < restricted.size(); ++i) {
+      const auto& residuals = modes[i].relativeResidual;
+      stage.printLine(formatted("%zu free modes with %" PetscInt_FMT
+                                " open nodes, residuals up to %.1e",
+                                residuals.size(), restricted[i]->openNodes,
+                                residuals.empty() ? 0 : std::ranges::max(residuals)));
+      restricted[i]->modes = std::move(modes[i]);
+    }
+    stage.finish(formatted("free modes of %zu active sets", restricted.size()));
   }
 
   /// Returns the lines of the sweep, each with the number of the segment in which it begins.

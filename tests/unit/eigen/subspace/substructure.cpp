@@ -110,7 +110,7 @@ TEST(Substructure, FreeModesAreCountedWithoutAnotherFactorisation) {
   for (const auto& [from, to] : ranges) {
     pencil::Pencil own = f.terms->with({});
     const int set = f.add(from, to, own);
-    const auto modes = f.reduced->freeModes(set, *f.terms);
+    const modes::Modes modes = std::move(f.reduced->freeModes({set}, *f.terms).front());
     EXPECT_TRUE(modes.countConfirmed);
     const contact::CoupledSystem single(f.model.bodies, f.model.contact,
                                         {f.closedBut(from, to), {}});

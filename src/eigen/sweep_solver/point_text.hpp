@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// What a run says about the eigenvalues of a point. Not collective.
+#include <string>
+
+#include "eigen/pencil/complex_modes.hpp"
+
+namespace squeal::sweep_solver {
+
+/// Returns one line: the parameters of the point, the number of eigenvalues by verdict, the band
+/// and the errors.
+std::string pointText(const pencil::ComplexModes& point);
+
+/// Throws Error if an eigenvalue is not finite: overflow in the eigenvalue problems must not reach
+/// the results.
+void requireFiniteEigenvalues(const pencil::ComplexModes& point);
+
+}  // namespace squeal::sweep_solver
