@@ -12,23 +12,41 @@
 
 namespace squeal::linalg {
 
-Qr::Qr(const DenseView& a) : q_(a), r_(a) {
+namespace {
+
+void requireSuccess(const char* routine, PetscBLASInt info) {
+  if (info != 0) throw Error(std::string("LAPACK ") + routine + " failed");
+}
+
+/// Replaces A by its factors, whose scalars are returned.
+std::vector<double> factorise(DenseMatrix& a) {
   PetscBLASInt rows = a.rows(), columns = a.columns(), info = 0;
-  std::vector<double> factors(columns);
-  const auto requireSuccess = [&](const char* routine) {
-    if (info != 0) throw Error(std::string("LAPACK ") + routine + " failed");
-  };
+  std::vector<double> scalars(columns);
   if (columns > 0)
     callWithWork([&](double* work, PetscBLASInt length) {
-      LAPACKgeqrf_(&rows, &columns, r_.data(), &rows, factors.data(), work, &length, &info);
+      LAPACKgeqrf_(&rows, &columns, a.data(), &rows, scalars.data(), work, &length, &info);
     });
-  requireSuccess("dgeqrf");
-  q_ = r_;
-  q_.resizeColumns(rows);
+  requireSuccess("dgeqrf", info);
+  return scalars;
+}
+
+/// Replaces the factors by the first columns of Q, as many as the matrix has.
+void expandQ(DenseMatrix& factors, std::vector<double>& scalars) {
+  PetscBLASInt rows = factors.rows(), columns = factors.columns(), count = scalars.size(), info = 0;
   callWithWork([&](double* work, PetscBLASInt length) {
-    LAPACKorgqr_(&rows, &rows, &columns, q_.data(), &rows, factors.data(), work, &length, &info);
+    LAPACKorgqr_(&rows, &columns, &count, factors.data(), &rows, scalars.data(), work, &length,
+                 &info);
   });
-  requireSuccess("dorgqr");
+  requireSuccess("dorgqr", info);
+}
+
+}  // namespace
+
+Qr::Qr(const DenseView& a) : r_(a) {
+  auto scalars = factorise(r_);
+  q_ = r_;
+  q_.resizeColumns(a.rows());
+  expandQ(q_, scalars);
 }
 
 void Qr::divideByR(DenseMatrix& b) const {
@@ -36,6 +54,12 @@ void Qr::divideByR(DenseMatrix& b) const {
   const double one = 1;
   if (rows == 0 || columns == 0) return;
   BLAStrsm_("R", "U", "N", "N", &rows, &columns, &one, r_.data(), &stride, b.data(), &rows);
+}
+
+void orthonormalise(DenseMatrix& x) {
+  if (x.columns() == 0) return;
+  auto scalars = factorise(x);
+  expandQ(x, scalars);
 }
 
 }  // namespace squeal::linalg

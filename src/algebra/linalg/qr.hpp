@@ -19,4 +19,8 @@ class Qr {
   DenseMatrix q_, r_;  // R in the upper triangle
 };
 
+/// Replaces the columns, at most as many as rows, by orthonormal ones whose span contains theirs
+/// (Householder). Throws Error if LAPACK fails.
+void orthonormalise(DenseMatrix& x);
+
 }  // namespace squeal::linalg

@@ -9,6 +9,7 @@
 #include "base/petsc/check.hpp"
 #include "eigen/reduction/eigenpair_correction.hpp"
 #include "eigen/reduction/missing.hpp"
+#include "eigen/reduction/undamped_correction.hpp"
 
 namespace squeal::reduction {
 namespace {
@@ -23,11 +24,10 @@ constexpr double least = 0.03, enough = 0.3;
 /// A left vector counts only in the product of two errors.
 constexpr double leastOfLeft = 0.1;
 
+/// True if the pairs of an earlier, smaller basis can be improved.
 bool canImprove(const SpectrumRequest& request, const pencil::WatchedBand& band) {
-  const auto& problem = *request.problem;
-  return !request.spectrum->band.empty() && !problem.damping.empty() && band.top > 0 &&
-         std::isfinite(band.top) && problem.order() >= smallestImproved &&
-         !linalg::conservative(problem);
+  return !request.spectrum->band.empty() && band.top > 0 && std::isfinite(band.top) &&
+         request.problem->order() >= smallestImproved && !linalg::conservative(*request.problem);
 }
 
 /// Returns all pairs of a spectrum, those of the band first.
@@ -46,14 +46,13 @@ std::vector<UnconvergedPair> openOf(const SpectrumRequest& request) {
   return open;
 }
 
-/// Divides the pairs into those of the band and those of the guard zone.
-void partition(std::vector<linalg::DensePair> pairs, const pencil::WatchedBand& band,
-               Spectrum& spectrum) {
+/// Replaces a spectrum by these pairs, those of the band and those of the guard zone.
+void replace(Spectrum& spectrum, std::vector<linalg::DensePair> pairs,
+             const pencil::WatchedBand& band, bool improved) {
   std::ranges::sort(pairs, [](const auto& a, const auto& b) {
     return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
   });
-  spectrum.band.clear();
-  spectrum.guard.clear();
+  spectrum = {.band = {}, .guard = {}, .improved = improved};
   for (auto& pair : pairs)
     (band.top == 0 || band.contains(pair.s) ? spectrum.band : spectrum.guard)
         .push_back(std::move(pair));
@@ -63,32 +62,44 @@ void partition(std::vector<linalg::DensePair> pairs, const pencil::WatchedBand& 
 
 void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
                   const std::vector<SpectrumRequest>& requests) {
-  std::vector<const SpectrumRequest*> improvable, inFull;
-  std::vector<std::vector<linalg::DensePair>> pairs;
+  std::vector<const SpectrumRequest*> damped, undamped, inFull;
+  std::vector<std::vector<linalg::DensePair>> pairs;  // [damped]
   for (const auto& request : requests) {
-    (canImprove(request, band) ? improvable : inFull).push_back(&request);
-    if (improvable.size() > pairs.size()) pairs.push_back(allPairs(*request.spectrum));
+    if (!canImprove(request, band)) {
+      inFull.push_back(&request);
+    } else if (request.problem->damping.empty()) {
+      undamped.push_back(&request);
+    } else {
+      damped.push_back(&request);
+      pairs.push_back(allPairs(*request.spectrum));
+    }
   }
   std::vector<CorrectionTask> tasks;
-  for (std::size_t i = 0; i < improvable.size(); ++i)
-    tasks.push_back({improvable[i]->problem, &pairs[i], openOf(*improvable[i])});
+  for (std::size_t i = 0; i < damped.size(); ++i)
+    tasks.push_back({damped[i]->problem, &pairs[i], openOf(*damped[i])});
   const auto improved = correctPairs(comm, tasks);
-  for (std::size_t i = 0; i < improvable.size(); ++i) {
-    if (!improved[i]) {
-      inFull.push_back(improvable[i]);
-      continue;
-    }
-    partition(std::move(pairs[i]), band, *improvable[i]->spectrum);
-    improvable[i]->spectrum->improved = true;
+  for (std::size_t i = 0; i < damped.size(); ++i) {
+    if (improved[i])
+      replace(*damped[i]->spectrum, std::move(pairs[i]), band, true);
+    else
+      inFull.push_back(damped[i]);
   }
-  auto solved = linalg::spread(comm, inFull.size(), linalg::Vectors::both, [&](std::size_t i) {
-    return linalg::solveQuadratic(*inFull[i]->problem, linalg::Vectors::both,
-                                  [&](Complex s) { return band.top == 0 || band.watches(s); });
+  const linalg::EigenvalueFilter watched = [&](Complex s) {
+    return band.top == 0 || band.watches(s);
+  };
+  const std::size_t improvable = undamped.size();
+  auto rest = std::move(undamped);
+  rest.insert(rest.end(), inFull.begin(), inFull.end());
+  auto solved = linalg::spread(comm, rest.size(), linalg::Vectors::both, [&](std::size_t i) {
+    const SpectrumRequest& request = *rest[i];
+    if (i < improvable)
+      if (auto better = correctedUndamped(*request.problem, allPairs(*request.spectrum),
+                                          openOf(request), watched))
+        return std::move(*better);
+    return linalg::solveQuadratic(*request.problem, linalg::Vectors::both, watched);
   });
-  for (std::size_t i = 0; i < inFull.size(); ++i) {
-    partition(std::move(solved[i]), band, *inFull[i]->spectrum);
-    inFull[i]->spectrum->improved = false;
-  }
+  for (std::size_t i = 0; i < solved.size(); ++i)
+    replace(*rest[i]->spectrum, std::move(solved[i]), band, i < improvable);
 }
 
 std::vector<bool> incomplete(MPI_Comm comm, const pencil::WatchedBand& band,

@@ -8,10 +8,10 @@
 
 namespace squeal::reduction {
 
-/// The watched eigenpairs of a point, with right and left vectors, by ascending imaginary part.
-/// With damping, the linearised problem is twice as large as the basis. All its eigenvalues are
-/// computed only for the first, small bases. In larger ones, the inaccurate pairs are improved
-/// instead.
+/// The watched eigenpairs of a point, with both right and left vectors, by ascending imaginary
+/// part. All eigenvalues are computed only for the first, small bases: a full solve takes most of
+/// the time of a large problem, and with damping the linearised problem is twice as large as the
+/// basis. In larger bases, the inaccurate pairs are improved instead.
 struct Spectrum {
   std::vector<linalg::DensePair> band;   ///< in the band
   std::vector<linalg::DensePair> guard;  ///< in the guard zone around the band
