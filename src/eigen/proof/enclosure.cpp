@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "eigen/proof/enclosure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "eigen/proof/expansion.hpp"
+
+namespace squeal::proof {
+namespace {
+
+constexpr double margin = 1e-6;
+
+/// The radii in the plane of z between which the circles about an eigenvalue were found to be free
+/// of eigenvalues of P; both 0 if none was.
+struct Radii {
+  double inner = 0, outer = 0;
+};
+
+/// Returns the radii for free(radius). At large radii other eigenvalues spoil it, and at small ones
+/// the coupling of this eigenvalue.
+template <class Free>
+Radii search(double largest, const Free& free) {
+  constexpr double shrink = 0.6, smallest = 1e-16;
+  double radius = largest;
+  while (radius > smallest && !free(radius)) radius *= shrink;
+  if (!(radius > smallest)) return {};
+  Radii radii{radius, radius};
+  while (radii.inner > smallest && free(shrink * radii.inner)) radii.inner *= shrink;
+  double tooSmall = shrink * radii.inner;
+  for (int i = 0; i < 10; ++i) {
+    const double middle = std::sqrt(tooSmall * radii.inner);
+    (free(middle) ? radii.inner : tooSmall) = middle;
+  }
+  return radii;
+}
+
+/// Returns the radii about eigenvalue k, and what prevents a proof otherwise.
+std::pair<Radii, Isolation> radiiAbout(const DiagonalForm& form, const LeftOut& bounds,
+                                       std::span<const Complex> values, std::size_t k) {
+  const Complex centre = values[k];
+  double nearest = 1;
+  for (std::size_t j = 0; j < values.size(); ++j)
+    if (j != k) nearest = std::min(nearest, std::abs(values[j] - centre));
+  const auto delta = [&](double radius) {
+    const double size = std::abs(centre) + radius, top = form.top();
+    return form.squared() ? definiteness(bounds, top * std::sqrt(size), top * std::sqrt(size))
+                          : definiteness(bounds, top * size, top * (radius - centre.real()));
+  };
+  if (!(delta(0) > margin)) return {Radii{}, Isolation::indefinite};
+  // The sum over the poles often suffices; the norm of the sum costs a product of matrices.
+  for (const int order : {-1, 0}) {
+    const Expansion expansion(form, centre, order, static_cast<PetscInt>(k));
+    const auto radii = search(0.9 * nearest, [&](double radius) {
+      const double allowed = (1 - margin) * delta(radius);
+      return allowed > margin && expansion.boundOnCircle(radius) < allowed;
+    });
+    if (radii.outer > 0) return {radii, Isolation::single};
+  }
+  return {Radii{}, Isolation::neighbour};
+}
+
+/// Returns the enclosure in the plane of s.
+Enclosure enclosure(const DiagonalForm& form, Complex z, const Radii& radii) {
+  Enclosure result{form.outOfPlane(z), Isolation::single, form.top() * radii.inner,
+                   form.top() * radii.outer};
+  if (!form.squared()) return result;
+  // s = s_k √(1 + u), |u| ≤ r / |z|, lies within |s_k| (1 − √(1 − |u|)); and |s − s_k| ≤ ρ is in
+  // the disc |z − z_k| ≤ r if ρ (2 |s_k| + ρ) ≤ r / top^-2
+  const double size = std::abs(z), s = form.top() * std::sqrt(size);
+  result.inner = radii.inner < size ? s * (1 - std::sqrt(1 - radii.inner / size)) : 0;
+  result.outer = std::min(form.top() * std::sqrt(size + radii.outer) - s, 0.9 * s);
+  if (!(radii.inner < size) || !(result.inner <= result.outer)) {
+    result.isolation = Isolation::neighbour;  // ±s are too near to each other
+    result.inner = result.outer = 0;
+  }
+  // A disc that is symmetric about the real axis of z and holds one eigenvalue holds a real one.
+  result.neutral = result.isolation == Isolation::single &&
+                   radii.inner + 2 * std::abs(z.imag()) <= radii.outer &&
+                   z.real() + radii.inner + std::abs(z.imag()) < 0;
+  return result;
+}
+
+}  // namespace
+
+std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
+                               const Region& region) {
+  std::vector<Enclosure> result;
+  if (!form.regular()) return result;
+  const Contour contour(std::abs(form.inPlane(region.top)), region.left / form.top(),
+                        form.squared());
+  const auto values = form.eigenvaluesInPlane();
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!contour.encloses(values[k])) continue;
+    const auto [radii, isolation] = radiiAbout(form, bounds, values, k);
+    auto found = isolation == Isolation::single ? enclosure(form, values[k], radii)
+                                                : Enclosure{form.outOfPlane(values[k]), isolation};
+    result.push_back(found);
+    if (!form.squared()) continue;
+    found.s = -found.s;
+    result.push_back(found);
+  }
+  return result;
+}
+
+JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
+                 const Region& region, double tolerance) {
+  JudgedList judged{std::vector<JudgedEntry>(list.size()), {}};
+  // Nearest entry of each enclosure, and nearest enclosure of each entry.
+  std::vector<std::ptrdiff_t> entryOf(enclosures.size(), -1), enclosureOf(list.size(), -1);
+  const auto distance = [&](std::size_t i, std::size_t k) {
+    return std::abs(list[i] - enclosures[k].s);
+  };
+  const auto upper = [](const Enclosure& enclosure) {
+    return enclosure.s.imag() >= -enclosure.inner;
+  };
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (std::size_t k = 0; k < enclosures.size(); ++k) {
+      auto& nearest = enclosureOf[i];
+      if (upper(enclosures[k]) && (nearest < 0 || distance(i, k) < distance(i, nearest)))
+        nearest = static_cast<std::ptrdiff_t>(k);
+    }
+    if (enclosureOf[i] < 0) continue;
+    const auto k = static_cast<std::size_t>(enclosureOf[i]);
+    const auto& disc = enclosures[k];
+    if (distance(i, k) > std::max(disc.outer, disc.inner + tolerance)) {
+      enclosureOf[i] = -1;
+      continue;
+    }
+    if (entryOf[k] < 0 || distance(i, k) < distance(entryOf[k], k))
+      entryOf[k] = static_cast<std::ptrdiff_t>(i);
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    auto& entry = judged.entries[i];
+    if (!(std::abs(list[i]) < region.top && list[i].real() > -region.left)) {
+      entry.agreement = Agreement::outside;
+      continue;
+    }
+    if (enclosureOf[i] < 0) continue;
+    const auto k = static_cast<std::size_t>(enclosureOf[i]);
+    const auto& disc = enclosures[k];
+    const double apart = distance(i, k);
+    if (disc.isolation == Isolation::single && 2 * apart + disc.inner <= disc.outer)
+      entry.radius = apart + disc.inner;
+    entry.agreement = entryOf[k] != static_cast<std::ptrdiff_t>(i) ? Agreement::repeated
+                      : apart <= disc.inner + tolerance            ? Agreement::right
+                                                                   : Agreement::inexact;
+  }
+  for (std::size_t k = 0; k < enclosures.size(); ++k)
+    if (upper(enclosures[k]) && entryOf[k] < 0) judged.missing.push_back(enclosures[k]);
+  return judged;
+}
+
+}  // namespace squeal::proof

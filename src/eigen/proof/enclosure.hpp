@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Discs that hold exactly one eigenvalue of P each, and the judgement of a list of eigenvalues by
+/// them.
+#include <vector>
+
+#include "eigen/proof/contour.hpp"
+#include "eigen/proof/diagonal_form.hpp"
+
+namespace squeal::proof {
+
+/// What is proved about an eigenvalue of P_VV.
+enum class Isolation {
+  single,      ///< each disc with a radius from inner to outer holds exactly one eigenvalue of P
+  indefinite,  ///< δ is not positive there
+  neighbour,   ///< the nearest eigenvalue is too near for the coupling to C
+};
+
+struct Enclosure {
+  Complex s;  ///< eigenvalue of P_VV, the centre, rad/s
+  Isolation isolation = Isolation::neighbour;
+  double inner = 0, outer = 0;  ///< radii, rad/s
+  bool neutral = false;         ///< the eigenvalue of P is proved to be imaginary
+};
+
+/// Not collective. Returns an enclosure for each eigenvalue of P_VV in the region; none if the form
+/// is not regular.
+std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
+                               const Region& region);
+
+/// Agreement of an entry of a list with the eigenvalues of P.
+enum class Agreement {
+  right,     ///< at most the tolerance from an eigenvalue, up to the radius of its disc
+  inexact,   ///< farther from the only eigenvalue in a disc, which no other entry is closer to
+  repeated,  ///< an entry for an eigenvalue that another entry is closer to
+  wrong,     ///< in none of the discs: if the count is proved and all are single, no eigenvalue is
+             ///< near
+  outside,   ///< not in the region
+};
+
+struct JudgedEntry {
+  Agreement agreement = Agreement::wrong;
+  /// Radius of the disc about the entry that holds exactly one eigenvalue of P; 0 if none is shown.
+  double radius = 0;
+};
+
+struct JudgedList {
+  std::vector<JudgedEntry> entries;
+  std::vector<Enclosure> missing;  ///< discs without an entry
+};
+
+/// Not collective. Judges a list of eigenvalues with Im s ≥ 0, each counted as often as it occurs,
+/// by the enclosures of the region. `tolerance`, rad/s, is the accuracy that entries should have.
+/// Enclosures that are not single only show that an entry near their centres is not missing.
+JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
+                 const Region& region, double tolerance);
+
+}  // namespace squeal::proof
