@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "eigen/proof/expansion.hpp"
@@ -104,51 +105,50 @@ std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
   return result;
 }
 
+namespace {
+
+/// Returns false for the mirror image of an eigenvalue with Im s > 0.
+bool upper(const Enclosure& enclosure) { return enclosure.s.imag() >= -enclosure.inner; }
+
+/// Returns the enclosure nearest to s among those of eigenvalues with Im s ≥ 0; null if none.
+const Enclosure* nearestTo(Complex s, const std::vector<Enclosure>& enclosures) {
+  const Enclosure* nearest = nullptr;
+  for (const auto& disc : enclosures)
+    if (upper(disc) && (!nearest || std::abs(s - disc.s) < std::abs(s - nearest->s)))
+      nearest = &disc;
+  return nearest;
+}
+
+}  // namespace
+
 JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
                  const Region& region, double tolerance) {
   JudgedList judged{std::vector<JudgedEntry>(list.size()), {}};
-  // Nearest entry of each enclosure, and nearest enclosure of each entry.
-  std::vector<std::ptrdiff_t> entryOf(enclosures.size(), -1), enclosureOf(list.size(), -1);
-  const auto distance = [&](std::size_t i, std::size_t k) {
-    return std::abs(list[i] - enclosures[k].s);
-  };
-  const auto upper = [](const Enclosure& enclosure) {
-    return enclosure.s.imag() >= -enclosure.inner;
-  };
+  std::map<const Enclosure*, std::size_t> closest;  // entry to the centre of a disc
   for (std::size_t i = 0; i < list.size(); ++i) {
-    for (std::size_t k = 0; k < enclosures.size(); ++k) {
-      auto& nearest = enclosureOf[i];
-      if (upper(enclosures[k]) && (nearest < 0 || distance(i, k) < distance(i, nearest)))
-        nearest = static_cast<std::ptrdiff_t>(k);
-    }
-    if (enclosureOf[i] < 0) continue;
-    const auto k = static_cast<std::size_t>(enclosureOf[i]);
-    const auto& disc = enclosures[k];
-    if (distance(i, k) > std::max(disc.outer, disc.inner + tolerance)) {
-      enclosureOf[i] = -1;
+    auto& [agreement, radius] = judged.entries[i];
+    const auto s = list[i];
+    const bool inside = std::abs(s) < region.top && s.real() > -region.left;
+    const auto* disc = nearestTo(s, enclosures);
+    agreement = inside ? Agreement::wrong : Agreement::outside;
+    if (!disc) continue;
+    if (disc->isolation != Isolation::single) {
+      if (inside) agreement = Agreement::unproved;
       continue;
     }
-    if (entryOf[k] < 0 || distance(i, k) < distance(entryOf[k], k))
-      entryOf[k] = static_cast<std::ptrdiff_t>(i);
+    const double apart = std::abs(s - disc->s), close = disc->inner + tolerance;
+    if (apart > (inside ? std::max(disc->outer, close) : close)) continue;
+    if (2 * apart + disc->inner <= disc->outer) radius = apart + disc->inner;
+    agreement = apart <= close ? Agreement::right : Agreement::inexact;
+    const auto [other, first] = closest.try_emplace(disc, i);
+    if (first) continue;
+    const bool closer = apart < std::abs(list[other->second] - disc->s);
+    judged.entries[closer ? other->second : i].agreement = Agreement::repeated;
+    if (closer) other->second = i;
   }
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    auto& entry = judged.entries[i];
-    if (!(std::abs(list[i]) < region.top && list[i].real() > -region.left)) {
-      entry.agreement = Agreement::outside;
-      continue;
-    }
-    if (enclosureOf[i] < 0) continue;
-    const auto k = static_cast<std::size_t>(enclosureOf[i]);
-    const auto& disc = enclosures[k];
-    const double apart = distance(i, k);
-    if (disc.isolation == Isolation::single && 2 * apart + disc.inner <= disc.outer)
-      entry.radius = apart + disc.inner;
-    entry.agreement = entryOf[k] != static_cast<std::ptrdiff_t>(i) ? Agreement::repeated
-                      : apart <= disc.inner + tolerance            ? Agreement::right
-                                                                   : Agreement::inexact;
-  }
-  for (std::size_t k = 0; k < enclosures.size(); ++k)
-    if (upper(enclosures[k]) && entryOf[k] < 0) judged.missing.push_back(enclosures[k]);
+  for (const auto& disc : enclosures)
+    if (upper(disc) && disc.isolation == Isolation::single && !closest.contains(&disc))
+      judged.missing.push_back(disc);
   return judged;
 }
 

@@ -28,13 +28,14 @@ struct Enclosure {
 std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
                                const Region& region);
 
-/// Agreement of an entry of a list with the eigenvalues of P.
+/// Agreement of an entry of a list with the eigenvalues of P, which are in the discs of the inner
+/// radii if the count is proved and all enclosures are single.
 enum class Agreement {
-  right,     ///< at most the tolerance from an eigenvalue, up to the radius of its disc
-  inexact,   ///< farther from the only eigenvalue in a disc, which no other entry is closer to
-  repeated,  ///< an entry for an eigenvalue that another entry is closer to
-  wrong,     ///< in none of the discs: if the count is proved and all are single, no eigenvalue is
-             ///< near
+  right,     ///< at most the tolerance and the inner radius from the centre of a disc
+  inexact,   ///< farther from it, but in the disc of the outer radius
+  repeated,  ///< as the last two, and another entry is closer to the centre
+  wrong,     ///< in none of the discs
+  unproved,  ///< the enclosure of the nearest eigenvalue of P_VV is not single
   outside,   ///< not in the region
 };
 
@@ -46,12 +47,11 @@ struct JudgedEntry {
 
 struct JudgedList {
   std::vector<JudgedEntry> entries;
-  std::vector<Enclosure> missing;  ///< discs without an entry
+  std::vector<Enclosure> missing;  ///< single ones without an entry
 };
 
-/// Not collective. Judges a list of eigenvalues with Im s ≥ 0, each counted as often as it occurs,
-/// by the enclosures of the region. `tolerance`, rad/s, is the accuracy that entries should have.
-/// Enclosures that are not single only show that an entry near their centres is not missing.
+/// Not collective. Judges a list of eigenvalues with Im s ≥ 0, each as often as it occurs, by the
+/// enclosures of the region. `tolerance`, rad/s, is the accuracy that entries should have.
 JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
                  const Region& region, double tolerance);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Random small brakes, split into the space V of modes and static responses and the space C that is
-/// left out, with exact couplings.
+/// Random small brakes, split into the space V of modes and static responses and the space C that
+/// is left out, with exact couplings.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,11 +19,11 @@ namespace squeal::test {
 
 /// P(s) in the coordinates of the free modes, with K0 = 1 and M0 = diag(1/ω²).
 struct RandomBrake {
-  std::vector<double> omega;        ///< ascending
-  linalg::DenseMatrix jump;         ///< rows J of the contact, in whose span S is
-  linalg::DenseMatrix stiffness;    ///< fSᵀN of the first power, with 1
-  linalg::DenseMatrix frictionMass; ///< f Sᵀ N of s²
-  linalg::DenseMatrix material;     ///< C ≥ 0, left without the contact
+  std::vector<double> omega;         ///< ascending
+  linalg::DenseMatrix jump;          ///< rows J of the contact, in whose span S is
+  linalg::DenseMatrix stiffness;     ///< fSᵀN of the first power, with 1
+  linalg::DenseMatrix frictionMass;  ///< f Sᵀ N of s²
+  linalg::DenseMatrix material;      ///< C ≥ 0, left without the contact
   linalg::DenseMatrix contactDamping, gyroscopic;
 
   PetscInt size() const { return std::ssize(omega); }
@@ -34,8 +34,7 @@ struct RandomBrake {
     linalg::addScaled(damping, 1, contactDamping);
     linalg::addScaled(damping, 1, gyroscopic);
     return {linalg::congruent(stiffness, w),
-            damping.empty() ? damping : linalg::congruent(damping, w),
-            linalg::congruent(mass, w)};
+            damping.empty() ? damping : linalg::congruent(damping, w), linalg::congruent(mass, w)};
   }
 };
 
@@ -58,7 +57,7 @@ inline RandomBrake randomBrake(PetscInt n, Damping damped, std::mt19937& generat
     return result;
   };
   const auto slip = row(rows), normals = row(rows), massNormals = row(rows);
-  const double friction = 3 * std::pow(uniform(generator), 2);
+  const double friction = 12 * std::pow(uniform(generator), 2);
   brake.stiffness = linalg::DenseMatrix(n, n);
   for (PetscInt j = 0; j < n; ++j) brake.stiffness(j, j) = 1;
   linalg::addScaled(brake.stiffness, 3 * friction, linalg::transposedProduct(slip, normals));
@@ -165,13 +164,16 @@ inline SplitBrake split(const RandomBrake& brake, const std::vector<PetscInt>& m
   return result;
 }
 
+/// Returns the problem of all unknowns.
+inline linalg::DenseProblem fullProblem(const RandomBrake& brake) {
+  const auto all = brake.in(identity(brake.size()));
+  return {all[2], all[1], all[0]};
+}
+
 /// Returns the number of eigenvalues of all unknowns in the region, by LAPACK.
 inline PetscInt fullCount(const RandomBrake& brake, const proof::Region& region) {
-  linalg::DenseMatrix unit(brake.size(), brake.size());
-  for (PetscInt j = 0; j < brake.size(); ++j) unit(j, j) = 1;
-  const auto all = brake.in(unit);
   PetscInt count = 0;
-  for (const auto& pair : linalg::solveQuadratic({all[2], all[1], all[0]}))
+  for (const auto& pair : linalg::solveQuadratic(fullProblem(brake)))
     if (std::abs(pair.s) < region.top && pair.s.real() > -region.left)
       count += pair.s.imag() > 0 ? 2 : 1;
   return count;

@@ -40,8 +40,8 @@ struct Model {
 /// In energy coordinates, M = diag(1/j²), S_j = 1/j and N_j = (−1)^j / j.
 Model model(int m, double f, Bound bound) {
   const double length = std::sqrt(tail(m, 2, false));  // of K0⁻¹ Sᵀ without its part on the modes
-  const double massQQ = tail(m, 4, false) / (length * length),
-               normalQ = tail(m, 2, true) / length, theta = (m + 1.0) * (m + 1.0);
+  const double massQQ = tail(m, 4, false) / (length * length), normalQ = tail(m, 2, true) / length,
+               theta = (m + 1.0) * (m + 1.0);
   // Grams of M_CQ and N_C
   double mass = tail(m, 6, false) / (length * length) - massQQ * massQQ;
   const double mixed = tail(m, 4, true) / length - massQQ * normalQ,
@@ -85,8 +85,8 @@ Model model(int m, double f, Bound bound) {
 double largestRatio(const Model& model, const proof::DiagonalForm& form) {
   double largest = 0;
   for (int i = 0; i <= 400; ++i)
-    largest = std::max(
-        largest, proof::Expansion(form, std::polar(1.0, pi * i / 400), 0).boundAtCentre());
+    largest =
+        std::max(largest, proof::Expansion(form, std::polar(1.0, pi * i / 400), 0).boundAtCentre());
   return largest / proof::definiteness(model.leftOut, top, top);
 }
 
@@ -103,9 +103,9 @@ constexpr Case cases[] = {{6, 4, 0.43204, 0.53457, 0.85793},
 
 TEST(ClosedForm, RatiosAndCounts) {
   for (const auto& item : cases)
-    for (const auto& [bound, expected] : {std::pair(Bound::exact, item.exact),
-                                         std::pair(Bound::parts, item.parts),
-                                         std::pair(Bound::free, item.free)}) {
+    for (const auto& [bound, expected] :
+         {std::pair(Bound::exact, item.exact), std::pair(Bound::parts, item.parts),
+          std::pair(Bound::free, item.free)}) {
       const auto given = model(item.modes, item.friction, bound);
       const proof::DiagonalForm form(given.problem, top);
       // 400 points miss the maximum by less than 1e-4 of it, and norms are bounded within 1e-4.
