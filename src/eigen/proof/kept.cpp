@@ -17,7 +17,8 @@ PetscInt KeptProblem::order() const {
 double definiteness(const LeftOut& bounds, double reach, double left) {
   const double square = reach * reach;
   return 1 - (square + bounds.shift) * bounds.mass - square * bounds.skewMass -
-         std::max(left, 0.0) * bounds.damping - reach * bounds.gyroscopic - bounds.rest;
+         std::max(left, 0.0) * bounds.damping - reach * bounds.gyroscopic - bounds.rest[0] -
+         reach * bounds.rest[1] - square * bounds.rest[2];
 }
 
 Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top) {

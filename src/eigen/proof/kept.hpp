@@ -40,11 +40,13 @@ struct LeftOut {
   double skewMass = 0;    ///< ‖M_a‖, antisymmetric
   double damping = 0;     ///< C ≤ this, symmetric and ≥ 0, s
   double gyroscopic = 0;  ///< ‖G‖, antisymmetric, s
-  double rest = 0;        ///< bound of all other terms, for |s| up to the top of the region
+  /// All other terms have norms of at most Σ |s|ᵏ rest[k].
+  std::array<double, 3> rest = {};
 };
 
 /// Returns
-///   δ = 1 − (reach² + σ) mass − reach² skewMass − left damping − reach gyroscopic − rest,
+///   δ = 1 − (reach² + σ) mass − reach² skewMass − left damping − reach gyroscopic − Σ reachᵏ
+///   rest[k],
 /// a lower bound of Re xᴴ P_CC(s) x for |s| ≤ reach and Re s ≥ −left.
 double definiteness(const LeftOut& bounds, double reach, double left);
 

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <vector>
 
+#include "algebra/linalg/complexdense.hpp"
+#include "algebra/linalg/lu.hpp"
 #include "algebra/linalg/qr.hpp"
 #include "algebra/linalg/quadratic.hpp"
 #include "algebra/linalg/symmetric.hpp"
@@ -154,7 +157,7 @@ inline SplitBrake split(const RandomBrake& brake, const std::vector<PetscInt>& m
   result.leftOut.skewMass = norm(skewMass) * rounding;
   auto stiffness = onC(all[0]);
   for (PetscInt j = 0; j < rest; ++j) stiffness(j, j) -= 1;
-  result.leftOut.rest = norm(stiffness) * rounding;
+  result.leftOut.rest[0] = norm(stiffness) * rounding;
   if (all[1].empty()) return result;
   const auto damping = linalg::symmetricPart(onC(all[1]));
   auto gyroscopic = onC(all[1]);
@@ -162,6 +165,31 @@ inline SplitBrake split(const RandomBrake& brake, const std::vector<PetscInt>& m
   result.leftOut.damping = linalg::symmetricEigenvalues(damping).back() * rounding;
   result.leftOut.gyroscopic = norm(gyroscopic) * rounding;
   return result;
+}
+
+/// Returns the numbers of the lowest modes.
+inline std::vector<PetscInt> firstModes(PetscInt count) {
+  std::vector<PetscInt> modes(count);
+  std::iota(modes.begin(), modes.end(), 0);
+  return modes;
+}
+
+/// Returns P_CV P_VV⁻¹ P_VC at s, for couplings of one part.
+inline linalg::ComplexMatrix coupling(const proof::KeptProblem& problem, Complex s) {
+  const auto at = [s](const proof::Coefficients& coefficients) {
+    linalg::ComplexMatrix sum;
+    for (int k = 0; k < 3; ++k) {
+      const auto& matrix = coefficients[k];
+      if (matrix.empty()) continue;
+      if (sum.empty()) sum = linalg::ComplexMatrix(matrix.rows(), matrix.columns());
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        sum.data()[i] += std::pow(s, k) * matrix.data()[i];
+    }
+    return sum;
+  };
+  auto from = at(problem.fromLeftOut[0].coefficients);
+  linalg::Lu<Complex>(at(problem.matrices)).solve(from);
+  return linalg::product(at(problem.toLeftOut[0].coefficients), from);
 }
 
 /// Returns the problem of all unknowns.

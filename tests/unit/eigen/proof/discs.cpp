@@ -2,8 +2,6 @@
 // Discs that hold one eigenvalue each, and lists with faults that they find.
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "eigen/proof/count.hpp"
 #include "eigen/proof/enclosure.hpp"
 #include "support/eigen/split_brake.hpp"
@@ -27,10 +25,8 @@ Solved solve(test::Damping damping, PetscInt modes, std::mt19937& generator) {
   const auto& brake = solved.brake;
   for (const auto& pair : linalg::solveQuadratic(test::fullProblem(brake)))
     solved.exact.push_back(pair.s);
-  std::vector<PetscInt> kept(modes);
-  std::iota(kept.begin(), kept.end(), 0);
   const double wanted = 0.5 * brake.omega[modes];
-  const auto split = test::split(brake, kept, true, false, wanted);
+  const auto split = test::split(brake, test::firstModes(modes), true, false, wanted);
   const proof::DiagonalForm form(split.problem, wanted);
   solved.region.top = proof::placedTop(form.eigenvalues(), wanted);
   if (damping != test::Damping::none) solved.region.left = 0.05 * solved.region.top;

@@ -2,8 +2,6 @@
 // Bases that lack modes or static responses: not proved.
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "eigen/proof/count.hpp"
 #include "support/eigen/split_brake.hpp"
 
