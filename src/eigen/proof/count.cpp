@@ -10,6 +10,7 @@ namespace squeal::proof {
 namespace {
 
 constexpr double margin = 1e-6;
+constexpr double onTheEdge = 1e-6;  // distance from an eigenvalue, as a fraction of the top
 
 /// Covers the boundary with discs on which φ < 1.
 class Cover {
@@ -57,7 +58,7 @@ double Cover::radiusAt(Complex z) {
     }
   }
   if (low > smallest) return low;
-  proof_.verdict = std::isfinite(ratio) ? Verdict::ratio : Verdict::edge;
+  proof_.verdict = proof_.edgeDistance < onTheEdge ? Verdict::edge : Verdict::ratio;
   proof_.place = form_.outOfPlane(z);
   return 0;
 }

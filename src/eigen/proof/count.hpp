@@ -10,8 +10,8 @@ namespace squeal::proof {
 enum class Verdict {
   proved,
   indefinite,    ///< δ is not positive: too few modes in V, or too strong terms on C
-  irregular,     ///< P_VV(top) is singular, or its eigenvectors are dependent
-  edge,          ///< an eigenvalue of P_VV lies on the boundary, up to round-off
+  irregular,     ///< P_VV(top) is singular, or the deviation Δ of the diagonal form is not small
+  edge,          ///< an eigenvalue of P_VV lies on the boundary, up to 10⁻⁶ of the top
   ratio,         ///< φ is not below 1 at `place`: the coupling of V and C is too strong
   tooManyDiscs,  ///< the limit is reached at `place`, where φ is near 1
 };

@@ -16,6 +16,7 @@ using linalg::DenseMatrix;
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double smallDeviation = 1e-4;  // that of good eigenvectors is below 10⁻⁹
 
 bool zero(const DenseMatrix& a) {
   return std::ranges::all_of(a.entries(), [](double entry) { return entry == 0; });
@@ -105,32 +106,62 @@ DiagonalForm::DiagonalForm(const KeptProblem& problem, double top)
   if (regular_) setCouplings(problem, vectors);
 }
 
+namespace {
+
+/// Returns approximate eigenvectors, as columns of length 1. With `perturbed`, those of a matrix
+/// within round-off, whose eigenvalues are distinct.
+ComplexMatrix eigenvectors(DenseMatrix a, bool perturbed) {
+  const PetscInt n = a.rows();
+  if (perturbed) {
+    const double size = 1e-14 * quickBound(a);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      a.data()[i] += size * std::sin(1 + 2.3 * static_cast<double>(i));
+  }
+  const auto pairs =
+      linalg::standard(std::move(a), linalg::Vectors::right, [](Complex) { return true; });
+  ensure(std::ssize(pairs) == n, "a matrix has as many eigenvalues as rows");
+  ComplexMatrix x(n, n);
+  for (PetscInt j = 0; j < n; ++j) {
+    const double size = length(pairs[j].right);
+    for (PetscInt i = 0; i < n; ++i) x(i, j) = pairs[j].right[i] / size;
+  }
+  return x;
+}
+
+}  // namespace
+
 DiagonalForm::Vectors DiagonalForm::diagonalise(const Pencil& pencil) {
-  const PetscInt n = pencil.l0.rows(), order = std::ssize(pencil.scale);
   // At z = 1, which is on the boundary or near it, L is regular. L(1)⁻¹ L1 x = ν x
   DenseMatrix atTop = pencil.l0, quotient = pencil.l1;
   linalg::addScaled(atTop, 1, pencil.l1);
   const linalg::Lu<double> lu(atTop);
   if (!(lu.pivotRatio() > 0)) return {};
   lu.solve(quotient);
-  const auto pairs =
-      linalg::standard(std::move(quotient), linalg::Vectors::right, [](Complex) { return true; });
-  if (std::ssize(pairs) != n) return {};
-  ComplexMatrix x(n, n), y(n, n);
-  for (PetscInt j = 0; j < n; ++j) {
-    const double size = length(pairs[j].right);
-    for (PetscInt i = 0; i < n; ++i) x(i, j) = pairs[j].right[i] / size;
-    y(j, j) = 1;
+  Vectors vectors;
+  for (const bool perturbed : {false, true}) {
+    vectors = measure(pencil, atTop, eigenvectors(quotient, perturbed));
+    regular_ = deviation(1) < smallDeviation;
+    if (regular_) break;
   }
-  ComplexMatrix atTopX = linalg::product(atTop, x), l1X = linalg::product(pencil.l1, x);
+  return vectors;
+}
+
+/// Sets ν and the bounds of Δ for eigenvectors X.
+DiagonalForm::Vectors DiagonalForm::measure(const Pencil& pencil, const DenseMatrix& atTop,
+                                            ComplexMatrix x) {
+  const PetscInt n = x.rows(), order = std::ssize(pencil.scale);
+  eta0_ = eta1_ = std::numeric_limits<double>::infinity();
+  const auto atTopX = linalg::product(atTop, x), l1X = linalg::product(pencil.l1, x);
   const linalg::Lu<Complex> inverse(atTopX);
   if (!(inverse.pivotRatio() > 0)) return {};
+  ComplexMatrix y(n, n);
+  for (PetscInt j = 0; j < n; ++j) y(j, j) = 1;
   inverse.solve(y);
   // Y L(1) X − 1,   Y L1 X − diag(ν)
   ComplexMatrix unit = linalg::product(y, atTopX), slope = linalg::product(y, l1X);
   const auto lengths = rowLengths(y);
   std::vector<double> balance(n);  // X and Y of the same lengths
-  for (PetscInt j = 0; j < n; ++j) balance[j] = std::sqrt(lengths[j] / length(x.column(j)));
+  for (PetscInt j = 0; j < n; ++j) balance[j] = std::sqrt(lengths[j]);
   nu_.resize(n);
   for (PetscInt j = 0; j < n; ++j) {
     nu_[j] = slope(j, j);
@@ -146,7 +177,6 @@ DiagonalForm::Vectors DiagonalForm::diagonalise(const Pencil& pencil) {
   const double roundOff = n * epsilon * quickBound(x) * quickBound(y);
   eta0_ = quickBound(unit) + roundOff * quickBound(atTop);
   eta1_ = quickBound(slope) + roundOff * quickBound(pencil.l1);
-  regular_ = std::isfinite(eta0_ + eta1_);
   Vectors vectors{ComplexMatrix(order, n), ComplexMatrix(squared_ ? 0 : order, squared_ ? 0 : n),
                   ComplexMatrix(n, order)};
   for (PetscInt j = 0; j < n; ++j)

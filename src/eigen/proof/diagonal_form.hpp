@@ -21,7 +21,7 @@ class DiagonalForm {
   /// Computes the form for regions with tops near `top`, rad/s. Throws Error if LAPACK fails.
   DiagonalForm(const KeptProblem& problem, double top);
 
-  /// Returns false if P_VV(top) is singular or its eigenvectors are dependent.
+  /// Returns false if P_VV(top) is singular, or if Δ is not small.
   bool regular() const { return regular_; }
   double top() const { return top_; }
   bool squared() const { return squared_; }
@@ -57,6 +57,7 @@ class DiagonalForm {
   struct Pencil;
   struct Vectors;
   Vectors diagonalise(const Pencil& pencil);
+  Vectors measure(const Pencil& pencil, const linalg::DenseMatrix& atTop, linalg::ComplexMatrix x);
   void setCouplings(const KeptProblem& problem, const Vectors& vectors);
   double error(const std::array<double, 3>& byPower, double reach) const;
 
