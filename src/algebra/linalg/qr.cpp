@@ -38,4 +38,18 @@ void Qr::divideByR(DenseMatrix& b) const {
   BLAStrsm_("R", "U", "N", "N", &rows, &columns, &one, r_.data(), &stride, b.data(), &rows);
 }
 
+DenseMatrix triangularFactor(DenseMatrix a) {
+  PetscBLASInt rows = a.rows(), columns = a.columns(), info = 0;
+  std::vector<double> factors(std::min(rows, columns));
+  if (!a.empty())
+    callWithWork([&](double* work, PetscBLASInt length) {
+      LAPACKgeqrf_(&rows, &columns, a.data(), &rows, factors.data(), work, &length, &info);
+    });
+  if (info != 0) throw Error("LAPACK dgeqrf failed");
+  DenseMatrix r(std::min(rows, columns), columns);
+  for (PetscInt j = 0; j < columns; ++j)
+    for (PetscInt i = 0; i <= std::min(j, r.rows() - 1); ++i) r(i, j) = a(i, j);
+  return r;
+}
+
 }  // namespace squeal::linalg

@@ -19,4 +19,8 @@ class Qr {
   DenseMatrix q_, r_;  // R in the upper triangle
 };
 
+/// Returns the upper triangle R of A = Q R, min(m, n) × n, with orthonormal columns of Q. Throws
+/// Error if LAPACK fails.
+DenseMatrix triangularFactor(DenseMatrix a);
+
 }  // namespace squeal::linalg

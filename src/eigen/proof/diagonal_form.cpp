@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "algebra/linalg/lu.hpp"
+#include "algebra/linalg/qr.hpp"
 #include "algebra/linalg/unsymmetric.hpp"
 #include "eigen/proof/norm_bound.hpp"
 
@@ -18,7 +20,7 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double smallDeviation = 1e-4;  // that of good eigenvectors is below 10⁻⁹
 
-bool zero(const DenseMatrix& a) {
+bool zero(const linalg::DenseView& a) {
   return std::ranges::all_of(a.entries(), [](double entry) { return entry == 0; });
 }
 
@@ -226,6 +228,35 @@ Coefficients stacked(const std::vector<Coupling>& parts, PetscInt order, bool by
   return sum;
 }
 
+/// Returns a part of P_CV with at most as many rows as its coefficients together have columns that
+/// are not zero: F_k = Q R_k with orthonormal columns of Q, and Q joins X.
+Coupling condensed(const Coupling& part) {
+  DenseMatrix columns;
+  for (const auto& matrix : part.coefficients)
+    for (PetscInt j = 0; j < matrix.columns(); ++j)
+      if (!zero(matrix.columnRange(j, j + 1))) columns.append(matrix.columnRange(j, j + 1));
+  if (columns.rows() <= columns.columns()) return part;
+  const DenseMatrix r = linalg::triangularFactor(std::move(columns));
+  Coupling result = part;
+  PetscInt next = 0;
+  for (auto& matrix : result.coefficients) {
+    if (matrix.empty()) continue;
+    const DenseMatrix old = std::exchange(matrix, DenseMatrix(r.rows(), matrix.columns()));
+    for (PetscInt j = 0; j < old.columns(); ++j)
+      if (!zero(old.columnRange(j, j + 1)))
+        std::ranges::copy(r.column(next++), matrix.column(j).begin());
+  }
+  return result;
+}
+
+/// Returns the parts of P_CV, or with `from` those of P_VC, in a condensed form.
+std::vector<Coupling> condensed(const std::vector<Coupling>& parts, bool from) {
+  std::vector<Coupling> result;
+  for (const auto& part : parts)
+    result.push_back(from ? transposed(condensed(transposed(part))) : condensed(part));
+  return result;
+}
+
 /// Returns the bounds of the remainders of the powers of s / top, with the round-off of products
 /// with the coefficients.
 std::array<double, 3> errors(const std::vector<Coupling>& parts, double top) {
@@ -244,8 +275,8 @@ std::array<double, 3> errors(const std::vector<Coupling>& parts, double top) {
 
 void DiagonalForm::setCouplings(const KeptProblem& problem, const Vectors& vectors) {
   const PetscInt order = problem.order();
-  const auto to = stacked(problem.toLeftOut, order, true, rowEnds_),
-             from = stacked(problem.fromLeftOut, order, false, columnEnds_);
+  const auto to = stacked(condensed(problem.toLeftOut, false), order, true, rowEnds_),
+             from = stacked(condensed(problem.fromLeftOut, true), order, false, columnEnds_);
   errorTo_ = errors(problem.toLeftOut, top_);
   errorFrom_ = errors(problem.fromLeftOut, top_);
   if (rowEnds_.empty() || columnEnds_.empty()) return;

@@ -86,17 +86,19 @@ Enclosure enclosure(const DiagonalForm& form, Complex z, const Radii& radii) {
 }  // namespace
 
 std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
-                               const Region& region) {
+                               const Region& region, const linalg::EigenvalueFilter& wanted) {
   std::vector<Enclosure> result;
   if (!form.regular()) return result;
   const Contour contour(std::abs(form.inPlane(region.top)), region.left / form.top(),
                         form.squared());
   const auto values = form.eigenvaluesInPlane();
   for (std::size_t k = 0; k < values.size(); ++k) {
-    if (!contour.encloses(values[k])) continue;
+    const auto s = form.outOfPlane(values[k]);
+    if (!contour.encloses(values[k]) || (wanted && !wanted(s) && !(form.squared() && wanted(-s))))
+      continue;
     const auto [radii, isolation] = radiiAbout(form, bounds, values, k);
     auto found = isolation == Isolation::single ? enclosure(form, values[k], radii)
-                                                : Enclosure{form.outOfPlane(values[k]), isolation};
+                                                : Enclosure{s, isolation};
     result.push_back(found);
     if (!form.squared()) continue;
     found.s = -found.s;

@@ -4,6 +4,7 @@
 /// them.
 #include <vector>
 
+#include "algebra/linalg/quadratic.hpp"
 #include "eigen/proof/contour.hpp"
 #include "eigen/proof/diagonal_form.hpp"
 
@@ -23,10 +24,11 @@ struct Enclosure {
   bool neutral = false;         ///< the eigenvalue of P is proved to be imaginary
 };
 
-/// Not collective. Returns an enclosure for each eigenvalue of P_VV in the region; none if the form
-/// is not regular.
+/// Not collective. Returns an enclosure for each wanted eigenvalue of P_VV in the region, by
+/// default for all; none if the form is not regular. An eigenvalue whose vector P_CV and P_VC
+/// hardly reach takes no time; others take as long as a disc of the boundary.
 std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
-                               const Region& region);
+                               const Region& region, const linalg::EigenvalueFilter& wanted = {});
 
 /// Agreement of an entry of a list with the eigenvalues of P, which are in the discs of the inner
 /// radii if the count is proved and all enclosures are single.

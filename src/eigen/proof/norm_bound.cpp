@@ -3,7 +3,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
+
+#include "algebra/linalg/symmetric.hpp"
 
 // PETSc built with real scalars declares only the real routines.
 extern "C" {
@@ -50,27 +53,35 @@ linalg::ComplexMatrix gram(const linalg::ComplexMatrix& a) {
   return result;
 }
 
-/// Returns a lower estimate of the largest eigenvalue of a Hermitian matrix by power iteration.
+/// Returns a lower estimate of the largest eigenvalue of a Hermitian matrix, by the Lanczos method.
 double largestEigenvalue(const linalg::ComplexMatrix& h) {
-  constexpr int iterations = 40;
-  constexpr double settled = 1e-6;
+  constexpr int most = 24;
+  constexpr double settled = 1e-8;  // of the next direction
   const PetscBLASInt n = h.rows(), step = 1;
   const Complex one = 1, zero = 0;
-  std::vector<Complex> x(n), y(n);
-  for (PetscBLASInt i = 0; i < n; ++i)  // no multiple of a likely eigenvector's complement
+  std::vector<Complex> x(n), before(n), y(n);
+  for (PetscBLASInt i = 0; i < n; ++i)
     x[i] = std::sqrt(std::max(h(i, i).real(), 0.0)) * (1 + 0.3 * std::sin(1.0 + i));
-  double value = 0;
-  for (int i = 0; i < iterations; ++i) {
-    const double length = std::sqrt(innerProduct(x, x).real());
-    if (!(length > 0)) return 0;
+  double length = std::sqrt(innerProduct(x, x).real());
+  linalg::DenseMatrix tridiagonal(most, most);
+  int steps = 0;
+  while (steps < most && length > (steps > 0 ? settled * tridiagonal(0, 0) : 0)) {
     for (auto& entry : x) entry /= length;
     zhemv_("L", &n, &one, h.data(), &n, x.data(), &step, &zero, y.data(), &step);
-    const double before = value;
-    value = innerProduct(x, y).real();
-    x.swap(y);
-    if (std::abs(value - before) <= settled * value) break;
+    const double diagonal = innerProduct(x, y).real();
+    tridiagonal(steps, steps) = diagonal;
+    if (steps > 0) tridiagonal(steps, steps - 1) = length;
+    for (PetscBLASInt i = 0; i < n; ++i)
+      y[i] -= diagonal * x[i] + (steps > 0 ? length : 0.0) * before[i];
+    before = std::exchange(x, y);
+    length = std::sqrt(innerProduct(x, x).real());
+    ++steps;
   }
-  return value;
+  if (steps == 0) return 0;
+  linalg::DenseMatrix used(steps, steps);
+  for (int j = 0; j < steps; ++j)
+    for (int i = j; i < steps; ++i) used(i, j) = tridiagonal(i, j);
+  return linalg::symmetricEigenvalues(std::move(used)).back();
 }
 
 /// Returns true if bound − H is positive definite, for H given by its lower triangle.
@@ -99,7 +110,7 @@ double normBound(const linalg::ComplexMatrix& a) {
                roundOff = 1 + 4 * (n + std::max(a.rows(), a.columns())) *
                                   std::numeric_limits<double>::epsilon(),
                guess = largestEigenvalue(h);
-  for (const double factor : {1.0001, 1.002, 1.02, 1.1, 1.4}) {
+  for (const double factor : {1 + 1e-6, 1.0001, 1.002, 1.02, 1.1, 1.4}) {
     const double square = guess * factor * factor;
     if (!(std::sqrt(square * roundOff) < quick)) break;
     if (above(square, h)) return std::sqrt(square * roundOff);
