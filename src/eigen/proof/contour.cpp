@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace squeal::proof {
 
@@ -71,16 +72,32 @@ bool Contour::encloses(Complex point) const {
   return std::abs(point) < radius_ && point.real() > -left_;
 }
 
-double placedTop(std::span<const Complex> eigenvalues, double wanted, double within) {
-  const double low = (1 - within) * wanted, high = (1 + within) * wanted;
-  std::vector<double> sizes{low, high};
-  for (const auto s : eigenvalues)
-    if (std::abs(s) > low && std::abs(s) < high) sizes.push_back(std::abs(s));
-  std::ranges::sort(sizes);
+namespace {
+
+/// Returns the middle of the widest gap of the values between low and high.
+double widestGap(double low, double high, std::vector<double> values) {
+  std::erase_if(values, [=](double value) { return !(value > low && value < high); });
+  values.insert(values.end(), {low, high});
+  std::ranges::sort(values);
   std::size_t widest = 1;
-  for (std::size_t i = 2; i < sizes.size(); ++i)
-    if (sizes[i] - sizes[i - 1] > sizes[widest] - sizes[widest - 1]) widest = i;
-  return (sizes[widest - 1] + sizes[widest]) / 2;
+  for (std::size_t i = 2; i < values.size(); ++i)
+    if (values[i] - values[i - 1] > values[widest] - values[widest - 1]) widest = i;
+  return (values[widest - 1] + values[widest]) / 2;
+}
+
+}  // namespace
+
+double placedTop(std::span<const Complex> eigenvalues, double wanted, double within) {
+  std::vector<double> sizes;
+  for (const auto s : eigenvalues) sizes.push_back(std::abs(s));
+  return widestGap((1 - within) * wanted, (1 + within) * wanted, std::move(sizes));
+}
+
+double placedLeft(std::span<const Complex> eigenvalues, double top, double wanted, double within) {
+  std::vector<double> decays;
+  for (const auto s : eigenvalues)
+    if (std::abs(s) < 1.1 * top) decays.push_back(-s.real());
+  return widestGap((1 - within) * wanted, (1 + within) * wanted, std::move(decays));
 }
 
 }  // namespace squeal::proof

@@ -55,4 +55,9 @@ class Contour {
 /// it takes the lowest.
 double placedTop(std::span<const Complex> eigenvalues, double wanted, double within = 0.08);
 
+/// Returns the same of −Re s for the left edge, of the eigenvalues with |s| up to 10 % above the
+/// top.
+double placedLeft(std::span<const Complex> eigenvalues, double top, double wanted,
+                  double within = 0.5);
+
 }  // namespace squeal::proof

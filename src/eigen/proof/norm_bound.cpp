@@ -24,6 +24,9 @@ void zpotrf_(const char* triangle, const PetscBLASInt* n, squeal::Complex* a,
 namespace squeal::proof {
 namespace {
 
+double squared(double entry) { return entry * entry; }
+double squared(Complex entry) { return std::norm(entry); }
+
 template <class Matrix>
 double quick(const Matrix& a) {
   std::vector<double> rowSums(a.rows());
@@ -31,8 +34,8 @@ double quick(const Matrix& a) {
   for (PetscInt j = 0; j < a.columns(); ++j) {
     double sum = 0;
     for (PetscInt i = 0; i < a.rows(); ++i) {
-      const double size = std::abs(a(i, j));
-      squares += size * size;
+      const double square = squared(a(i, j)), size = std::sqrt(square);
+      squares += square;
       sum += size;
       rowSums[i] += size;
     }

@@ -62,12 +62,20 @@ TEST(Contour, EnclosesTheRegion) {
 
 TEST(Contour, PlacesTheTopInTheWidestGap) {
   const std::vector<Complex> list{{0, 9.5}, {3, 9.539392014169456}, {-1, 9.9}, {0, -10.4}, {0, 20}};
-  // |s| = 9.5, 10, 9.95037…, 10.4 in [9.2, 10.8]; the gaps 9.2 to 9.5 and 9.5 to 9.95 are
+  // |s| = 9.5, 9.950, 10 and 10.4 in [9.2, 10.8]
   EXPECT_NEAR(proof::placedTop(list, 10), 0.5 * (9.5 + std::sqrt(99.01)), 1e-12);
   // From 10.4 to the upper end.
   EXPECT_NEAR(proof::placedTop(list, 11), 0.5 * (10.4 + 11.88), 1e-12);
   EXPECT_DOUBLE_EQ(proof::placedTop({}, 10), 10);
   EXPECT_NEAR(proof::placedTop(list, 10, 0.02), 10.1, 1e-12);
+}
+
+TEST(Contour, PlacesTheLeftEdgeInTheWidestGap) {
+  const std::vector<Complex> list{{-1, 5}, {-1.3, 9}, {-1.25, 12}, {2, 3}};
+  // −Re s = 1 and 1.3 in [0.5, 1.5]; the third one is too far above the top.
+  EXPECT_NEAR(proof::placedLeft(list, 10, 1), 0.75, 1e-12);
+  EXPECT_NEAR(proof::placedLeft(list, 10, 1.15, 0.15), 1.15, 1e-3);
+  EXPECT_NEAR(proof::placedLeft(list, 11, 1.15, 0.14), 1.125, 1e-12);
 }
 
 }  // namespace
