@@ -22,9 +22,9 @@ struct Coupling {
   std::array<double, 3> error = {};  ///< e_k
 };
 
-/// The blocks of P(s) on V and between V and C, in orthonormal coordinates of the energy K0.
-/// Couplings are sums of parts of which only the majorants are known: each part has an X of its
-/// own.
+/// The blocks of P(s) on V and between V and C. The coordinates of C are orthonormal in the energy
+/// K0, and C is orthogonal to V in it. Those of V are arbitrary; the remainders of couplings refer
+/// to them. Each part of a coupling has an X of its own.
 struct KeptProblem {
   Coefficients matrices;              ///< of P_VV, N × N
   std::vector<Coupling> toLeftOut;    ///< parts of P_CV, rows × N

@@ -112,4 +112,53 @@ TEST(Bounds, DiscsBoundTheCoupling) {
   }
 }
 
+/// Returns a random matrix of this 2-norm.
+linalg::DenseMatrix ofNorm(double size, PetscInt m, PetscInt n, std::mt19937& generator) {
+  auto a = test::randomMatrix(m, n, generator);
+  const double largest =
+      std::sqrt(linalg::symmetricEigenvalues(linalg::transposedProduct(a, a)).back());
+  for (auto& entry : a.entries()) entry *= size / largest;
+  return a;
+}
+
+// The true couplings are X F + X' F' + remainder, with contractions and remainders that the bound
+// does not know: each draw stays below it.
+TEST(Bounds, HoldForAllCouplingsWithTheMajorants) {
+  std::mt19937 generator(9);
+  const auto brake = test::randomBrake(60, test::Damping::none, generator);
+  const double top = 0.6 * brake.omega[12];
+  const auto split = test::split(brake, test::firstModes(12), true, false, top);
+  auto known = split.problem;
+  const auto& exact = split.problem.toLeftOut[0].coefficients[2];
+  const double size = std::sqrt(
+                   linalg::symmetricEigenvalues(linalg::transposedProduct(exact, exact)).back()),
+               remainder = 0.05 * size;
+  known.toLeftOut.push_back(known.toLeftOut[0]);
+  const Complex z(0.1, 0.95);
+  const proof::DiagonalForm exactForm(known, top);
+  const double withoutRemainder = proof::Expansion(exactForm, z, 0).boundAtCentre();
+  known.toLeftOut[0].error[2] = remainder;
+  const proof::DiagonalForm form(known, top);
+  const double withRemainder = proof::Expansion(form, z, 0).boundAtCentre();
+  double largest = 0;
+  for (int i = 0; i < 30; ++i) {
+    auto truth = split.problem;
+    auto& coupling = truth.toLeftOut[0].coefficients[2];
+    const PetscInt rows = exact.rows();
+    // The identity in one draw: X F + X F has twice the norm of F, [F; F] only √2 times.
+    const auto contraction = [&] {
+      return i == 0 ? test::identity(rows) : ofNorm(1, rows, rows, generator);
+    };
+    coupling = linalg::product(contraction(), exact);
+    linalg::addScaled(coupling, 1, linalg::product(contraction(), exact));
+    if (i % 2 == 1)
+      linalg::addScaled(coupling, 1, ofNorm(remainder, rows, exact.columns(), generator));
+    const double actual = norm(test::coupling(truth, form.outOfPlane(z)));
+    EXPECT_LE(actual, i % 2 == 1 ? withRemainder : withoutRemainder);
+    largest = std::max(largest, actual);
+  }
+  const proof::DiagonalForm single(split.problem, top);
+  EXPECT_GT(largest, 1.9 * proof::Expansion(single, z, 0).boundAtCentre());
+}
+
 }  // namespace

@@ -65,7 +65,7 @@ TEST(PoorBasis, WithoutAMode) {
 // Without K0⁻¹ Sᵀ, friction remains on C and in both couplings.
 TEST(PoorBasis, WithoutResponses) {
   std::mt19937 generator(6);
-  int proved = 0, stillProved = 0;
+  int proved = 0, stillProved = 0, indefinite = 0;
   for (int i = 0; i < 40; ++i) {
     const Draw draw(generator);
     const double next = draw.brake.omega[draw.modes];
@@ -77,12 +77,14 @@ TEST(PoorBasis, WithoutResponses) {
     ++proved;
     EXPECT_EQ(with.count, full);
     EXPECT_LT(without.definiteness, with.definiteness);
+    indefinite += without.verdict == Verdict::indefinite;
     if (without.verdict != Verdict::proved) continue;
     ++stillProved;
     EXPECT_EQ(without.count, full);
   }
   EXPECT_GT(proved, 20);
   EXPECT_LT(stillProved, proved / 2);
+  EXPECT_GT(indefinite, proved / 3);
 }
 
 }  // namespace
