@@ -12,6 +12,7 @@ namespace squeal::proof {
 namespace {
 
 constexpr double margin = 1e-6;
+constexpr double sameImage = 1e-9;  // distance of conjugates in the plane of z
 
 /// The radii in the plane of z between which the circles about an eigenvalue were found to be free
 /// of eigenvalues of P; both 0 if none was.
@@ -69,9 +70,10 @@ Enclosure enclosure(const DiagonalForm& form, Complex z, const Radii& radii) {
   if (!form.squared()) return result;
   // s = s_k √(1 + u), |u| ≤ r / |z|, lies within |s_k| (1 − √(1 − |u|)); and |s − s_k| ≤ ρ is in
   // the disc |z − z_k| ≤ r if ρ (2 |s_k| + ρ) ≤ r / top^-2
-  const double size = std::abs(z), s = form.top() * std::sqrt(size);
-  result.inner = radii.inner < size ? s * (1 - std::sqrt(1 - radii.inner / size)) : 0;
-  result.outer = std::min(form.top() * std::sqrt(size + radii.outer) - s, 0.9 * s);
+  const double size = std::abs(z), s = form.top() * std::sqrt(size),
+               inner = std::min(radii.inner / size, 1.0), outer = radii.outer / size;
+  result.inner = s * inner / (1 + std::sqrt(1 - inner));
+  result.outer = std::min(s * outer / (1 + std::sqrt(1 + outer)), 0.9 * s);
   if (!(radii.inner < size) || !(result.inner <= result.outer)) {
     result.isolation = Isolation::neighbour;  // ±s are too near to each other
     result.inner = result.outer = 0;
@@ -92,13 +94,25 @@ std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
   const Contour contour(std::abs(form.inPlane(region.top)), region.left / form.top(),
                         form.squared());
   const auto values = form.eigenvaluesInPlane();
+  std::vector<std::pair<Complex, Enclosure>> upper;  // with Im z > 0, whose images are to come
   for (std::size_t k = 0; k < values.size(); ++k) {
-    const auto s = form.outOfPlane(values[k]);
-    if (!contour.encloses(values[k]) || (wanted && !wanted(s) && !(form.squared() && wanted(-s))))
-      continue;
-    const auto [radii, isolation] = radiiAbout(form, bounds, values, k);
-    auto found = isolation == Isolation::single ? enclosure(form, values[k], radii)
-                                                : Enclosure{s, isolation};
+    const auto z = values[k], s = form.outOfPlane(z);
+    if (!contour.encloses(z) || (wanted && !wanted(s) && !(form.squared() && wanted(-s)))) continue;
+    const auto image = std::ranges::find_if(
+        upper, [&](const auto& other) { return std::abs(other.first - std::conj(z)) < sameImage; });
+    Enclosure found{s};
+    if (z.imag() < -sameImage && image != upper.end()) {
+      found = image->second;
+      upper.erase(image);  // each is the image of one
+      found.s = form.squared() ? -std::conj(found.s) : std::conj(found.s);
+    } else {
+      const auto [radii, isolation] = radiiAbout(form, bounds, values, k);
+      if (isolation == Isolation::single)
+        found = enclosure(form, z, radii);
+      else
+        found.isolation = isolation;
+      if (z.imag() > 0) upper.emplace_back(z, found);
+    }
     result.push_back(found);
     if (!form.squared()) continue;
     found.s = -found.s;

@@ -41,6 +41,8 @@ TEST(Special, NothingLeftOut) {
       EXPECT_GT(disc.outer, 1);
       EXPECT_EQ(disc.neutral, ratio == 0);
     }
+    const auto high = [](Complex s) { return std::abs(s) > 30; };
+    EXPECT_EQ(proof::enclose(form, {}, {50, 5}, high).size(), 2u);
   }
 }
 
@@ -77,9 +79,6 @@ TEST(Special, ADoubleEigenvalueWithOneVector) {
     problem.matrices[0](1, 0) = 0.1 * apart;
     const proof::DiagonalForm form(problem, 30);
     const auto proof = proof::proveCount(form, {}, {30});
-    std::printf("apart %g verdict %d ratio %g deviation %g count %d discs %d\n", apart,
-                int(proof.verdict), proof.ratio, form.deviation(1), int(proof.count),
-                int(proof.discs));
     EXPECT_EQ(proof.verdict, Verdict::proved);
     EXPECT_EQ(proof.count, 4);
   }
@@ -93,6 +92,30 @@ TEST(Special, EqualEigenvalues) {
   EXPECT_EQ(proof.count, 6);
   for (const auto& disc : proof::enclose(form, {}, {30}))
     EXPECT_EQ(disc.isolation, proof::Isolation::neighbour);
+}
+
+// An entry that is not a number proves nothing, wherever it is.
+TEST(Special, NotANumber) {
+  const double nan = std::nan("");
+  for (int where = 0; where < 6; ++where) {
+    auto problem = oscillators({10, 20}, 0.01);
+    const linalg::DenseMatrix none;
+    problem.toLeftOut = {proof::Coupling{{none, none, diagonal(std::vector{1e-6, 1e-6})}}};
+    problem.fromLeftOut = problem.toLeftOut;
+    proof::LeftOut bounds;
+    bounds.mass = 1e-3;
+    if (where == 1) problem.matrices[0](1, 0) = nan;
+    if (where == 2) problem.matrices[2](0, 0) = nan;
+    if (where == 3) problem.toLeftOut[0].coefficients[2](1, 1) = nan;
+    if (where == 4) problem.fromLeftOut[0].error[0] = nan;
+    if (where == 5) bounds.damping = nan;
+    const proof::DiagonalForm form(problem, 15);
+    const auto proof = proof::proveCount(form, bounds, {15, 3});
+    EXPECT_EQ(proof.verdict == Verdict::proved, where == 0) << where;
+    if (where == 0 || !form.regular()) continue;
+    for (const auto& disc : proof::enclose(form, bounds, {15, 3}))
+      EXPECT_NE(disc.isolation, proof::Isolation::single) << where;
+  }
 }
 
 }  // namespace
