@@ -5,6 +5,7 @@
 
 #include <slepcblaslapack.h>
 
+#include <algorithm>
 #include <string>
 
 #include "algebra/linalg/lapack.hpp"
@@ -21,8 +22,8 @@ void requireSuccess(const char* routine, PetscBLASInt info) {
 /// Replaces A by its factors, whose scalars are returned.
 std::vector<double> factorise(DenseMatrix& a) {
   PetscBLASInt rows = a.rows(), columns = a.columns(), info = 0;
-  std::vector<double> scalars(columns);
-  if (columns > 0)
+  std::vector<double> scalars(std::min(rows, columns));
+  if (!a.empty())
     callWithWork([&](double* work, PetscBLASInt length) {
       LAPACKgeqrf_(&rows, &columns, a.data(), &rows, scalars.data(), work, &length, &info);
     });
@@ -60,6 +61,14 @@ void orthonormalise(DenseMatrix& x) {
   if (x.columns() == 0) return;
   auto scalars = factorise(x);
   expandQ(x, scalars);
+}
+
+DenseMatrix triangularFactor(DenseMatrix a) {
+  factorise(a);
+  DenseMatrix r(std::min(a.rows(), a.columns()), a.columns());
+  for (PetscInt j = 0; j < r.columns(); ++j)
+    for (PetscInt i = 0; i <= std::min(j, r.rows() - 1); ++i) r(i, j) = a(i, j);
+  return r;
 }
 
 }  // namespace squeal::linalg

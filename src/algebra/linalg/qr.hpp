@@ -23,4 +23,8 @@ class Qr {
 /// (Householder). Throws Error if LAPACK fails.
 void orthonormalise(DenseMatrix& x);
 
+/// Returns the upper triangle R of A = Q R, min(m, n) × n, with orthonormal columns of Q. Throws
+/// Error if LAPACK fails.
+DenseMatrix triangularFactor(DenseMatrix a);
+
 }  // namespace squeal::linalg

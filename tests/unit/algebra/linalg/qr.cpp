@@ -37,5 +37,22 @@ TEST(Qr, WithoutColumns) {
   for (PetscInt i = 0; i < 3; ++i) EXPECT_NEAR(std::abs(qr.q()(i, i)), 1, 1e-15);
 }
 
+// RᵀR = AᵀA, for matrices with more rows and with more columns.
+TEST(Qr, TriangularFactor) {
+  for (const auto& [m, n] : {std::pair(6, 4), std::pair(3, 5), std::pair(0, 2)}) {
+    DenseMatrix a(m, n);
+    for (PetscInt i = 0; i < m; ++i)
+      for (PetscInt j = 0; j < n; ++j) a(i, j) = std::pow(0.2 * i, j) + (i == j);
+    const auto r = linalg::triangularFactor(a);
+    ASSERT_EQ(r.rows(), std::min(m, n));
+    const auto expected = linalg::transposedProduct(a, a),
+               product = linalg::transposedProduct(r, r);
+    for (PetscInt i = 0; i < n; ++i)
+      for (PetscInt j = 0; j < n; ++j) EXPECT_NEAR(product(i, j), expected(i, j), 1e-13);
+    for (PetscInt j = 0; j < n; ++j)
+      for (PetscInt i = j + 1; i < r.rows(); ++i) EXPECT_EQ(r(i, j), 0);
+  }
+}
+
 }  // namespace
 }  // namespace squeal

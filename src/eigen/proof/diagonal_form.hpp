@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The problem on V in coordinates in which it is nearly diagonal, so that its inverse is known at
+/// every s.
+#include <vector>
+
+#include "algebra/linalg/complexdense.hpp"
+#include "eigen/proof/kept.hpp"
+
+namespace squeal::proof {
+
+/// The pencil
+///   Y L(z) X = D(z) + Δ(z),   D(z) = 1 + (z − 1) diag(ν),
+/// with z = s / top and L the linearised P_VV, or z = (s / top)² and L = P_VV if neither P_VV nor
+/// the couplings have odd powers of s. L has the eigenvalues of P_VV with their multiplicities, and
+///   F(s) P_VV(s)⁻¹ E(s) = a(z) (D(z) + Δ(z))⁻¹ b(z)
+/// with polynomials a and b. X and Y come from LAPACK and may be inaccurate, as Δ is measured. Not
+/// collective.
+class DiagonalForm {
+ public:
+  /// Computes the form for regions with tops near `top`, rad/s. Throws Error if LAPACK fails.
+  DiagonalForm(const KeptProblem& problem, double top);
+
+  /// Returns false if P_VV(top) is singular, or if Δ is not small.
+  bool regular() const { return regular_; }
+  double top() const { return top_; }
+  bool squared() const { return squared_; }
+  PetscInt size() const { return std::ssize(nu_); }  ///< N, or 2 N if not squared
+  std::span<const Complex> nu() const { return nu_; }
+
+  /// Returns the eigenvalues in the plane of z, in the order of ν. Some may be infinite.
+  std::vector<Complex> eigenvaluesInPlane() const;
+  /// Returns the finite eigenvalues s, rad/s; for each z both ±s if squared.
+  std::vector<Complex> eigenvalues() const;
+  /// Returns z of s.
+  Complex inPlane(Complex s) const { return squared_ ? s * s / (top_ * top_) : s / top_; }
+  /// Returns s of z, with Im s ≥ 0 if squared.
+  Complex outOfPlane(Complex z) const;
+
+  /// The coefficients of a, rows × size, at most two, and of b, size × columns. An empty one is
+  /// zero.
+  const std::vector<linalg::ComplexMatrix>& a() const { return a_; }
+  const std::vector<linalg::ComplexMatrix>& b() const { return b_; }
+  std::span<const PetscInt> rowEnds() const { return rowEnds_; }        ///< of the parts of P_CV
+  std::span<const PetscInt> columnEnds() const { return columnEnds_; }  ///< of the parts of P_VC
+
+  /// Returns a bound of ‖Δ(z)‖ for |z| ≤ reach.
+  double deviation(double reach) const { return eta0_ + (1 + reach) * eta1_; }
+  /// Return bounds of the remainders of P_CV and P_VC for |z| ≤ reach, with round-off.
+  double errorTo(double reach) const { return error(errorTo_, reach); }
+  double errorFrom(double reach) const { return error(errorFrom_, reach); }
+  /// Return bounds of the norms of X and Y as maps to and from V.
+  double normOfX() const { return normOfX_; }
+  double normOfY() const { return normOfY_; }
+
+ private:
+  struct Pencil;
+  struct Vectors;
+  Vectors diagonalise(const Pencil& pencil);
+  Vectors measure(const Pencil& pencil, const linalg::DenseMatrix& atTop, linalg::ComplexMatrix x);
+  void setCouplings(const KeptProblem& problem, const Vectors& vectors);
+  double error(const std::array<double, 3>& byPower, double reach) const;
+
+  double top_;
+  bool squared_ = false, regular_ = false;
+  std::vector<Complex> nu_;
+  std::vector<linalg::ComplexMatrix> a_, b_;
+  std::vector<PetscInt> rowEnds_, columnEnds_;
+  std::array<double, 3> errorTo_ = {}, errorFrom_ = {};  // of the powers of s / top
+  double eta0_ = 0, eta1_ = 0, normOfX_ = 0, normOfY_ = 0;
+};
+
+}  // namespace squeal::proof

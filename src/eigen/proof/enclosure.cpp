@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "eigen/proof/enclosure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "eigen/proof/expansion.hpp"
+
+namespace squeal::proof {
+namespace {
+
+constexpr double margin = 1e-6;
+constexpr double sameImage = 1e-9;  // distance of conjugates in the plane of z
+
+/// The radii in the plane of z between which the circles about an eigenvalue were found to be free
+/// of eigenvalues of P; both 0 if none was.
+struct Radii {
+  double inner = 0, outer = 0;
+};
+
+/// Returns the radii for free(radius). At large radii other eigenvalues spoil it, and at small ones
+/// the coupling of this eigenvalue.
+template <class Free>
+Radii search(double largest, const Free& free) {
+  constexpr double shrink = 0.6, smallest = 1e-16;
+  double radius = largest;
+  while (radius > smallest && !free(radius)) radius *= shrink;
+  if (!(radius > smallest)) return {};
+  Radii radii{radius, radius};
+  while (radii.inner > smallest && free(shrink * radii.inner)) radii.inner *= shrink;
+  double tooSmall = shrink * radii.inner;
+  for (int i = 0; i < 10; ++i) {
+    const double middle = std::sqrt(tooSmall * radii.inner);
+    (free(middle) ? radii.inner : tooSmall) = middle;
+  }
+  return radii;
+}
+
+/// Returns the radii about eigenvalue k, and what prevents a proof otherwise.
+std::pair<Radii, Isolation> radiiAbout(const DiagonalForm& form, const LeftOut& bounds,
+                                       std::span<const Complex> values, std::size_t k) {
+  const Complex centre = values[k];
+  double nearest = 1;
+  for (std::size_t j = 0; j < values.size(); ++j)
+    if (j != k) nearest = std::min(nearest, std::abs(values[j] - centre));
+  const auto delta = [&](double radius) {
+    const double size = std::abs(centre) + radius, top = form.top();
+    return form.squared() ? definiteness(bounds, top * std::sqrt(size), top * std::sqrt(size))
+                          : definiteness(bounds, top * size, top * (radius - centre.real()));
+  };
+  if (!(delta(0) > margin)) return {Radii{}, Isolation::indefinite};
+  // The sum over the poles often suffices; the norm of the sum costs a product of matrices.
+  for (const int order : {-1, 0}) {
+    const Expansion expansion(form, centre, order, static_cast<PetscInt>(k));
+    const auto radii = search(0.9 * nearest, [&](double radius) {
+      const double allowed = (1 - margin) * delta(radius);
+      return allowed > margin && expansion.boundOnCircle(radius) < allowed;
+    });
+    if (radii.outer > 0) return {radii, Isolation::single};
+  }
+  return {Radii{}, Isolation::neighbour};
+}
+
+/// Returns the enclosure in the plane of s.
+Enclosure enclosure(const DiagonalForm& form, Complex z, const Radii& radii) {
+  Enclosure result{form.outOfPlane(z), Isolation::single, form.top() * radii.inner,
+                   form.top() * radii.outer};
+  if (!form.squared()) return result;
+  // s = s_k √(1 + u), |u| ≤ r / |z|, lies within |s_k| (1 − √(1 − |u|)); and |s − s_k| ≤ ρ is in
+  // the disc |z − z_k| ≤ r if ρ (2 |s_k| + ρ) ≤ r / top^-2
+  const double size = std::abs(z), s = form.top() * std::sqrt(size),
+               inner = std::min(radii.inner / size, 1.0), outer = radii.outer / size;
+  result.inner = s * inner / (1 + std::sqrt(1 - inner));
+  result.outer = std::min(s * outer / (1 + std::sqrt(1 + outer)), 0.9 * s);
+  if (!(radii.inner < size) || !(result.inner <= result.outer)) {
+    result.isolation = Isolation::neighbour;  // ±s are too near to each other
+    result.inner = result.outer = 0;
+  }
+  // A disc that is symmetric about the real axis of z and holds one eigenvalue holds a real one.
+  result.neutral = result.isolation == Isolation::single &&
+                   radii.inner + 2 * std::abs(z.imag()) <= radii.outer &&
+                   z.real() + radii.inner + std::abs(z.imag()) < 0;
+  return result;
+}
+
+}  // namespace
+
+std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
+                               const Region& region, const linalg::EigenvalueFilter& wanted) {
+  std::vector<Enclosure> result;
+  if (!form.regular()) return result;
+  const Contour contour(std::abs(form.inPlane(region.top)), region.left / form.top(),
+                        form.squared());
+  const auto values = form.eigenvaluesInPlane();
+  std::vector<std::pair<Complex, Enclosure>> upper;  // with Im z > 0, whose images are to come
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const auto z = values[k], s = form.outOfPlane(z);
+    if (!contour.encloses(z) || (wanted && !wanted(s) && !(form.squared() && wanted(-s)))) continue;
+    const auto image = std::ranges::find_if(
+        upper, [&](const auto& other) { return std::abs(other.first - std::conj(z)) < sameImage; });
+    Enclosure found{s};
+    if (z.imag() < -sameImage && image != upper.end()) {
+      found = image->second;
+      upper.erase(image);  // each is the image of one
+      found.s = form.squared() ? -std::conj(found.s) : std::conj(found.s);
+    } else {
+      const auto [radii, isolation] = radiiAbout(form, bounds, values, k);
+      if (isolation == Isolation::single)
+        found = enclosure(form, z, radii);
+      else
+        found.isolation = isolation;
+      if (z.imag() > 0) upper.emplace_back(z, found);
+    }
+    result.push_back(found);
+    if (!form.squared()) continue;
+    found.s = -found.s;
+    result.push_back(found);
+  }
+  return result;
+}
+
+namespace {
+
+/// Returns false for the mirror image of an eigenvalue with Im s > 0.
+bool upper(const Enclosure& enclosure) { return enclosure.s.imag() >= -enclosure.inner; }
+
+/// Returns the enclosure nearest to s among those of eigenvalues with Im s ≥ 0; null if none.
+const Enclosure* nearestTo(Complex s, const std::vector<Enclosure>& enclosures) {
+  const Enclosure* nearest = nullptr;
+  for (const auto& disc : enclosures)
+    if (upper(disc) && (!nearest || std::abs(s - disc.s) < std::abs(s - nearest->s)))
+      nearest = &disc;
+  return nearest;
+}
+
+}  // namespace
+
+JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
+                 const Region& region, double tolerance) {
+  JudgedList judged{std::vector<JudgedEntry>(list.size()), {}};
+  std::map<const Enclosure*, std::size_t> closest;  // entry to the centre of a disc
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    auto& [agreement, radius] = judged.entries[i];
+    const auto s = list[i];
+    const bool inside = std::abs(s) < region.top && s.real() > -region.left;
+    const auto* disc = nearestTo(s, enclosures);
+    agreement = inside ? Agreement::wrong : Agreement::outside;
+    if (!disc) continue;
+    if (disc->isolation != Isolation::single) {
+      if (inside) agreement = Agreement::unproved;
+      continue;
+    }
+    const double apart = std::abs(s - disc->s), close = disc->inner + tolerance;
+    if (apart > (inside ? std::max(disc->outer, close) : close)) continue;
+    if (2 * apart + disc->inner <= disc->outer) radius = apart + disc->inner;
+    agreement = apart <= close ? Agreement::right : Agreement::inexact;
+    const auto [other, first] = closest.try_emplace(disc, i);
+    if (first) continue;
+    const bool closer = apart < std::abs(list[other->second] - disc->s);
+    judged.entries[closer ? other->second : i].agreement = Agreement::repeated;
+    if (closer) other->second = i;
+  }
+  for (const auto& disc : enclosures)
+    if (upper(disc) && disc.isolation == Isolation::single && !closest.contains(&disc))
+      judged.missing.push_back(disc);
+  return judged;
+}
+
+}  // namespace squeal::proof

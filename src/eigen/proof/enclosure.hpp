@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Discs that hold exactly one eigenvalue of P each, and the judgement of a list of eigenvalues by
+/// them.
+#include <vector>
+
+#include "algebra/linalg/quadratic.hpp"
+#include "eigen/proof/contour.hpp"
+#include "eigen/proof/diagonal_form.hpp"
+
+namespace squeal::proof {
+
+/// What is proved about an eigenvalue of P_VV.
+enum class Isolation {
+  single,      ///< each disc with a radius from inner to outer holds exactly one eigenvalue of P
+  indefinite,  ///< δ is not positive there
+  neighbour,   ///< the nearest eigenvalue is too near for the coupling to C
+};
+
+struct Enclosure {
+  Complex s;  ///< eigenvalue of P_VV, the centre, rad/s
+  Isolation isolation = Isolation::neighbour;
+  double inner = 0, outer = 0;  ///< radii, rad/s
+  bool neutral = false;         ///< the eigenvalue of P is proved to be imaginary
+};
+
+/// Not collective. Returns an enclosure for each wanted eigenvalue of P_VV in the region, by
+/// default for all; none if the form is not regular. An eigenvalue whose vector P_CV and P_VC
+/// hardly reach takes no time; others take as long as a disc of the boundary.
+std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
+                               const Region& region, const linalg::EigenvalueFilter& wanted = {});
+
+/// Agreement of an entry of a list with the eigenvalues of P, which are in the discs of the inner
+/// radii if the count is proved and all enclosures are single.
+enum class Agreement {
+  right,     ///< at most the tolerance and the inner radius from the centre of a disc
+  inexact,   ///< farther from it, but in the disc of the outer radius
+  repeated,  ///< as the last two, and another entry is closer to the centre
+  wrong,     ///< in none of the discs
+  unproved,  ///< the enclosure of the nearest eigenvalue of P_VV is not single
+  outside,   ///< not in the region
+};
+
+struct JudgedEntry {
+  Agreement agreement = Agreement::wrong;
+  /// Radius of the disc about the entry that holds exactly one eigenvalue of P; 0 if none is shown.
+  double radius = 0;
+};
+
+struct JudgedList {
+  std::vector<JudgedEntry> entries;
+  std::vector<Enclosure> missing;  ///< single ones without an entry
+};
+
+/// Not collective. Judges a list of eigenvalues with Im s ≥ 0, each as often as it occurs, by the
+/// enclosures of the region. `tolerance`, rad/s, is the accuracy that entries should have.
+JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
+                 const Region& region, double tolerance);
+
+}  // namespace squeal::proof

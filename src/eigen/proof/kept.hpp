@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// A problem P(s) in two parts: a small space V, on which it is known, and the space C that is
+/// left out, on which it is known only by bounds.
+#include <array>
+#include <span>
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+
+namespace squeal::proof {
+
+/// Coefficients of s⁰, s¹ and s². An empty one counts as zero.
+using Coefficients = std::array<linalg::DenseMatrix, 3>;
+
+/// A majorant of a block that couples V and C. For P_CV it is F(s) = Σ sᵏ F_k, rows × N, with
+///   P_CV(s) = X F(s) + remainder,   ‖X‖ ≤ 1,   ‖remainder‖ ≤ Σ |s|ᵏ e_k,
+/// where X does not depend on s. For P_VC it is E(s), N × columns, with P_VC(s) = E(s) X +
+/// remainder. The exact block is its own majorant, with X = 1.
+struct Coupling {
+  Coefficients coefficients;         ///< F_k or E_k
+  std::array<double, 3> error = {};  ///< e_k
+};
+
+/// The blocks of P(s) on V and between V and C. The coordinates of C are orthonormal in the energy
+/// K0, and C is orthogonal to V in it. Those of V are arbitrary; the remainders of couplings refer
+/// to them. Each part of a coupling has an X of its own.
+struct KeptProblem {
+  Coefficients matrices;              ///< of P_VV, N × N
+  std::vector<Coupling> toLeftOut;    ///< parts of P_CV, rows × N
+  std::vector<Coupling> fromLeftOut;  ///< parts of P_VC, N × columns
+  PetscInt order() const;             ///< N
+};
+
+/// Bounds of the blocks of P on C, in the energy K0: for x in C of energy norm 1,
+///   P_CC(s) = 1 + (s² − σ) M + s² M_a + s (C + G) + rest.
+struct LeftOut {
+  double mass = 0;  ///< M ≤ this, symmetric and ≥ 0: 1/θ if all free modes with ω² < θ are in V
+  double shift = 0;       ///< σ ≥ 0 of K0 = K + σ M, rad²/s²
+  double skewMass = 0;    ///< ‖M_a‖, antisymmetric
+  double damping = 0;     ///< C ≤ this, symmetric and ≥ 0, s
+  double gyroscopic = 0;  ///< ‖G‖, antisymmetric, s
+  /// All other terms have norms of at most Σ |s|ᵏ rest[k].
+  std::array<double, 3> rest = {};
+};
+
+/// Returns
+///   δ = 1 − (reach² + σ) mass − reach² skewMass − left damping − reach gyroscopic − Σ reachᵏ
+///   rest[k],
+/// a lower bound of Re xᴴ P_CC(s) x for |s| ≤ reach and Re s ≥ −left.
+double definiteness(const LeftOut& bounds, double reach, double left);
+
+/// Returns a coupling from Grams, for the side P_CV:
+///   gram = [C_0, C_1, …]ᵀ [C_0, C_1, …]   or, in the sense of quadratic forms, a matrix above it
+/// with the columns of the coefficients C_k of P_CV in blocks of N, for the listed powers of s.
+/// Directions within round-off are dropped and become the error. `top`, rad/s, sets the relative
+/// weights of the powers.
+Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top);
+
+/// Returns the same coupling for the side P_VC. The Gram is that of the transposed coefficients.
+Coupling transposed(const Coupling& coupling);
+
+}  // namespace squeal::proof
