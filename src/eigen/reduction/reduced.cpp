@@ -262,6 +262,23 @@ void ReducedProblem::setBand(std::vector<double> values, PointSet& set) const {
   mpi::broadcast(basis().comm(), set.modesInBand);
 }
 
+/// Collective. Confirms the number of free modes of each state, first by the bound that needs no
+/// solve.
+void ReducedProblem::confirmCounts(const std::vector<PointState>& states,
+                                   const std::vector<std::vector<double>>& values,
+                                   const pencil::Pencil& associated,
+                                   std::vector<modes::Modes>& modes) {
+  const auto isOpen = [](const modes::Modes& one) { return !one.countConfirmed; };
+  while (std::ranges::any_of(modes, isOpen)) {
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (isOpen(modes[i]))
+        confirmCount(basis().comm(), *count_,
+                     {band_.top, values[i], states[i].set->space.boundary()}, modes[i]);
+    if (count_->isSharp() || std::ranges::none_of(modes, isOpen)) return;
+    count_->sharpen(basis_.basis(), associated.assembled(2, {}));
+  }
+}
+
 std::vector<modes::Modes> ReducedProblem::freeModes(const std::vector<int>& sets,
                                                     const pencil::Pencil& pencil) {
   const pencil::Pencil associated = associatedTerms(pencil);
@@ -273,10 +290,8 @@ std::vector<modes::Modes> ReducedProblem::freeModes(const std::vector<int>& sets
   for (std::size_t i = 0; i < states.size(); ++i) {
     modes.push_back(reduction::freeModes(basis(), states[i], associated));
     setBand(values[i], basis_.set(sets[i]));
-    if (count_)
-      confirmCount(basis().comm(), *count_, {band_.top, values[i], states[i].set->space.boundary()},
-                   modes.back());
   }
+  if (count_) confirmCounts(states, values, associated, modes);
   return modes;
 }
 

@@ -122,6 +122,9 @@ class ReducedProblem {
   std::vector<PointState> associatedStates(const std::vector<PointProblem>& points);
   std::vector<std::vector<double>> associatedEigenvalues(
       const std::vector<PointState>& states) const;
+  void confirmCounts(const std::vector<PointState>& states,
+                     const std::vector<std::vector<double>>& values,
+                     const pencil::Pencil& associated, std::vector<modes::Modes>& modes);
   void setBand(std::vector<double> values, PointSet& set) const;
   pencil::ComplexModes result(const PointState& state) const;
   void storeShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,

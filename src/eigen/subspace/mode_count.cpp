@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/subspace/mode_count.hpp"
 
+#include <petscblaslapack.h>
+
 #include <algorithm>
 
 #include "algebra/linalg/block.hpp"
+#include "algebra/linalg/lapack.hpp"
 #include "algebra/linalg/symmetric.hpp"
+#include "base/petsc/check.hpp"
 
 namespace squeal::subspace {
 
@@ -12,15 +16,31 @@ using linalg::DenseMatrix;
 
 namespace {
 
-/// Returns the number of negative eigenvalues of a matrix that is symmetric within round-off.
+/// Returns the number of negative eigenvalues of a matrix that is symmetric within round-off, from
+/// the factors of Bunch and Kaufman: a block of order 2 has one. Throws Error if LAPACK fails.
 int countNegative(const DenseMatrix& a) {
-  const auto values = linalg::symmetricEigenvalues(linalg::symmetricPart(a));
-  return std::ranges::count_if(values, [](double value) { return value < 0; });
+  DenseMatrix factors = linalg::symmetricPart(a);
+  PetscBLASInt order = factors.rows(), info = 0;
+  std::vector<PetscBLASInt> pivots(order);
+  linalg::callWithWork([&](double* work, PetscBLASInt length) {
+    LAPACKsytrf_("L", &order, factors.data(), &order, pivots.data(), work, &length, &info);
+  });
+  if (info < 0) throw Error("LAPACK dsytrf failed");
+  int count = 0;
+  for (PetscInt i = 0; i < order; ++i) {
+    if (pivots[i] > 0) {
+      if (factors(i, i) < 0) ++count;
+    } else {
+      ++count;
+      ++i;
+    }
+  }
+  return count;
 }
 
 }  // namespace
 
-ModeCount::ModeCount(Basis& basis, const modes::Modes& modes, Mat mass)
+ModeCount::ModeCount(const Basis& basis, const modes::Modes& modes, Mat mass)
     : lambda_(modes.lambda),
       complete_(modes.countConfirmed ? modes.inertiaShift : 0),
       stiffness_(basis.boundaryStiffness()) {
@@ -31,11 +51,25 @@ ModeCount::ModeCount(Basis& basis, const modes::Modes& modes, Mat mass)
   linalg::appendProduct(mass, constraint, inertia);
   mass_ = linalg::transposedProduct(basis.comm(), constraint, inertia);
   modal_ = linalg::transposedProduct(basis.comm(), shapes, inertia);  // of Φ Λ^(−½)
-  basis.clearBoundary(inertia);
-  rest_ = linalg::transposedProduct(basis.comm(), inertia, basis.responses(inertia));
-  linalg::addScaled(rest_, -1, linalg::transposedProduct(modal_, modal_));
   for (PetscInt j = 0; j < boundary; ++j)
     for (PetscInt i = 0; i < count; ++i) modal_(i, j) *= modes.angularFrequency[i];
+  isSharp_ = complete_ == 0;  // nothing is known
+  if (isSharp_) return;
+  linalg::addScaled(rest_, 1 / complete_, mass_);
+  linalg::addScaled(rest_, -1 / complete_, linalg::transposedProduct(modal_, modal_));
+}
+
+void ModeCount::sharpen(Basis& basis, Mat mass) {
+  const PetscInt boundary = basis.boundarySize();
+  linalg::Block inertia(basis.localRows());
+  basis.appendProducts(mass, 0, boundary, inertia);
+  basis.clearBoundary(inertia);
+  rest_ = linalg::transposedProduct(basis.comm(), inertia, basis.responses(inertia));
+  DenseMatrix scaled = modal_;
+  for (PetscInt j = 0; j < boundary; ++j)
+    for (PetscInt i = 0; i < scaled.rows(); ++i) scaled(i, j) /= lambda_[i];
+  linalg::addScaled(rest_, -1, linalg::transposedProduct(modal_, scaled));
+  isSharp_ = true;
 }
 
 std::optional<int> ModeCount::below(double sigma, const std::vector<PetscInt>& own) const {
