@@ -19,11 +19,11 @@ struct Request {
   int reportedModes = 0;         ///< number of free modes whose shapes are reported
 };
 
-/// Collective. Returns one segment for each range of the problem: the free modes, the eigenvalues
-/// at the steady points of the range with all dampings, and the eigenvalues tracked over the
-/// friction. Restores and continues the checkpoint logs whose names begin with `name`. If a point
-/// or a stage fails, the others are still computed, and the result contains the reason. Consumes
-/// the terms in the ranges of `problem`. Throws Error if no point is solved.
+/// Collective. Returns a segment of results for each range of steady points with one active set:
+/// the free modes, the eigenvalues at these points with all dampings, and the eigenvalues tracked
+/// over the friction. Restores and continues the checkpoint logs whose names begin with `name`. If
+/// a point or a stage fails, the others are still computed, and the result contains the reason.
+/// Consumes the terms in the ranges of `problem`. Throws Error if no point is solved.
 SolvedSweep solveSweep(SweepProblem& problem, const Request& request,
                        checkpoint::Checkpoint& checkpoint, const std::string& name);
 

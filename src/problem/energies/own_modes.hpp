@@ -24,9 +24,8 @@ struct OwnModes {
 /// of each body, [body], or as many as it has; an empty list for 0. They are the eigenvectors of
 ///   (K_b + σ M_b) x = (ω² + σ) M_b x,   σ = 0.01 wᵀ K_b w / wᵀ M_b w,   w = X − X_c,
 /// where X are the coordinates of the nodes of the body and X_c is their centre. The shift σ is
-/// thus small compared with the squared frequency at which the body stretches. Modes with ω² ≤ 1e-6
-/// σ are rigid and omitted. The list of a body without mass is empty. Throws Error as
-/// modes::compute() does.
+/// thus 1 % of the Rayleigh quotient of a uniform stretch w. Modes with ω² ≤ 1e-6 σ are rigid and
+/// omitted. The list of a body without mass is empty. Throws Error as modes::compute() does.
 std::vector<OwnModes> ownModes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                                const std::vector<std::vector<PetscInt>>& nodes, int count);
 

@@ -4,15 +4,16 @@
 /// stiffness K0 of the closed, frictionless contact [M.58].
 ///
 /// The unknowns x of the open contact consist of y and w. The unknowns of the closed contact are y.
-/// The gaps and the tangential displacements of sticking nodes are w. With the friction magnitudes
-/// t = f R and the blocks of K, S and N [M.10, M.11], the nodal forces r obey
-///   K0 y + K_yw w + S_yᵀ t = q,   R = N r,   F = K_wy y + K_ww w + S_wᵀ t,
-/// so one solve with K0 gives the responses (R, F) at the contact to causes (t, w). These depend
-/// neither on the friction nor on the set of open or held nodes.
+/// The gaps and the tangential displacements of sticking nodes are w. The slip rows S and the rows
+/// N of the normal forces are those of [M.10]. With the friction magnitudes t = f R and the loads
+/// q, equilibrium in the rows of y, the normal forces R and the forces F in the rows of w are
+///   K0 y + K_yw w + S_yᵀ t = q,   R = N K T (y, w),   F = K_wy y + K_ww w + S_wᵀ t,
+/// except for constant terms, so one solve with K0 gives the responses (R, F) at the contact to
+/// causes (t, w). These depend neither on the friction nor on the set of open or held nodes.
 ///
 /// The responses to w are the columns of the Schur complement of the contact,
-///   S = K_ww − K_wy K0⁻¹ K_yw,   F = S w,   R = F in the rows of the gaps.
-/// One factorisation of K with all contact open computes S. It costs as much as some hundreds of
+///   S_c = K_ww − K_wy K0⁻¹ K_yw,   F = S_c w,   R = F in the rows of the gaps.
+/// One factorisation of K with all contact open computes S_c. It costs as much as some hundreds of
 /// solves.
 #include <functional>
 #include <vector>
@@ -34,8 +35,9 @@ class Impedance {
   Impedance(const contact::Contact& contact, const contact::Transformation& open, Mat stiffness,
             Mat slipRows, const contact::CoupledSystem& closed);
   /// Number of requested responses after which the Schur complement is computed. It costs as much
-  /// as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact). The threshold is half of
-  /// that: the total cost is at most about three times that of the better choice.
+  /// as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact). With the threshold at
+  /// half of the lower figure, solves and complement together cost at most 3 to 5 times as much as
+  /// the cheaper of the two would.
   static constexpr long worthwhile = 300;
   /// Collective. Accepts a function that returns TᵀKT with all contact open and all sticking nodes
   /// released, in the unknowns of `open`. After more than `after` requested responses to units of
@@ -64,9 +66,9 @@ class Impedance {
   /// Collective. Adds the displacements due to each column of causes to the x of the same index: w
   /// is that of the column, y the response to its (t, w). x has the unknowns of the open contact.
   void addUnknowns(const linalg::DenseView& causes, const std::vector<Vec>& x) const;
-  /// Collective. Takes residuals with all rows of x, and balances their rows of y: adds y = −K0⁻¹
-  /// residual to each x. Returns one column per residual. It contains N K T_y y for the contact
-  /// nodes, and the residual plus K_wy y for w.
+  /// Collective. Each residual r has the rows of x, and with them the parts r_y and r_w. Balances
+  /// r_y: adds y = −K0⁻¹ r_y to the x of the same index. Returns one column per residual, with
+  /// N K T_y y for the contact nodes and r_w + K_wy y for w.
   linalg::DenseMatrix relax(const std::vector<Vec>& residuals, const std::vector<Vec>& x) const;
   /// Collective. Returns S_wᵀ, released unknowns × contact nodes: the direct effect of friction on
   /// released nodes. The slip rows S must have no entries for y.
@@ -92,9 +94,9 @@ class Impedance {
   mutable long solves_ = 0;
   mutable long units_ = 0;  // number of requested responses to units of w
   long after_ = worthwhile;
-  mutable linalg::DenseMatrix schur_;  // S, own rows × all columns
-  mutable bool isCondensed_ = false;   // S is in use
-  mutable bool refused_ = false;       // S was not accurate
+  mutable linalg::DenseMatrix schur_;  // S_c, own rows × all columns
+  mutable bool isCondensed_ = false;   // S_c is in use
+  mutable bool refused_ = false;       // S_c was not accurate
 };
 
 }  // namespace squeal::impedance
