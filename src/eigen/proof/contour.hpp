@@ -12,8 +12,9 @@ namespace squeal::proof {
 
 /// The region |s| < top and Re s > −left.
 struct Region {
-  double top = 0;                                         ///< rad/s
-  double left = std::numeric_limits<double>::infinity();  ///< 1/s; the disc if at least `top`
+  double top = 0;  ///< rad/s
+  /// 1/s; from `top` on, the region is the whole disc.
+  double left = std::numeric_limits<double>::infinity();
 };
 
 /// A part of the boundary: an arc about 0, or a line parallel to the imaginary axis.
@@ -25,7 +26,7 @@ class Piece {
   static Piece line(Complex start);
   double length() const { return length_; }  ///< angle or length
   Complex at(double t) const;                ///< 0 ≤ t ≤ length()
-  /// Returns the t between two points at this distance.
+  /// Returns the difference in t of two points at this distance from each other.
   double parameter(double distance) const;
   double distance(Complex from) const;
 
@@ -55,8 +56,8 @@ class Contour {
 /// it takes the lowest.
 double placedTop(std::span<const Complex> eigenvalues, double wanted, double within = 0.08);
 
-/// Returns the same of −Re s for the left edge, of the eigenvalues with |s| up to 10 % above the
-/// top.
+/// Returns the middle of the widest gap of −Re s around the wanted left edge, in the same way,
+/// for the eigenvalues with |s| up to 10 % above the top.
 double placedLeft(std::span<const Complex> eigenvalues, double top, double wanted,
                   double within = 0.5);
 

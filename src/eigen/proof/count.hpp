@@ -30,7 +30,7 @@ struct CountProof {
 
 /// Not collective. Proves the count for the region, if the bounds suffice, with at most `largest`
 /// expansions. If the verdict is `proved`, P has exactly `count` eigenvalues in the region and none
-/// on its boundary. δ must be positive and φ < 1 by a margin of 10⁻⁶, for round-off in the given
+/// on its boundary. δ > 0 and φ < 1 must hold with a margin of 10⁻⁶, for round-off in the given
 /// data.
 CountProof proveCount(const DiagonalForm& form, const LeftOut& bounds, const Region& region,
                       PetscInt largest = 400);

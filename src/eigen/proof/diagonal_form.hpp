@@ -37,8 +37,8 @@ class DiagonalForm {
   /// Returns s of z, with Im s ≥ 0 if squared.
   Complex outOfPlane(Complex z) const;
 
-  /// The coefficients of a, rows × size, at most two, and of b, size × columns. An empty one is
-  /// zero.
+  /// The coefficients of the polynomials: of a (rows × size, at most two of them) and of b (size ×
+  /// columns). An empty one is zero.
   const std::vector<linalg::ComplexMatrix>& a() const { return a_; }
   const std::vector<linalg::ComplexMatrix>& b() const { return b_; }
   std::span<const PetscInt> rowEnds() const { return rowEnds_; }        ///< of the parts of P_CV

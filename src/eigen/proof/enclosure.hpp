@@ -25,17 +25,17 @@ struct Enclosure {
 };
 
 /// Not collective. Returns an enclosure for each wanted eigenvalue of P_VV in the region, by
-/// default for all; none if the form is not regular. An eigenvalue whose vector P_CV and P_VC
-/// hardly reach takes no time; others take as long as a disc of the boundary.
+/// default for all; none if the form is not regular. An eigenvalue whose vectors are hardly coupled
+/// to C takes almost no time; others take as long as a disc of the boundary.
 std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
                                const Region& region, const linalg::EigenvalueFilter& wanted = {});
 
-/// Agreement of an entry of a list with the eigenvalues of P, which are in the discs of the inner
-/// radii if the count is proved and all enclosures are single.
+/// Agreement of an entry of a list with the eigenvalues of P. If the count is proved and all
+/// enclosures are single, these eigenvalues lie in the discs of the inner radii.
 enum class Agreement {
   right,     ///< at most the tolerance and the inner radius from the centre of a disc
   inexact,   ///< farther from it, but in the disc of the outer radius
-  repeated,  ///< as the last two, and another entry is closer to the centre
+  repeated,  ///< right or inexact, but another entry is closer to the centre
   wrong,     ///< in none of the discs
   unproved,  ///< the enclosure of the nearest eigenvalue of P_VV is not single
   outside,   ///< not in the region
@@ -43,17 +43,18 @@ enum class Agreement {
 
 struct JudgedEntry {
   Agreement agreement = Agreement::wrong;
-  /// Radius of the disc about the entry that holds exactly one eigenvalue of P; 0 if none is shown.
+  /// Radius of the disc about the entry that holds exactly one eigenvalue of P; 0 if none is known.
   double radius = 0;
 };
 
 struct JudgedList {
   std::vector<JudgedEntry> entries;
-  std::vector<Enclosure> missing;  ///< single ones without an entry
+  std::vector<Enclosure> missing;  ///< single enclosures without an entry
 };
 
-/// Not collective. Judges a list of eigenvalues with Im s ≥ 0, each as often as it occurs, by the
-/// enclosures of the region. `tolerance`, rad/s, is the accuracy that entries should have.
+/// Not collective. Judges a list of eigenvalues with Im s ≥ 0 by the enclosures of the region. A
+/// multiple eigenvalue is listed as often as its multiplicity. `tolerance`, rad/s, is the accuracy
+/// that entries should have.
 JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
                  const Region& region, double tolerance);
 

@@ -11,7 +11,7 @@ namespace squeal::proof {
 /// The Taylor polynomial of T = a D⁻¹ b about a point z0, with all terms that it omits: for z = z0
 /// + h,
 ///   T(z) = Σ hʲ T_j (j ≤ order) + h^(order + 1) R(h),
-/// where R is a finite sum over the poles, so that the polynomial need not converge. Not
+/// where R is a finite sum over the poles, so that the Taylor series need not converge. Not
 /// collective.
 class Expansion {
  public:

@@ -22,9 +22,9 @@ struct Coupling {
   std::array<double, 3> error = {};  ///< e_k
 };
 
-/// The blocks of P(s) on V and between V and C. The coordinates of C are orthonormal in the energy
-/// K0, and C is orthogonal to V in it. Those of V are arbitrary; the remainders of couplings refer
-/// to them. Each part of a coupling has an X of its own.
+/// The blocks of P(s) on V and between V and C. C is orthogonal to V in the energy K0, and its
+/// coordinates are orthonormal in it. The coordinates of V are arbitrary; the remainders of
+/// couplings refer to them. Each part of a coupling has an X of its own.
 struct KeptProblem {
   Coefficients matrices;              ///< of P_VV, N × N
   std::vector<Coupling> toLeftOut;    ///< parts of P_CV, rows × N
@@ -35,7 +35,8 @@ struct KeptProblem {
 /// Bounds of the blocks of P on C, in the energy K0: for x in C of energy norm 1,
 ///   P_CC(s) = 1 + (s² − σ) M + s² M_a + s (C + G) + rest.
 struct LeftOut {
-  double mass = 0;  ///< M ≤ this, symmetric and ≥ 0: 1/θ if all free modes with ω² < θ are in V
+  /// M ≤ this, symmetric and ≥ 0: 1/θ if V contains all modes of K0 d = λ M d with λ < θ.
+  double mass = 0;
   double shift = 0;       ///< σ ≥ 0 of K0 = K + σ M, rad²/s²
   double skewMass = 0;    ///< ‖M_a‖, antisymmetric
   double damping = 0;     ///< C ≤ this, symmetric and ≥ 0, s
@@ -50,14 +51,15 @@ struct LeftOut {
 /// a lower bound of Re xᴴ P_CC(s) x for |s| ≤ reach and Re s ≥ −left.
 double definiteness(const LeftOut& bounds, double reach, double left);
 
-/// Returns a coupling from Grams, for the side P_CV:
-///   gram = [C_0, C_1, …]ᵀ [C_0, C_1, …]   or, in the sense of quadratic forms, a matrix above it
-/// with the columns of the coefficients C_k of P_CV in blocks of N, for the listed powers of s.
-/// Directions within round-off are dropped and become the error. `top`, rad/s, sets the relative
-/// weights of the powers.
+/// Returns a coupling for the side P_CV from a Gram matrix of its coefficients C_k, for the listed
+/// powers of s:
+///   gram ≥ [C_0, C_1, …]ᵀ [C_0, C_1, …]   in the sense of quadratic forms,
+/// with N rows and N columns for each power. Directions within round-off are dropped and become the
+/// error. `top`, rad/s, sets the relative weights of the powers.
 Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top);
 
-/// Returns the same coupling for the side P_VC. The Gram is that of the transposed coefficients.
+/// Returns the coupling for the side P_VC. `coupling` comes from couplingFromGram() with the Gram
+/// matrix of the transposed coefficients of P_VC.
 Coupling transposed(const Coupling& coupling);
 
 }  // namespace squeal::proof
