@@ -13,7 +13,7 @@ from squeal.keys import PARAMETERS, key_of, words_of
 
 
 def require_agreement(folder, summary, tables):
-    """Raises ResultsError if two of them differ."""
+    """Raises ResultsError if two tables of a run, or a table and the summary, differ."""
     points = {
         key_of(point[name] for name in PARAMETERS): point for point in summary.get("frictions", [])
     }

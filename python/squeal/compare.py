@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Lays the results of variants of a brake over each other: one HTML file that opens offline."""
+"""Compares the results of variants of a brake in one HTML file that opens offline."""
 import argparse
 import html
 import os
@@ -156,8 +156,9 @@ def _change(change, size):
 
 
 def matched_modes(variants, tops):
-    """Returns the pairs of modes of the first variant with those of the others: for the free modes
-    and for each common point its name and rows of one cell per variant, None without partner."""
+    """Returns the modes of the first variant in pairs with those of the others: a group of the free
+    modes, and one for each common point. A group has a name and rows with one cell per variant;
+    the cell of a variant without the mode is None."""
     tables = [compare(variants[0].results, other.results, tops) for other in variants[1:]]
     groups = [("free", None), *(("complex", point) for point in tops)]
     found = []

@@ -72,8 +72,8 @@ def _shift(parts, result, middle):
 
 
 def _ring(heights, bodies, rotors, linings):
-    """Returns the height of the middle of the ring between the linings, and half its thickness. A
-    disc with linings on one side, or without, counts as it is."""
+    """Returns the height of the middle of the ring between the linings, and half its thickness. If
+    the disc has linings on one side only, or none, the disc itself gives both values."""
     planes = [lining["height"] for lining in linings if lining["sliding"]]
     if planes and max(planes) > min(planes):
         return (max(planes) + min(planes)) / 2, (max(planes) - min(planes)) / 2

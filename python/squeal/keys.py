@@ -5,8 +5,8 @@ PARAMETERS = ("friction", "speed", "pressure", "damping")
 
 
 def key_of(values):
-    """Returns parameters as a key: equal values have equal keys, also if one was counted up to,
-    as 0.1 + 0.2, and the other was written, as 0.3."""
+    """Returns parameters as a key: equal values have equal keys, even if one is a sum,
+    such as 0.1 + 0.2, and the other was written as 0.3."""
     return tuple(float(f"{float(value):.12g}") for value in values)
 
 

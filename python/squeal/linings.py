@@ -48,8 +48,8 @@ def linings(results, skin, surface, blobs):
 
 def _face(skin, places, touching, listed):
     """Returns the nodes of the skin at the listed places and the triangles between them; None if
-    there are none. Both sides of an interface may have nodes there: the body with most of them
-    owns it."""
+    there are none. Both sides of an interface may have nodes there: only the body with most of
+    them counts."""
     near, _ = cKDTree(listed).query(places)
     size = (places.max(axis=0) - places.min(axis=0)).max()
     at = touching & (near < SAME * size)

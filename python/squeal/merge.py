@@ -175,8 +175,8 @@ def _renumbered(parts):
 
 
 def _shifted(table, last, sets):
-    """Returns a table with its branches after the `last` of their lines, and its active sets after
-    as many as `sets`."""
+    """Returns a table with new numbers: branches continue after the `last` number of their line,
+    and active sets after the number `sets`."""
     made = table.copy()
     shift = pd.Series([last.get(line, 0) for line in _line(table)], index=table.index, dtype=int)
     for column, by in (("branch", shift), ("partner", shift), ("active_set", sets)):
@@ -191,7 +191,7 @@ def _line(table):
 
 
 def _critical_key(row):
-    """Returns the cells that critical.csv and critical_sensitivities.csv have alike."""
+    """Returns the cells by which critical_sensitivities.csv refers to a row of critical.csv."""
     return tuple(row.get(name) for name in CRITICAL)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Reads the parts of a merge, runs over parts of one grid of parameters, and compares them."""
+"""Reads the parts of a merge (runs over parts of one grid of parameters) and compares them."""
 import re
 from pathlib import Path
 
@@ -88,14 +88,14 @@ class Part:
 
 
 def _file_of(name):
-    """Returns the file of a table; one name for those of all points."""
+    """Returns the file name of a table; tables of single points share one name with a `*`."""
     kind, point, _ = name.partition("_")
     return f"{kind}_*.csv" if name not in SCHEMA and point else f"{name}.csv"
 
 
 def read_parts(folders, out):
-    """The runs in `folders`. None may contain the folder `out` of their merge: its next run would
-    remove it."""
+    """The runs in `folders`. None of these folders may contain `out`, the folder of the merge: a
+    later run into such a folder would remove it."""
     places = [Path(folder).resolve() for folder in folders]
     for place, folder in zip(places, folders):
         if places.count(place) > 1:
@@ -213,8 +213,8 @@ def _require_same_mesh(first, part, differ):
 
 
 def owners_of(parts):
-    """Returns for each part the points that the merge takes from it: all except those that an
-    earlier part has with the same numbers."""
+    """Returns for each part the points that the merge takes from it (those that no earlier part
+    has), and messages on repeated points. Raises ResultsError if their results differ."""
     taken, said, seen = [], [], {}
     for part in parts:
         fresh = set()
@@ -238,8 +238,8 @@ def owners_of(parts):
 
 
 def _require_same_numbers(first, part, point):
-    """Compares the eigenvalues of one point from two runs, within their estimated errors but at
-    best SAME_NUMBER."""
+    """Requires that two runs have the same eigenvalues at a point, to within their estimated errors
+    or, if these are smaller, SAME_NUMBER. Returns the largest relative difference."""
     (one, one_error, one_verdict), (other, other_error, other_verdict) = first.eigenvalues(
         point
     ), part.eigenvalues(point)

@@ -62,8 +62,8 @@ class Results:
             raise ResultsError(f"{self.folder}: {error.strerror}") from None
 
     def _lists(self, path):
-        """Returns whether a table of one point is of this run: a file steady_notes.csv is the
-        user's."""
+        """Returns whether this run wrote a table of one point; a file such as steady_notes.csv
+        is the user's."""
         return path.stem in self.summary.get("tables", {}) or any(
             path.stem.endswith(f"_{point['friction']:g}")
             for point in self.summary.get("frictions", [])

@@ -305,7 +305,7 @@ def ranks_of(scores, larger_is_quieter):
 
 
 def _remark(variant, tops):
-    """What the ranks of a variant leave open, in words; empty for nothing."""
+    """What the ranks of a variant leave open, in words; empty if they leave nothing open."""
     table, above = variant.within(tops), int(variant.above(tops)["counts"].sum())
     words = [
         f"{count} of {len(table)} eigenvalues are {word}"

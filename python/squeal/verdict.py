@@ -4,8 +4,8 @@ from squeal.keys import PARAMETERS
 
 
 def verdict(results):
-    """Returns one sentence on the stability of the sweep, by the program, or for a merge by its
-    tables."""
+    """Returns one sentence on the stability of the sweep: that of the program, or for a merge one
+    from its tables."""
     given = results.summary.get("verdict")
     return given["sentence"] if given else _verdict_of_merge(results)
 

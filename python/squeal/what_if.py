@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""What changes if a parameter does: the change that the derivatives of a run predict, beside that
-of a second run. squeal-run CASE -what_if NAME.QUANTITY=FACTOR makes both runs.
+"""The effect of a change of a parameter: as the derivatives of a run predict it, and as a second
+run computes it. squeal-run CASE -what_if NAME.QUANTITY=FACTOR makes both runs.
 
 main(["check", WORD, …]) checks the words; ["options", FOLDER, WORD, …] prints the options that
 change the run in FOLDER; ["compare", FOLDER, CHANGED, WORD, …] prints the comparison of both.
@@ -82,7 +82,7 @@ SCALED = {
 
 
 def parameter_of(change, known):
-    """Returns the parameter of the tables of derivatives that a change is one of."""
+    """Returns the name that the tables of derivatives use for the parameter of a change."""
     if not change.name:
         return change.quantity
     for pattern in SCALED:
@@ -97,7 +97,7 @@ def parameter_of(change, known):
 
 
 def _word_of(parameter):
-    """back_plate.young of young_back_plate, guide.stiffness of spring_guide_stiffness."""
+    """Returns back_plate.young for young_back_plate, guide.stiffness for spring_guide_stiffness."""
     for pattern in SCALED:
         match = re.fullmatch(pattern.replace("{}", r"(\w+)"), parameter)
         if match:
