@@ -59,7 +59,7 @@ modes::Modes freeModes(const Basis& basis, const PointState& state,
 
 void confirmCount(MPI_Comm comm, const subspace::ModeCount& count, const CountRange& range,
                   modes::Modes& modes) {
-  constexpr PetscInt mostGaps = 40;
+  constexpr PetscInt mostGaps = 10;
   const auto& [top, values, boundary] = range;
   const PetscInt inBand = std::ssize(modes.lambda);
   for (PetscInt i = inBand; i < std::min<PetscInt>(inBand + mostGaps, std::ssize(values)); ++i) {
