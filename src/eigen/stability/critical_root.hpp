@@ -29,8 +29,8 @@ class CriticalRoot {
   /// Returns the friction with one pair at the mean of the eigenvalues: if two eigenvalues meet, so
   /// do their vectors.
   tracking::PairsAtFriction located() const;
-  /// Stores the backward error, NaN if there is no problem at the located friction, and the bound
-  /// on the round-off in yᴴP(s)x of unit vectors.
+  /// Stores the backward error, NaN at a located friction without a problem, and the bound on the
+  /// round-off in yᴴP(s)x of unit vectors.
   void setErrors(double backwardError, double roundOff);
 
   /// Returns the critical friction found so far.

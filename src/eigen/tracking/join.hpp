@@ -62,7 +62,7 @@ std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
                                             double isolation);
 
 /// Collective. Returns the same at a friction of the family, computed on rank 0, so round-off
-/// cannot make the ranks disagree. It also returns nothing if there is no problem at this friction.
+/// cannot make the ranks disagree. It also returns nothing at a friction without a problem.
 std::optional<linalg::Spectrum> continuedTo(Family& family, double friction,
                                             const linalg::Spectrum& from, Complex expected,
                                             double isolation);

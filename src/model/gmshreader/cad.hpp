@@ -13,8 +13,8 @@ namespace squeal::gmshreader {
 /// faces, so that their meshes share nodes there. Each solid and face becomes a physical group,
 /// named by the last part of its label. Entities of equal labels form one group. An entity without
 /// a label, or with a label that others share, also is a group `solid_N` or `face_N`, with the
-/// number that gmsh shows for the file. Throws Error if there is no solid. Warns of labels whose
-/// faces cannot be identified after the cuts.
+/// number that gmsh shows for the file. Throws Error if the file has no solid. Warns of labels
+/// whose faces cannot be identified after the cuts.
 void importShape(const std::string& file, const meshfile::ShapeMesh& mesh, const Warn& warn);
 
 }  // namespace squeal::gmshreader
