@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The complex number of all rooms: PETSc is built with real scalars.
+#include <cmath>
 #include <complex>
 #include <span>
 
@@ -21,5 +22,8 @@ inline Complex innerProduct(std::span<const Complex> x, std::span<const Complex>
   }
   return {real, imaginary};
 }
+
+/// Returns the 2-norm.
+inline double length(std::span<const Complex> x) { return std::sqrt(innerProduct(x, x).real()); }
 
 }  // namespace squeal

@@ -55,6 +55,10 @@ double squaredLength(std::span<const double> x) {
   return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
 }
 
+bool isZero(const DenseView& a) {
+  return std::ranges::all_of(a.entries(), [](double entry) { return entry == 0; });
+}
+
 DenseMatrix congruent(const DenseView& a, const DenseView& c) {
   return transposedProduct(c, product(a, c));
 }

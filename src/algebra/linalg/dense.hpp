@@ -128,6 +128,8 @@ DenseMatrix product(const DenseView& x, const DenseView& coefficients);
 DenseMatrix transposedProduct(const DenseView& x, const DenseView& y);
 /// Returns the square of the 2-norm of a column.
 double squaredLength(std::span<const double> x);
+/// Returns true if all entries are zero.
+bool isZero(const DenseView& a);
 /// Returns Cᵀ A C.
 DenseMatrix congruent(const DenseView& a, const DenseView& c);
 /// Returns Xᵀ.

@@ -44,13 +44,6 @@ void undoInverse(const Lu<double>& mass, std::vector<DensePair>& pairs) {
     for (PetscInt i = 0; i < m; ++i) pairs[j].left[i] = {parts(i, 2 * j), parts(i, 2 * j + 1)};
 }
 
-/// Returns the root of s² = −μ with Im s ≥ 0.
-Complex rootOf(Complex mu) {
-  const Complex s =
-      mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
-  return s.imag() < 0 ? -s : s;
-}
-
 /// Returns true if A = sign Aᵀ within round-off: max |A_ij − sign A_ji| ≤ 1e-13 max |A_ij|.
 bool hasSymmetry(const DenseMatrix& a, double sign) {
   double size = 0, difference = 0;
@@ -188,6 +181,12 @@ void normalise(std::vector<Complex>& vector) {
 Complex reflected(Complex t) { return 1.0 / std::conj(t); }
 
 }  // namespace
+
+Complex rootOf(Complex mu) {
+  const Complex s =
+      mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
+  return s.imag() < 0 ? -s : s;
+}
 
 bool conservative(const DenseProblem& problem) {
   return hasSymmetry(problem.stiffness, 1) && hasSymmetry(problem.mass, 1) &&

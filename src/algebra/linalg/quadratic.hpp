@@ -37,6 +37,9 @@ enum class Vectors { right, both };
 /// Returns true for the eigenvalues s to return. An empty function selects all.
 using EigenvalueFilter = std::function<bool(Complex)>;
 
+/// Returns the root of s² = −μ with Im s ≥ 0.
+Complex rootOf(Complex mu);
+
 /// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that `wanted` selects, by ascending
 /// Im s, then by ascending Re s. If Z is empty, s = 0 is double for each vector and is listed once.
 ///

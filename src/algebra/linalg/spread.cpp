@@ -32,18 +32,23 @@ void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors v
   }
 }
 
-std::vector<std::vector<DensePair>> spread(
-    MPI_Comm comm, std::size_t count, Vectors vectors,
-    const std::function<std::vector<DensePair>(std::size_t)>& solve) {
+void onOwners(MPI_Comm comm, std::size_t count, const std::function<void(std::size_t)>& action) {
   const int rank = mpi::rank(comm), ranks = mpi::size(comm);
-  std::vector<std::vector<DensePair>> solved(count);
   std::string failure;
   for (std::size_t i = rank; i < count && failure.empty(); i += ranks) try {
-      solved[i] = solve(i);
+      action(i);
     } catch (const Error& error) {
       failure = error.what();
     }
   failTogether(comm, failure);
+}
+
+std::vector<std::vector<DensePair>> spread(
+    MPI_Comm comm, std::size_t count, Vectors vectors,
+    const std::function<std::vector<DensePair>(std::size_t)>& solve) {
+  std::vector<std::vector<DensePair>> solved(count);
+  onOwners(comm, count, [&](std::size_t i) { solved[i] = solve(i); });
+  const int ranks = mpi::size(comm);
   for (std::size_t i = 0; i < count; ++i) shareFrom(i % ranks, comm, solved[i], vectors);
   return solved;
 }

@@ -11,8 +11,12 @@
 
 namespace squeal::linalg {
 
-/// Collective. Calls solve(i) for i below `count`, each on the rank i modulo the number of ranks,
-/// and returns the pairs on all ranks. Round-off then cannot make the ranks disagree on the order
+/// Collective. Calls action(i) for i below `count`, each on its owner, the rank i modulo the number
+/// of ranks. Throws Error on all ranks if one call does.
+void onOwners(MPI_Comm comm, std::size_t count, const std::function<void(std::size_t)>& action);
+
+/// Collective. Calls solve(i) for i below `count`, each on its owner as by onOwners(), and returns
+/// the pairs on all ranks. Round-off then cannot make the ranks disagree on the order
 /// or number of eigenvalues. Throws Error on all ranks if one call does.
 std::vector<std::vector<DensePair>> spread(
     MPI_Comm comm, std::size_t count, Vectors vectors,

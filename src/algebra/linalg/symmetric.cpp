@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string>
 
+#include "algebra/linalg/lapack.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/log_events.hpp"
 
@@ -82,6 +83,26 @@ DenseMatrix symmetricPart(const DenseView& a) {
   const auto entries = a.entries();
   for (std::size_t i = 0; i < s.size(); ++i) s.data()[i] = 0.5 * (entries[i] + s.data()[i]);
   return s;
+}
+
+int negativeEigenvalues(const DenseView& a) {
+  DenseMatrix factors = symmetricPart(a);
+  PetscBLASInt order = factors.rows(), info = 0;
+  std::vector<PetscBLASInt> pivots(order);
+  callWithWork([&](double* work, PetscBLASInt length) {
+    LAPACKsytrf_("L", &order, factors.data(), &order, pivots.data(), work, &length, &info);
+  });
+  if (info < 0) throw Error("LAPACK dsytrf failed");
+  int count = 0;
+  for (PetscInt i = 0; i < order; ++i) {
+    if (pivots[i] > 0) {
+      if (factors(i, i) < 0) ++count;
+    } else {  // a block of order 2 has one
+      ++count;
+      ++i;
+    }
+  }
+  return count;
 }
 
 std::vector<double> symmetricEigen(DenseMatrix& a) { return solve("V", a); }

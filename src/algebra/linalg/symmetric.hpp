@@ -22,6 +22,10 @@ std::vector<double> symmetricEigen(DenseMatrix& a);
 /// and if B is not positive definite.
 std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b);
 
+/// Returns the number of negative eigenvalues of a matrix that is symmetric within round-off, by an
+/// LDLᵀ factorisation. Throws Error if LAPACK fails.
+int negativeEigenvalues(const DenseView& a);
+
 /// Return only the eigenvalues of the same problems, which takes a fraction of the time. They read
 /// the lower triangles.
 std::vector<double> symmetricEigenvalues(DenseMatrix a);

@@ -20,16 +20,13 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double smallDeviation = 1e-4;  // that of good eigenvectors is below 10⁻⁹
 
-bool zero(const linalg::DenseView& a) {
-  return std::ranges::all_of(a.entries(), [](double entry) { return entry == 0; });
-}
-
 /// Returns true if P_VV and the couplings are functions of s².
 bool even(const KeptProblem& problem) {
   const auto hasNoOddPower = [](const Coupling& coupling) {
-    return zero(coupling.coefficients[1]) && coupling.error[1] == 0;
+    return linalg::isZero(coupling.coefficients[1]) && coupling.error[1] == 0;
   };
-  return zero(problem.matrices[1]) && std::ranges::all_of(problem.toLeftOut, hasNoOddPower) &&
+  return linalg::isZero(problem.matrices[1]) &&
+         std::ranges::all_of(problem.toLeftOut, hasNoOddPower) &&
          std::ranges::all_of(problem.fromLeftOut, hasNoOddPower);
 }
 
@@ -45,8 +42,6 @@ void add(ComplexMatrix& sum, const ComplexMatrix& more) {
   if (sum.empty()) sum = ComplexMatrix(more.rows(), more.columns());
   for (std::size_t i = 0; i < sum.size(); ++i) sum.data()[i] += more.data()[i];
 }
-
-double length(std::span<const Complex> x) { return std::sqrt(innerProduct(x, x).real()); }
 
 /// Returns the lengths of the rows.
 std::vector<double> rowLengths(const ComplexMatrix& a) {
@@ -234,7 +229,8 @@ Coupling condensed(const Coupling& part) {
   DenseMatrix columns;
   for (const auto& matrix : part.coefficients)
     for (PetscInt j = 0; j < matrix.columns(); ++j)
-      if (!zero(matrix.columnRange(j, j + 1))) columns.append(matrix.columnRange(j, j + 1));
+      if (!linalg::isZero(matrix.columnRange(j, j + 1)))
+        columns.append(matrix.columnRange(j, j + 1));
   if (columns.rows() <= columns.columns()) return part;
   const DenseMatrix r = linalg::triangularFactor(std::move(columns));
   Coupling result = part;
@@ -243,7 +239,7 @@ Coupling condensed(const Coupling& part) {
     if (matrix.empty()) continue;
     const DenseMatrix old = std::exchange(matrix, DenseMatrix(r.rows(), matrix.columns()));
     for (PetscInt j = 0; j < old.columns(); ++j)
-      if (!zero(old.columnRange(j, j + 1)))
+      if (!linalg::isZero(old.columnRange(j, j + 1)))
         std::ranges::copy(r.column(next++), matrix.column(j).begin());
   }
   return result;
@@ -293,7 +289,7 @@ void DiagonalForm::setCouplings(const KeptProblem& problem, const Vectors& vecto
                      ? ComplexMatrix()
                      : linalg::product(vectors.left, complexCopy(from[power], unit)));
   }
-  if (zero(to[0]) && (squared_ || zero(to[1]))) {
+  if (linalg::isZero(to[0]) && (squared_ || linalg::isZero(to[1]))) {
     // a(z) = z a_1: b takes the factor z, and a is constant.
     a_.erase(a_.begin());
     b_.insert(b_.begin(), ComplexMatrix());
@@ -325,9 +321,7 @@ std::vector<Complex> DiagonalForm::eigenvalues() const {
 }
 
 Complex DiagonalForm::outOfPlane(Complex z) const {
-  if (!squared_) return top_ * z;
-  const auto s = std::sqrt(z);
-  return top_ * (s.imag() < 0 ? -s : s);
+  return top_ * (squared_ ? linalg::rootOf(-z) : z);
 }
 
 }  // namespace squeal::proof

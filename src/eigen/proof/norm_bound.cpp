@@ -65,19 +65,19 @@ double largestEigenvalue(const linalg::ComplexMatrix& h) {
   std::vector<Complex> x(n), before(n), y(n);
   for (PetscBLASInt i = 0; i < n; ++i)
     x[i] = std::sqrt(std::max(h(i, i).real(), 0.0)) * (1 + 0.3 * std::sin(1.0 + i));
-  double length = std::sqrt(innerProduct(x, x).real());
+  double size = length(x);
   linalg::DenseMatrix tridiagonal(most, most);
   int steps = 0;
-  while (steps < most && length > (steps > 0 ? settled * tridiagonal(0, 0) : 0)) {
-    for (auto& entry : x) entry /= length;
+  while (steps < most && size > (steps > 0 ? settled * tridiagonal(0, 0) : 0)) {
+    for (auto& entry : x) entry /= size;
     zhemv_("L", &n, &one, h.data(), &n, x.data(), &step, &zero, y.data(), &step);
     const double diagonal = innerProduct(x, y).real();
     tridiagonal(steps, steps) = diagonal;
-    if (steps > 0) tridiagonal(steps, steps - 1) = length;
+    if (steps > 0) tridiagonal(steps, steps - 1) = size;
     for (PetscBLASInt i = 0; i < n; ++i)
-      y[i] -= diagonal * x[i] + (steps > 0 ? length : 0.0) * before[i];
+      y[i] -= diagonal * x[i] + (steps > 0 ? size : 0.0) * before[i];
     before = std::exchange(x, y);
-    length = std::sqrt(innerProduct(x, x).real());
+    size = length(x);
     ++steps;
   }
   if (steps == 0) return 0;

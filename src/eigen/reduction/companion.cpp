@@ -37,8 +37,6 @@ ComplexMatrix valueAt(const DenseProblem& problem, Complex shift) {
 
 }  // namespace
 
-double length(std::span<const Complex> x) { return std::sqrt(innerProduct(x, x).real()); }
-
 void normalise(ComplexMatrix& x) {
   for (PetscInt j = 0; j < x.columns(); ++j) {
     const double size = length(x.column(j));

@@ -13,8 +13,6 @@ namespace squeal::reduction {
 
 using linalg::ComplexMatrix;
 
-/// Returns the 2-norm.
-double length(std::span<const Complex> x);
 /// Scales each column to the 2-norm 1.
 void normalise(ComplexMatrix& x);
 /// Returns the rows [first, last).

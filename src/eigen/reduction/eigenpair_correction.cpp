@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "algebra/linalg/spread.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/log_events.hpp"
 #include "base/system/concatenation.hpp"
@@ -76,17 +77,12 @@ void share(MPI_Comm comm, const std::vector<CorrectionTask>& tasks,
 /// outcomes on all ranks, [group].
 std::vector<int> iterated(MPI_Comm comm, std::vector<OwnedGroup>& groups,
                           const std::vector<bool>& ended, bool forced) {
-  const int rank = mpi::rank(comm), ranks = mpi::size(comm);
   std::vector<int> outcomes(groups.size(), 0);
-  std::string failure;
-  for (std::size_t g = rank; g < groups.size() && failure.empty(); g += ranks)
-    if (!ended[groups[g].task]) try {
-        const LoggedWork logged(Work::denseEigenvalues);
-        outcomes[g] = static_cast<int>(groups[g].group.iterate(forced));
-      } catch (const Error& error) {
-        failure = error.what();
-      }
-  failTogether(comm, failure);
+  linalg::onOwners(comm, groups.size(), [&](std::size_t g) {
+    if (ended[groups[g].task]) return;
+    const LoggedWork logged(Work::denseEigenvalues);
+    outcomes[g] = static_cast<int>(groups[g].group.iterate(forced));
+  });
   mpi::reduce(comm, std::span(outcomes), MPI_MAX);
   return outcomes;
 }

@@ -28,16 +28,11 @@ std::vector<const linalg::DensePair*> pointers(const std::vector<linalg::DensePa
   return list;
 }
 
-/// Returns true if all entries are zero, for example because the factors of all damping terms are
-/// zero.
-bool isZero(const linalg::DenseView& a) {
-  return std::ranges::all_of(a.entries(), [](double entry) { return entry == 0; });
-}
-
 pencil::Symmetry symmetryOf(const linalg::DenseProblem& problem) {
-  return linalg::conservative(problem) ? pencil::Symmetry::conservative
-         : isZero(problem.damping)     ? pencil::Symmetry::even
-                                       : pencil::Symmetry::none;
+  // The factors of all damping terms may be zero.
+  return linalg::conservative(problem)     ? pencil::Symmetry::conservative
+         : linalg::isZero(problem.damping) ? pencil::Symmetry::even
+                                           : pencil::Symmetry::none;
 }
 
 double sum(const std::vector<double>& squares) {

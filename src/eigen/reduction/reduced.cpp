@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "algebra/linalg/spread.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/check.hpp"
 #include "eigen/reduction/free_modes.hpp"
@@ -236,17 +237,12 @@ std::vector<PointState> ReducedProblem::associatedStates(const std::vector<Point
 std::vector<std::vector<double>> ReducedProblem::associatedEigenvalues(
     const std::vector<PointState>& states) const {
   const MPI_Comm comm = basis().comm();
-  const int rank = mpi::rank(comm), ranks = mpi::size(comm);
   std::vector<std::vector<double>> values(states.size());
-  std::string failure;
-  for (std::size_t i = rank; i < states.size() && failure.empty(); i += ranks) try {
-      linalg::DenseProblem problem = basis_.project(states[i]);
-      values[i] =
-          linalg::symmetricEigenvalues(std::move(problem.stiffness), std::move(problem.mass));
-    } catch (const Error& error) {
-      failure = error.what();
-    }
-  failTogether(comm, failure);
+  linalg::onOwners(comm, states.size(), [&](std::size_t i) {
+    linalg::DenseProblem problem = basis_.project(states[i]);
+    values[i] = linalg::symmetricEigenvalues(std::move(problem.stiffness), std::move(problem.mass));
+  });
+  const int ranks = mpi::size(comm);
   for (std::size_t i = 0; i < states.size(); ++i) mpi::broadcast(comm, values[i], i % ranks);
   return values;
 }

@@ -64,12 +64,25 @@ DenseMatrix orthonormal(DenseMatrix columns) {
   return columns;
 }
 
-/// Returns the root of s² = −1/t in the closed first quadrant, for Im t ≥ 0.
-Complex rootOf(Complex t) {
-  if (t.imag() == 0)
-    return t.real() > 0 ? Complex(0, 1 / std::sqrt(t.real())) : Complex(1 / std::sqrt(-t.real()));
-  const Complex s = std::sqrt(-1.0 / t);
-  return {std::abs(s.real()), std::abs(s.imag())};
+/// Appends a vector, or without `isReal` its real and its imaginary part.
+void append(const std::vector<Complex>& vector, bool isReal, DenseMatrix& columns) {
+  const PetscInt first = columns.columns();
+  columns.resizeColumns(first + (isReal ? 1 : 2));
+  for (std::size_t i = 0; i < vector.size(); ++i) {
+    columns(i, first) = vector[i].real();
+    if (!isReal) columns(i, first + 1) = vector[i].imag();
+  }
+}
+
+/// Returns the vector of a pair, of 2-norm 1.
+std::vector<Complex> vectorOf(const Leading& pair, const Side& side) {
+  std::vector<Complex> vector(side.vectors.rows());
+  for (std::size_t i = 0; i < vector.size(); ++i)
+    vector[i] = {side.vectors(i, pair.column),
+                 pair.isReal() ? 0.0 : side.vectors(i, pair.column + 1)};
+  const double size = length(vector);
+  for (auto& entry : vector) entry /= size;
+  return vector;
 }
 
 /// The watched pairs of a problem while they are improved.
@@ -119,12 +132,12 @@ class Correction {
     DenseMatrix leftImages = linalg::transposedProduct(problem_.mass, test);
     factors_.solve(leftImages, true);
     const auto ritz = linalg::standard(std::move(projected), linalg::Vectors::both, [&](Complex t) {
-      return t != 0.0 && t.imag() >= 0 && watched_(rootOf(t));
+      return t != 0.0 && t.imag() >= 0 && watched_(linalg::rootOf(1.0 / t));
     });
     std::vector<Leading> next;
     DenseMatrix right(trial.columns()), left(test.columns());
     for (const auto& [t, q, y] : ritz) {
-      next.push_back({.s = rootOf(t), .column = right.columns()});
+      next.push_back({.s = linalg::rootOf(1.0 / t), .column = right.columns()});
       append(q, next.back().isReal(), right);
       append(y, next.back().isReal(), left);
     }
@@ -155,27 +168,6 @@ class Correction {
   }
 
  private:
-  void append(const std::vector<Complex>& vector, bool isReal, DenseMatrix& columns) const {
-    const PetscInt first = columns.columns();
-    columns.resizeColumns(first + (isReal ? 1 : 2));
-    for (std::size_t i = 0; i < vector.size(); ++i) {
-      columns(i, first) = vector[i].real();
-      if (!isReal) columns(i, first + 1) = vector[i].imag();
-    }
-  }
-
-  std::vector<Complex> vectorOf(const Leading& pair, const Side& side) const {
-    std::vector<Complex> vector(side.vectors.rows());
-    double sum = 0;
-    for (std::size_t i = 0; i < vector.size(); ++i) {
-      vector[i] = {side.vectors(i, pair.column),
-                   pair.isReal() ? 0.0 : side.vectors(i, pair.column + 1)};
-      sum += std::norm(vector[i]);
-    }
-    for (auto& entry : vector) entry /= std::sqrt(sum);
-    return vector;
-  }
-
   void set(DenseMatrix right, DenseMatrix left) {
     right_.stiffness = linalg::product(problem_.stiffness, right);
     right_.mass = linalg::product(problem_.mass, right);

@@ -8,6 +8,7 @@
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/columns.hpp"
 #include "algebra/linalg/null_vectors.hpp"
+#include "algebra/linalg/spread.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
 #include "eigen/sweep/parameters.hpp"
@@ -167,12 +168,12 @@ class NullIteration {
   /// over the ranks, and all ranks get the same results, so round-off cannot make them disagree.
   std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values,
                                                 bool simple) const {
-    const int rank = mpi::rank(pencil_.comm()), ranks = mpi::size(pencil_.comm());
     std::vector<std::vector<Complex>> vectors(values.size(), std::vector<Complex>(size_));
-    for (std::size_t i = rank; i < values.size(); i += ranks) {
+    linalg::onOwners(pencil_.comm(), values.size(), [&](std::size_t i) {
       auto [right, left] = linalg::nullVectors(projected_, values[i], simple);
       vectors[i] = std::move(side_ == pencil::Side::left ? left : right);
-    }
+    });
+    const int ranks = mpi::size(pencil_.comm());
     for (std::size_t i = 0; i < values.size(); ++i)
       mpi::broadcastEntries<Complex>(pencil_.comm(), vectors[i], i % ranks);
     return vectors;

@@ -1,44 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/subspace/mode_count.hpp"
 
-#include <petscblaslapack.h>
-
 #include <algorithm>
 
 #include "algebra/linalg/block.hpp"
-#include "algebra/linalg/lapack.hpp"
 #include "algebra/linalg/symmetric.hpp"
-#include "base/petsc/check.hpp"
 
 namespace squeal::subspace {
 
 using linalg::DenseMatrix;
-
-namespace {
-
-/// Returns the number of negative eigenvalues of a matrix that is symmetric within round-off, from
-/// the factors of Bunch and Kaufman: a block of order 2 has one. Throws Error if LAPACK fails.
-int countNegative(const DenseMatrix& a) {
-  DenseMatrix factors = linalg::symmetricPart(a);
-  PetscBLASInt order = factors.rows(), info = 0;
-  std::vector<PetscBLASInt> pivots(order);
-  linalg::callWithWork([&](double* work, PetscBLASInt length) {
-    LAPACKsytrf_("L", &order, factors.data(), &order, pivots.data(), work, &length, &info);
-  });
-  if (info < 0) throw Error("LAPACK dsytrf failed");
-  int count = 0;
-  for (PetscInt i = 0; i < order; ++i) {
-    if (pivots[i] > 0) {
-      if (factors(i, i) < 0) ++count;
-    } else {
-      ++count;
-      ++i;
-    }
-  }
-  return count;
-}
-
-}  // namespace
 
 ModeCount::ModeCount(const Basis& basis, const modes::Modes& modes, Mat mass)
     : lambda_(modes.lambda),
@@ -91,7 +61,7 @@ std::optional<int> ModeCount::below(double sigma, const std::vector<PetscInt>& o
   const double factor = sigma * sigma / (1 - sigma / complete_);
   for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < n; ++i) most(i, j) -= factor * rest_(own[i], own[j]);
-  const int bounds[] = {countNegative(std::move(least)), countNegative(std::move(most))};
+  const int bounds[] = {linalg::negativeEigenvalues(least), linalg::negativeEigenvalues(most)};
   if (bounds[0] != bounds[1]) return {};
   return interior + bounds[0];
 }

@@ -29,10 +29,6 @@ inline linalg::DenseMatrix diagonal(std::span<const double> entries) {
 
 inline linalg::DenseMatrix identity(PetscInt n) { return diagonal(std::vector<double>(n, 1.0)); }
 
-inline linalg::DenseMatrix transposed(const linalg::DenseMatrix& a) {
-  return linalg::transposedProduct(a, identity(a.rows()));
-}
-
 /// Returns a pseudo-random number between −1 and 1.
 inline double uniform(std::mt19937& generator) { return 2.0 * generator() / 4294967295.0 - 1; }
 

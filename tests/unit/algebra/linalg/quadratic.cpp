@@ -31,7 +31,7 @@ TEST(Quadratic, GyroscopicForcesDoNoWork) {
   std::mt19937 generator(6);
   const DenseMatrix any = test::randomMatrix(m, m, generator);
   DenseProblem problem{identity(m), any, DenseMatrix(m, m)};
-  linalg::addScaled(problem.damping, -1, test::transposed(any));
+  linalg::addScaled(problem.damping, -1, linalg::transposed(any));
   for (PetscInt j = 0; j < m; ++j) problem.stiffness(j, j) = 1 + j * j;
   const auto pairs = solveQuadratic(problem);
   EXPECT_EQ(std::ssize(pairs), m);
@@ -45,7 +45,7 @@ DenseMatrix reflected(const std::vector<double>& d, std::mt19937 generator) {
   const DenseMatrix v = test::randomMatrix(m, 1, generator);
   const double square = linalg::transposedProduct(v, v)(0, 0);
   DenseMatrix q = identity(m);
-  linalg::multiplyAdd(v, test::transposed(v), q, -2 / square);
+  linalg::multiplyAdd(v, linalg::transposed(v), q, -2 / square);
   return linalg::congruent(test::diagonal(d), q);
 }
 
