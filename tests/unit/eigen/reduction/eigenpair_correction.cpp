@@ -8,6 +8,7 @@
 #include "eigen/reduction/missing.hpp"
 #include "support/algebra/dense.hpp"
 #include "support/algebra/quadratic.hpp"
+#include "support/eigen/modal_brake.hpp"
 #include "support/eigen/spectrum.hpp"
 
 namespace squeal::test {
@@ -22,28 +23,7 @@ constexpr double top = 20;
 
 bool inBand(Complex s) { return std::abs(s) <= top; }
 
-/// Returns a problem like one in a basis that is orthonormal in energy, of modes with the
-/// frequencies 1, 2, …: K = I and M = diag(1/ω²), with friction in K and Z that couples all.
-DenseProblem brake(double friction) {
-  std::mt19937 generator(5);
-  DenseProblem problem{DenseMatrix(order, order), randomMatrix(order, order, generator),
-                       randomMatrix(order, order, generator)};
-  for (PetscInt j = 0; j < order; ++j)
-    for (PetscInt i = 0; i < order; ++i) {
-      problem.stiffness(i, j) = (i == j ? 1 : 0) + friction * problem.stiffness(i, j);
-      problem.damping(i, j) *= friction / 30;
-      problem.mass(i, j) = i == j ? 1 / std::pow(i + 1.0, 2) : 0;
-    }
-  return problem;
-}
-
-/// Returns the problem of the first unknowns.
-DenseProblem leading(const DenseProblem& problem, PetscInt size) {
-  const auto part = [&](const DenseMatrix& a) {
-    return linalg::rowRange(a.columnRange(0, size), 0, size);
-  };
-  return {part(problem.mass), part(problem.damping), part(problem.stiffness)};
-}
+DenseProblem brake(double friction) { return modalBrake(order, friction, Damping::random); }
 
 std::vector<DensePair> pairsOf(const DenseProblem& problem) {
   return linalg::solveQuadratic(problem, linalg::Vectors::both,

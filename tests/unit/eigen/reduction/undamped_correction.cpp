@@ -5,17 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "eigen/reduction/spectrum.hpp"
-#include "support/algebra/dense.hpp"
 #include "support/algebra/quadratic.hpp"
+#include "support/eigen/modal_brake.hpp"
 #include "support/eigen/spectrum.hpp"
 
 namespace squeal::test {
 namespace {
 
-using linalg::DenseMatrix;
 using linalg::DensePair;
 using linalg::DenseProblem;
 
@@ -29,25 +26,8 @@ pencil::WatchedBand band() {
 
 bool isWatched(Complex s) { return band().watches(s); }
 
-/// Returns a problem like one in a basis that is orthonormal in energy, of modes with the
-/// frequencies 1, 2, …: K = I and M = diag(1/ω²), with friction in K that couples all.
 DenseProblem brake(PetscInt order, double friction) {
-  std::mt19937 generator(5);
-  DenseProblem problem{DenseMatrix(order, order), {}, randomMatrix(order, order, generator)};
-  for (PetscInt j = 0; j < order; ++j)
-    for (PetscInt i = 0; i < order; ++i) {
-      problem.stiffness(i, j) = (i == j ? 1 : 0) + friction * problem.stiffness(i, j);
-      problem.mass(i, j) = i == j ? 1 / std::pow(i + 1.0, 2) : 0;
-    }
-  return problem;
-}
-
-/// Returns the problem of the first unknowns.
-DenseProblem leading(const DenseProblem& problem, PetscInt size) {
-  const auto part = [&](const DenseMatrix& a) {
-    return linalg::rowRange(a.columnRange(0, size), 0, size);
-  };
-  return {part(problem.mass), {}, part(problem.stiffness)};
+  return modalBrake(order, friction, Damping::none);
 }
 
 std::vector<DensePair> pairsOf(const DenseProblem& problem) {
