@@ -60,7 +60,7 @@ std::vector<DensePair> disturbed(double error) {
       vector->resize(order);
       for (auto& entry : *vector) entry = error * Complex(uniform(generator), uniform(generator));
       (*vector)[j] = 1;
-      const double size = reduction::length(*vector);
+      const double size = length(*vector);
       for (auto& entry : *vector) entry /= size;
     }
   }
@@ -130,8 +130,8 @@ void expectImproved(const std::vector<std::size_t>& members, double part, Outcom
                  left = residualOf(problem, before[j], true);
     reached = reached && residualOf(problem, pairs[j], false) <= part * right &&
               residualOf(problem, pairs[j], true) <= part * left;
-    EXPECT_NEAR(reduction::length(pairs[j].q), 1, 1e-14);
-    EXPECT_NEAR(reduction::length(pairs[j].left), 1, 1e-14);
+    EXPECT_NEAR(length(pairs[j].q), 1, 1e-14);
+    EXPECT_NEAR(length(pairs[j].left), 1, 1e-14);
     double least = INFINITY;
     for (PetscInt k = 0; k < order; ++k)
       if (k != PetscInt(j))
