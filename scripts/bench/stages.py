@@ -22,6 +22,7 @@ for run, floor in zip(runs, floors):
             "floor": floor,
             "free vibration": vibration,
             "free vibration / floor": vibration / floor,
+            "steady / floor": stages["steady"] / floor,
             "whole run": whole,
             "whole run / floor": whole / floor,
             "memory, GB": 1e-9 * memory,
@@ -36,4 +37,8 @@ for name in rows[0]:
 print(
     "real solves for corrections and error estimates:"
     f" {sum(entry['solves'] for entry in first['active_sets'])}"
+)
+print(
+    "sparse work: "
+    + ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in first["sparse_work"].items())
 )

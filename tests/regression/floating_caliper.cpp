@@ -87,6 +87,27 @@ TEST(FloatingCaliper, SameOnAllRanks) {
   expectSameOnAllRanks(name, brake.fromGeometry(), 120, 12, brake.fromMesh());
 }
 
+// Three active sets, each with its own open nodes. One factorisation serves the steady states and
+// one condenses them to the contact; the sets share a reference, its modes with their second pole,
+// and the count. K and M are projected with all contact closed and all contact open. The right-hand
+// sides are those of contact, modes, constraint modes and corrections: 844 were measured, and their
+// number varies with round-off by some blocks of corrections.
+TEST(FloatingCaliper, ActiveSetsShareTheirFactors) {
+  const ProgramRun run = runProgram("floating_caliper/shared", 2,
+                                    brake.fromMesh() +
+                                        " -flutter_friction 0,0.3,0.6 -flutter_track off "
+                                        "-report_fields off",
+                                    120);
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  const auto summary = nlohmann::json::parse(contentOf(run.folder / "summary.json"));
+  EXPECT_EQ(summary.at("active_sets").size(), 3u);
+  const auto& work = summary.at("sparse_work");
+  EXPECT_EQ(work.at("factorisations"), 5);
+  EXPECT_EQ(work.at("projections"), 4);
+  EXPECT_LE(work.at("right_hand_sides"), 900);
+  EXPECT_EQ(summary.at("stages").at("modes").at("factorisations"), 2);
+}
+
 // A hub on a bearing, guide pins bolted to the bracket, and bushings between pins and caliper.
 TEST(FloatingCaliper, JointsAreTheSameOnAllRanks) {
   expectSameOnAllRanks(joints, jointed.fromGeometry(), 120, 12);

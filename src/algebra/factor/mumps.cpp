@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/options/options.hpp"
+#include "base/petsc/log_events.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/memory.hpp"
 #include "base/system/mpi.hpp"
@@ -183,6 +184,7 @@ void MumpsFactor::fitIntoMemory() {
 std::string MumpsFactor::factorise(Mat matrix) {
   if (matrix && !hasEntries_) setEntries(matrix);
   fitIntoMemory();
+  ++sparseWork().factorisations;
   call(factorisation);
   for (const int percent : workspaces) {
     if (infog(1) != -8 && infog(1) != -9) break;
@@ -198,6 +200,7 @@ std::string MumpsFactor::factorise(Mat matrix) {
 
 void MumpsFactor::solve(const double* b, double* x, PetscInt columns) {
   if (columns == 0) return;
+  sparseWork().rightHandSides += columns;
   id_.nrhs = columns;
   if (ranks_ == 1) {
     icntl(20) = icntl(21) = 0;

@@ -73,37 +73,6 @@ OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block) {
   return matrix;
 }
 
-void appendProduct(Mat matrix, const DenseView& x, Block& result) {
-  const LoggedWork work(Work::blockProduct);
-  PetscInt rows = 0, length = 0;
-  check(MatGetSize(matrix, &rows, &length));
-  const PetscInt first = result.columns(), count = x.columns();
-  if (count == 0) return;
-  result.resizeColumns(first + count);
-  if (rows == 0) return;
-  const MPI_Comm comm = commOf(matrix);
-  const OwnedMat from = borrowed(comm, length, x),
-                 to = borrowed(comm, rows, result.columnRange(first, first + count));
-  PetscBool assembled = PETSC_FALSE;
-  check(MatHasOperation(matrix, MATOP_GET_ROW, &assembled));
-  if (assembled) {
-    check(MatProductCreateWithMat(matrix, from, nullptr, to));
-    check(MatProductSetType(to, MATPRODUCT_AB));
-    check(MatProductSetFromOptions(to));
-    check(MatProductSymbolic(to));
-    check(MatProductNumeric(to));
-    return;
-  }
-  for (PetscInt j = 0; j < count; ++j) {
-    Vec column = nullptr, product = nullptr;
-    check(MatDenseGetColumnVecRead(from, j, &column));
-    check(MatDenseGetColumnVecWrite(to, j, &product));
-    check(MatMult(matrix, column, product));
-    check(MatDenseRestoreColumnVecWrite(to, j, &product));
-    check(MatDenseRestoreColumnVecRead(from, j, &column));
-  }
-}
-
 RowSet::RowSet(Mat matrix) {
   PetscInt end = 0;
   check(MatGetOwnershipRange(matrix, &firstRow_, &end));

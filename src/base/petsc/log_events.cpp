@@ -57,4 +57,9 @@ Traffic trafficSoFar() {
           petsc_allreduce_ct + mpi::reductionsSoFar()};
 }
 
+SparseWork& sparseWork() {
+  static SparseWork work;
+  return work;
+}
+
 }  // namespace squeal

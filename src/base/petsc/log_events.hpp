@@ -53,4 +53,13 @@ struct Traffic {
 /// Not collective.
 Traffic trafficSoFar();
 
+/// Work with sparse matrices so far that determines the cost of a run; the same on all ranks.
+struct SparseWork {
+  long factorisations = 0;  ///< by MUMPS
+  long rightHandSides = 0;  ///< solved for with a factor of MUMPS
+  long projections = 0;     ///< products Tᵀ X T with the transformation T of the contact
+};
+/// Not collective. Returns the record, to which the author of such work adds it.
+SparseWork& sparseWork();
+
 }  // namespace squeal

@@ -42,6 +42,7 @@ Stage::Stage(MPI_Comm comm, std::string name)
       begin_(MPI_Wtime()),
       lastProgress_(begin_),
       before_(trafficSoFar()),
+      workBefore_(sparseWork()),
       logged_(name_) {
   logEvent("stage_begin", {{"stage", name_}});
   showStage(name_);
@@ -76,12 +77,16 @@ void Stage::finish(const std::string& result) {
   const double reductions = mpi::max(comm_, now.reductions - before_.reductions);
   auto known = std::find_if(records().begin(), records().end(),
                             [&](const auto& record) { return record.name == name_; });
-  if (known == records().end()) known = records().insert(known, {name_, 0, 0, {}});
+  if (known == records().end()) known = records().insert(known, {name_, 0, 0, {}, {}});
   known->seconds += seconds;
   known->peakMemoryBytes = sums[0];
   known->traffic.messages += sums[1];
   known->traffic.bytes += sums[2];
   known->traffic.reductions += reductions;
+  const SparseWork& work = sparseWork();
+  known->work.factorisations += work.factorisations - workBefore_.factorisations;
+  known->work.rightHandSides += work.rightHandSides - workBefore_.rightHandSides;
+  known->work.projections += work.projections - workBefore_.projections;
   logEvent(
       "stage_end",
       {{"stage", name_}, {"seconds", seconds}, {"peak_memory_bytes", sums[0]}, {"result", result}});

@@ -21,6 +21,7 @@ struct StageRecord {
   /// Messages sent by PETSc and this program, and their bytes, summed over the ranks; reductions
   /// and broadcasts, maximum over the ranks. Those of MUMPS do not count.
   Traffic traffic;
+  SparseWork work;
 };
 
 /// A stage of the method, from construction to finish(), and of PETSc's log. Only finish() is
@@ -43,6 +44,7 @@ class Stage {
   std::string name_;
   double begin_, lastProgress_;
   Traffic before_;
+  SparseWork workBefore_;
   std::optional<LoggedStage> logged_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/petsc/log_events.hpp"
 #include "base/petsc/matrix.hpp"
 #include "base/system/error.hpp"
 #include "base/system/mpi.hpp"
@@ -19,6 +20,7 @@ OwnedMat Projection::friction(Mat slipRows) const {
 Projection project(const Contact& contact, const Transformation& transformation, Mat x) {
   Projection projection;
   if (!x) return projection;
+  ++sparseWork().projections;
   OwnedMat xt;
   check(MatMatMult(x, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, xt.out()));
   check(MatTransposeMatMult(transformation.trial, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,

@@ -262,7 +262,13 @@ Json contactEventEntry(const contact::Contact& contact, const analysis::PathEven
           {"change", event.opens ? "opens" : "closes"}};
 }
 
-/// Adds the cost of each stage, and the total time.
+Json sparseWorkEntry(const SparseWork& work) {
+  return {{"factorisations", work.factorisations},
+          {"right_hand_sides", work.rightHandSides},
+          {"projections", work.projections}};
+}
+
+/// Adds the cost of each stage, the sparse work of all, and the total time.
 void addStages(Json& summary) {
   double total = 0;
   for (const auto& record : stageRecords()) {
@@ -271,9 +277,11 @@ void addStages(Json& summary) {
                                       {"messages", record.traffic.messages},
                                       {"message_bytes", record.traffic.bytes},
                                       {"reductions", record.traffic.reductions}};
+    summary["stages"][record.name].update(sparseWorkEntry(record.work));
     total += record.seconds;
   }
   summary["wall_s"] = total;
+  summary["sparse_work"] = sparseWorkEntry(sparseWork());
 }
 
 Json verdictEntry(const RunVerdict& verdict) {

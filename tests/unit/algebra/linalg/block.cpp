@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -98,6 +99,62 @@ TEST(Block, AppendsTheProductsOfAMatrix) {
       wanted.append(image);
       expectNear(result, layout.local(wanted), 1e-12);
     }
+  }
+}
+
+/// Returns the entry (i, j) of a matrix with a row in three without entries.
+double sparseEntry(PetscInt i, PetscInt j) {
+  return i % 3 == 1 || (i + 2 * j) % 4 == 0 ? 0 : std::sin(1.0 + i + 10 * j);
+}
+
+// Columns that fill several tiles and a part of one. The sums have at most `size` products of
+// numbers up to 1, so that 1e-14 is some ten units of round-off.
+TEST(Block, AppendsProductsOfManyColumns) {
+  DenseMatrix a(size, size);
+  for (PetscInt j = 0; j < size; ++j)
+    for (PetscInt i = 0; i < size; ++i) a(i, j) = sparseEntry(i, j);
+  for (const Layout& layout : layouts()) {
+    OwnedMat matrix;
+    const PetscInt local = layout.end - layout.first;
+    check(MatCreateAIJ(PETSC_COMM_WORLD, local, local, size, size, size, nullptr, size, nullptr,
+                       matrix.out()));
+    for (PetscInt i = layout.first; i < layout.end; ++i)
+      for (PetscInt j = 0; j < size; ++j)
+        if (a(i, j) != 0) check(MatSetValue(matrix, i, j, a(i, j), INSERT_VALUES));
+    check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+    for (const PetscInt count : {1, 8, 15, 24, 32, 77}) {
+      const DenseMatrix x = columns(count, 6);
+      Block result(local);
+      linalg::appendProduct(matrix, layout.local(x), result);
+      expectNear(result, layout.local(linalg::product(a, x)), 1e-14);
+    }
+  }
+}
+
+// The unknowns of other ranks that a product needs are known from the last one, until the pattern
+// of the matrix changes.
+TEST(Block, ProductsFollowThePatternOfTheMatrix) {
+  const DenseMatrix x = columns(5, 7);
+  const Layout layout = layouts().back();
+  const PetscInt local = layout.end - layout.first;
+  OwnedMat matrix;
+  check(MatCreateAIJ(PETSC_COMM_WORLD, local, local, size, size, size, nullptr, size, nullptr,
+                     matrix.out()));
+  check(MatSetOption(matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  DenseMatrix a(size, size);
+  for (PetscInt shift = 0; shift < 3; ++shift) {  // first the diagonal, then neighbours
+    for (PetscInt i = 0; i < size; ++i) {
+      const PetscInt j = (i + 2 * shift) % size;
+      a(i, j) += 1 + i + shift;
+      if (i >= layout.first && i < layout.end)
+        check(MatSetValue(matrix, i, j, 1 + i + shift, ADD_VALUES));
+    }
+    check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+    Block result(local);
+    linalg::appendProduct(matrix, layout.local(x), result);
+    expectNear(result, layout.local(linalg::product(a, x)), 1e-13);
   }
 }
 
