@@ -113,8 +113,9 @@ SUMMARY = {
     "active_sets": [],
     "stages": {
         name: {"wall_s": 1.0, "peak_memory_bytes": 1}
-        for name in ("factor", "modes", "flutter", "elasticity")
+        for name in ("factor", "steady", "modes", "flutter", "elasticity")
     },
+    "sparse_work": {"factorisations": 2, "right_hand_sides": 30, "projections": 4},
 }
 RUN = """#!/usr/bin/python3
 import json, os, sys
@@ -158,6 +159,7 @@ class Benchmark(unittest.TestCase):
                     cwd=place,
                 )
                 self.assertIn("this run", run.stdout)
+                self.assertIn("2 factorisations, 30 right hand sides, 4 proj", run.stdout)
                 self.assertNotIn("an earlier run", run.stdout)
             self.assertFalse((place / "first").exists())
 
