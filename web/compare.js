@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 "use strict";
-// Starts the page that lays variants over each other. All numbers come from the tables of the runs
-// and from squeal.variants.
+// Starts the page that draws variants in the same diagrams. All numbers come from the tables of the
+// runs and from squeal.variants.
 
 const across = data.swept.includes("friction") || !data.swept.length ? "friction" : data.swept[0];
 const others = data.parameters.filter((name) => name !== across);

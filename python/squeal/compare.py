@@ -218,7 +218,7 @@ def write(path, text):
     return Folder(path.parent).save_text(path.name, text)
 
 
-HELP = """squeal-compare DIR DIR...: lays the results of variants of a brake over each other.
+HELP = """squeal-compare DIR DIR...: draws the results of variants of a brake in the same diagrams.
 
 Each folder DIR holds the complete results of one variant; the first one is the reference for all
 differences. The page FILE opens in any browser without a network: damping ratio over frequency,

@@ -14,9 +14,9 @@ namespace squeal::proof {
 using Coefficients = std::array<linalg::DenseMatrix, 3>;
 
 /// A majorant of a block that couples V and C. For P_CV it is F(s) = Σ sᵏ F_k, rows × N, with
-///   P_CV(s) = X F(s) + remainder,   ‖X‖ ≤ 1,   ‖remainder‖ ≤ Σ |s|ᵏ e_k,
-/// where X does not depend on s. For P_VC it is E(s), N × columns, with P_VC(s) = E(s) X +
-/// remainder. The exact block is its own majorant, with X = 1.
+///   P_CV(s) = W F(s) + remainder,   ‖W‖ ≤ 1,   ‖remainder‖ ≤ Σ |s|ᵏ e_k,
+/// where W does not depend on s. For P_VC it is E(s), N × columns, with P_VC(s) = E(s) W +
+/// remainder. The exact block is its own majorant, with W = 1.
 struct Coupling {
   Coefficients coefficients;         ///< F_k or E_k
   std::array<double, 3> error = {};  ///< e_k
@@ -24,7 +24,7 @@ struct Coupling {
 
 /// The blocks of P(s) on V and between V and C. C is orthogonal to V in the energy K0, and its
 /// coordinates are orthonormal in it. The coordinates of V are arbitrary; the remainders of
-/// couplings refer to them. Each part of a coupling has an X of its own.
+/// couplings refer to them. Each part of a coupling has a W of its own.
 struct KeptProblem {
   Coefficients matrices;              ///< of P_VV, N × N
   std::vector<Coupling> toLeftOut;    ///< parts of P_CV, rows × N

@@ -20,8 +20,8 @@ const FlagOption fullOption(
     "solution for steady sliding in all unknowns, as a check; off: in the unknowns of the contact");
 const IntegerOption pathOption(
     "steady", "steady_path", 20, 0, 1'000'000,
-    "largest number of contact nodes that differ between two points of a sweep if the program "
-    "locates each opening and closing between them; 0 = no search");
+    "largest number of contact nodes that differ between two points of a sweep for which the "
+    "program locates each opening and closing; 0 = no search");
 const IntegerOption releasedOption("flutter", "flutter_released", 150, 0, 100'000,
                                    "largest number of contact nodes in which active sets with a "
                                    "common factorisation and basis differ; 0 = no sharing");

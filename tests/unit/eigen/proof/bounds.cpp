@@ -121,7 +121,7 @@ linalg::DenseMatrix ofNorm(double size, PetscInt m, PetscInt n, std::mt19937& ge
   return a;
 }
 
-// The true couplings are X F + X' F' + remainder, with contractions and remainders that the bound
+// The true couplings are W F + W' F' + remainder, with contractions W and remainders that the bound
 // does not know: each draw stays below it.
 TEST(Bounds, HoldForAllCouplingsWithTheMajorants) {
   std::mt19937 generator(9);
@@ -145,7 +145,7 @@ TEST(Bounds, HoldForAllCouplingsWithTheMajorants) {
     auto truth = split.problem;
     auto& coupling = truth.toLeftOut[0].coefficients[2];
     const PetscInt rows = exact.rows();
-    // The identity in one draw: X F + X F has twice the norm of F, [F; F] only √2 times.
+    // The identity in one draw: W F + W F has twice the norm of F, [F; F] only √2 times.
     const auto contraction = [&] {
       return i == 0 ? test::identity(rows) : ofNorm(1, rows, rows, generator);
     };
