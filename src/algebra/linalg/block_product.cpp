@@ -203,10 +203,13 @@ void multiplyColumns(Mat matrix, const OwnedMat& from, const OwnedMat& to, Petsc
 
 void appendProduct(Mat matrix, const DenseView& x, Block& result) {
   const LoggedWork work(Work::blockProduct);
-  PetscInt rows = 0, length = 0;
+  PetscInt rows = 0, length = 0, localRows = 0, localLength = 0;
   check(MatGetSize(matrix, &rows, &length));
+  check(MatGetLocalSize(matrix, &localRows, &localLength));
   const PetscInt first = result.columns(), count = x.columns();
   if (count == 0) return;
+  ensure(x.rows() == localLength && result.rows() == localRows,
+         "the blocks of a product have the rows of the matrix on this rank");
   result.resizeColumns(first + count);
   if (rows == 0) return;
   Parts parts;
