@@ -96,6 +96,9 @@ add_test(NAME regression/resume_anywhere COMMAND ${CMAKE_COMMAND} -E env SQUEAL_
   Resumed.test_random_moments)
 set_tests_properties(regression/resume_anywhere PROPERTIES LABELS long TIMEOUT 3600 PROCESSORS 2)
 
+# The proof that the lists of eigenvalues are complete.
+python_test(regression/proof scripts/test_proof.py ${program} ${mpiexec_script} LABELS regression)
+
 # Folders of results that a run refuses.
 python_test(regression/folders scripts/test_folders.py ${program} ${mpiexec_script}
   LABELS regression)

@@ -15,6 +15,7 @@ from squeal.schema import TABLES as SCHEMA
 TABLES = (
     "eigenvalues",
     "stability_map",
+    "proof",
     "branches",
     "critical",
     "critical_sensitivities",

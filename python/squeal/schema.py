@@ -122,6 +122,7 @@ TABLES = {
             number("damping_ratio", least=-1, most=1, empty=True, open=True, read=False),
             number("backward_error", least=0, open=True, read=False),
             number("error_estimate", least=0, open=True, read=False),
+            *numbers("radius_1_per_s", empty=True, read=False, **SIZE),
             flag("certified", read=False),
             word("verdict", *VERDICTS),
             flag("unstable"),
@@ -142,6 +143,17 @@ TABLES = {
         together=(
             ("unstable_modes", "verdict", "undecided_modes"),
             ("largest_growth_rate_1_per_s", "frequency_hz"),
+        ),
+    ),
+    "proof": Table(
+        (
+            *POINT,
+            flag("complete", read=False),
+            flag("count_proved", read=False),
+            whole("eigenvalues", read=False),
+            *numbers("top_hz ratio definiteness", open=True, read=False),
+            *(whole(name, read=False) for name in ("discs", "without_disc", "missing")),
+            word("reason", empty=True, read=False),
         ),
     ),
     "branches": Table(

@@ -85,6 +85,23 @@ DenseMatrix symmetricPart(const DenseView& a) {
   return s;
 }
 
+DenseMatrix choleskyFactor(DenseMatrix a) {
+  PetscBLASInt n = a.rows(), info = 0;
+  if (n > 0) LAPACKpotrf_("L", &n, a.data(), &n, &info);
+  if (info != 0) throw Error("a matrix that should be positive definite is not");
+  for (PetscInt j = 1; j < n; ++j) std::ranges::fill(a.column(j).first(j), 0.0);
+  return a;
+}
+
+DenseMatrix inverseTransposed(const DenseMatrix& factor) {
+  PetscBLASInt n = factor.rows();
+  const PetscScalar one = 1;
+  DenseMatrix result(n, n);
+  for (PetscInt i = 0; i < n; ++i) result(i, i) = 1;
+  if (n > 0) BLAStrsm_("L", "L", "T", "N", &n, &n, &one, factor.data(), &n, result.data(), &n);
+  return result;
+}
+
 int negativeEigenvalues(const DenseView& a) {
   DenseMatrix factors = symmetricPart(a);
   PetscBLASInt order = factors.rows(), info = 0;

@@ -22,6 +22,12 @@ std::vector<double> symmetricEigen(DenseMatrix& a);
 /// and if B is not positive definite.
 std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b);
 
+/// Returns L of A = L Lᵀ, lower triangular, for a symmetric positive definite A. Reads only its
+/// lower triangle. Throws Error if A is not positive definite.
+DenseMatrix choleskyFactor(DenseMatrix a);
+/// Returns L⁻ᵀ.
+DenseMatrix inverseTransposed(const DenseMatrix& factor);
+
 /// Returns the number of negative eigenvalues of a matrix that is symmetric within round-off, by an
 /// LDLᵀ factorisation. Throws Error if LAPACK fails.
 int negativeEigenvalues(const DenseView& a);

@@ -91,17 +91,15 @@ bool countAgrees(const Modes& modes) {
          std::ranges::count_if(modes.lambda, below) == modes.inertiaCount;
 }
 
-/// Collective. Counts the eigenvalues below a shift in the gap of modesBelowGap(), unless an
-/// existing count already agrees.
-void confirmCount(Mat k, Mat m, Modes& modes) {
+/// Collective. Counts the eigenvalues below a shift near the top, unless an existing count already
+/// agrees.
+void confirmCount(const factor::AssociatedSystem& system, Modes& modes) {
   modes.countConfirmed = countAgrees(modes);
   if (modes.lambda.empty() || modes.countConfirmed) return;
-  const auto& w = modes.angularFrequency;
-  const int below = modesBelowGap(w);
-  modes.inertiaShift =
-      below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
-  modes.inertiaCount = factor::shiftedFactor(k, m, modes.inertiaShift)->inertia().negative;
-  modes.countConfirmed = modes.inertiaCount == below;
+  const TopCount top = countAtTop(system, modes);
+  modes.inertiaShift = top.shift;
+  modes.inertiaCount = top.below;
+  modes.countConfirmed = top.agrees;
 }
 
 void requireConverged(int converged, int count, const char* remedy) {
@@ -279,7 +277,7 @@ bool usesDense(const Settings& settings, PetscInt size) {
 bool examine(const factor::AssociatedSystem& system, const Settings& settings, Modes& modes) {
   measureResiduals(system, modes);
   if (!settings.sturm) return true;
-  confirmCount(system.k0(), system.m0(), modes);
+  confirmCount(system, modes);
   return modes.countConfirmed;
 }
 
@@ -329,6 +327,17 @@ Modes computeBy(const factor::AssociatedSystem& system, const Settings& settings
 }
 
 }  // namespace
+
+TopCount countAtTop(const factor::AssociatedSystem& system, const Modes& modes) {
+  const auto& w = modes.angularFrequency;
+  const int below = modesBelowGap(w);
+  TopCount count;
+  count.shift =
+      below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
+  count.below = factor::shiftedFactor(system.k0(), system.m0(), count.shift)->inertia().negative;
+  count.agrees = count.below == below;
+  return count;
+}
 
 Modes compute(const factor::AssociatedSystem& system, const Settings& given, const Label& label) {
   Settings settings = given;

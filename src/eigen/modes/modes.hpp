@@ -28,6 +28,16 @@ struct Modes {
   double rounding = 0;
 };
 
+/// A count of modes by the inertia.
+struct TopCount {
+  double shift = 0;     ///< rad²/s²
+  int below = 0;        ///< number of eigenvalues of (K0, M0) below the shift
+  bool agrees = false;  ///< with the number of known modes
+};
+/// Collective. Counts the modes below the widest gap of the topmost ten, by a factorisation. The
+/// list must not be empty.
+TopCount countAtTop(const factor::AssociatedSystem& system, const Modes& modes);
+
 /// How the log names a computation of modes.
 struct Label {
   std::string stage = "modes";

@@ -48,6 +48,16 @@ int ComplexModes::modesWithoutEigenvalue() const {
   return damped ? std::max(0, freeModesInBand - found) : 0;
 }
 
+int ComplexModes::withoutDisc() const {
+  return static_cast<int>(
+      std::ranges::count_if(eigenvalues, [](const auto& e) { return std::isnan(e.radius); }));
+}
+
+bool ComplexModes::listIsProved() const {
+  return completeness && completeness->proved && completeness->missing.empty() &&
+         withoutDisc() == 0;
+}
+
 int ComplexModes::unstableCount() const {
   return std::ranges::count_if(eigenvalues, [](const auto& e) { return e.unstable; });
 }

@@ -42,6 +42,9 @@ struct Eigenvalue {
   double backwardError = 0;  ///< backward error of the full-order problem [M.33]
   double error = 0;          ///< estimate of |δs|, 1/s; NaN: none (direct method)
   bool certified = false;    ///< the known errors are within their tolerances
+  /// Radius of the disc about s that is proved to hold exactly one eigenvalue of the full problem,
+  /// 1/s; NaN: none is proved.
+  double radius = std::numeric_limits<double>::quiet_NaN();
   Verdict verdict = Verdict::uncertified;
   /// True if it counts as unstable: by its verdict or, if it is uncertified, because Re s exceeds
   /// |s| times 1e-6 and |s| times `-flutter_unstable_tolerance`.
@@ -152,6 +155,26 @@ struct CriticalMode {
   std::vector<CriticalDerivative> derivatives = {};          ///< empty if there are none
 };
 
+/// An eigenvalue of the full problem that the list of a point lacks: the disc holds exactly one.
+struct MissingEigenvalue {
+  Complex centre;     ///< 1/s
+  double radius = 0;  ///< 1/s
+};
+
+/// What is proved about the list of a point (docs/method.md, section 13).
+struct Completeness {
+  bool proved = false;  ///< the full problem has `count` eigenvalues with |s| < top
+  /// Eigenvalues with Im s > 0, and half of those on the real axis; with multiplicities.
+  int count = 0;
+  double top = 0;           ///< rad/s
+  double definiteness = 0;  ///< δ
+  double ratio = 0;         ///< largest φ on the boundary; the count is proved if it is below 1
+  Complex place = 0;        ///< where it is reached, 1/s
+  int discs = 0;            ///< that cover the upper half of the boundary
+  std::string reason;       ///< why the count is not proved; empty if it is
+  std::vector<MissingEigenvalue> missing;  ///< that belong to the list
+};
+
 /// The results of one point of the sweep.
 struct ComplexModes {
   sweep::Parameters at;
@@ -168,10 +191,16 @@ struct ComplexModes {
   double directBandTop = 0;  ///< upper end of the band of the direct method, rad/s; 0: none
   /// All eigenvalues of that band with |s| below this value are listed, rad/s; 0 without a band.
   double coveredTo = 0;
+  std::optional<Completeness> completeness = {};  ///< none if no proof is wanted
   /// Returns the number of free modes in the band minus the number of listed eigenvalues, for a
   /// damped problem. The missing eigenvalues are damped too strongly to be listed, or lie beyond
   /// the top.
   int modesWithoutEigenvalue() const;
+  /// Returns the number of listed eigenvalues without a disc that is proved to hold only them.
+  int withoutDisc() const;
+  /// Returns true if the full problem is proved to have exactly the listed eigenvalues in the band,
+  /// each in a disc of its own.
+  bool listIsProved() const;
   /// Returns the number of eigenvalues that count as unstable.
   int unstableCount() const;
   /// Returns the number of eigenvalues with this verdict.

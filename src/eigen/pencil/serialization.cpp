@@ -38,11 +38,16 @@ void fields(Stream& stream, CriticalMode& found) {
   stream(name, participations, rightBackwardError, leftBackwardError, derivatives);
 }
 
+void fields(Stream& stream, Completeness& found) {
+  auto& [proved, count, top, definiteness, ratio, place, discs, reason, missing] = found;
+  stream(proved, count, top, definiteness, ratio, place, discs, reason, missing);
+}
+
 void serialise(checkpoint::Archive& archive, ComplexModes& point) {
   auto& [at, eigenvalues, shapes, sensitivities, bandTop, freeModesInBand, damped, accuracy,
-         tolerance, directBandTop, coveredTo] = point;
+         tolerance, directBandTop, coveredTo, completeness] = point;
   archive.common(at, eigenvalues, sensitivities, bandTop, freeModesInBand, damped, accuracy,
-                 tolerance, directBandTop, coveredTo);
+                 tolerance, directBandTop, coveredTo, completeness);
   std::size_t count = shapes.size();
   archive.common(count);
   shapes.resize(count);

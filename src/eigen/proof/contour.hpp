@@ -45,6 +45,7 @@ class Contour {
   std::span<const Piece> pieces() const { return pieces_; }
   double distance(Complex from) const;
   bool encloses(Complex point) const;
+  double reach() const { return radius_; }  ///< largest distance from 0
 
  private:
   double radius_, left_;

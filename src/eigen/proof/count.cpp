@@ -48,14 +48,17 @@ double Cover::radiusAt(Complex z) {
   }
   double low = 0, high = 2;  // from `high` on, nothing is shown
   if (here < allowed_) {
+    // Where the boundary is easy, smaller discs leave enclose() a smaller bound.
+    const double most = std::min(allowed_, std::max(0.5 * allowed_, 2 * here));
     double trial = 1;
-    while (trial > smallest && !(expansion.bound(trial, distances_) < allowed_)) trial /= 2;
+    while (trial > smallest && !(expansion.bound(trial, distances_) < most)) trial /= 2;
     low = trial > smallest ? trial : 0;
     high = 2 * trial;
     for (int i = 0; i < 20 && low > 0; ++i) {
       const double middle = 0.5 * (low + high);
-      (expansion.bound(middle, distances_) < allowed_ ? low : high) = middle;
+      (expansion.bound(middle, distances_) < most ? low : high) = middle;
     }
+    proof_.bound = std::max(proof_.bound, most);
   }
   if (low > smallest) return low;
   proof_.verdict = proof_.edgeDistance < onTheEdge ? Verdict::edge : Verdict::ratio;

@@ -21,6 +21,7 @@ struct CountProof {
   PetscInt count = 0;  ///< eigenvalues s of P_VV in the region, with multiplicities and conjugates
   double definiteness = 0;   ///< δ
   double ratio = 0;          ///< largest φ at the centres of discs
+  double bound = 0;          ///< largest bound of ‖P_CV P_VV⁻¹ P_VC‖ on the discs
   Complex place = 0;         ///< where it is reached, rad/s; the point of failure if not proved
   double edgeDistance = 0;   ///< of the boundary from the nearest eigenvalue, as a fraction of the
                              ///< top

@@ -8,6 +8,7 @@
 #include "algebra/linalg/lu.hpp"
 #include "algebra/linalg/qr.hpp"
 #include "algebra/linalg/unsymmetric.hpp"
+#include "eigen/proof/lengths.hpp"
 #include "eigen/proof/norm_bound.hpp"
 
 namespace squeal::proof {
@@ -41,15 +42,6 @@ ComplexMatrix complexCopy(const linalg::DenseView& a, double factor) {
 void add(ComplexMatrix& sum, const ComplexMatrix& more) {
   if (sum.empty()) sum = ComplexMatrix(more.rows(), more.columns());
   for (std::size_t i = 0; i < sum.size(); ++i) sum.data()[i] += more.data()[i];
-}
-
-/// Returns the lengths of the rows.
-std::vector<double> rowLengths(const ComplexMatrix& a) {
-  std::vector<double> lengths(a.rows());
-  for (PetscInt j = 0; j < a.columns(); ++j)
-    for (PetscInt i = 0; i < a.rows(); ++i) lengths[i] += std::norm(a(i, j));
-  for (auto& value : lengths) value = std::sqrt(value);
-  return lengths;
 }
 
 }  // namespace
@@ -156,7 +148,8 @@ DiagonalForm::Vectors DiagonalForm::measure(const Pencil& pencil, const DenseMat
   inverse.solve(y);
   // Y L(1) X − 1,   Y L1 X − diag(ν)
   ComplexMatrix unit = linalg::product(y, atTopX), slope = linalg::product(y, l1X);
-  const auto lengths = rowLengths(y);
+  const std::array end{y.columns()};
+  const auto lengths = rowLengths(y, end);
   std::vector<double> balance(n);  // X and Y of the same lengths
   for (PetscInt j = 0; j < n; ++j) balance[j] = std::sqrt(lengths[j]);
   nu_.resize(n);
@@ -295,6 +288,10 @@ void DiagonalForm::setCouplings(const KeptProblem& problem, const Vectors& vecto
     b_.insert(b_.begin(), ComplexMatrix());
   }
   while (b_.size() > 1 && b_.back().empty()) b_.pop_back();
+  for (const auto& matrix : a_) aLengths_.push_back(columnLengths(matrix, rowEnds_));
+  for (const auto& matrix : b_)
+    bLengths_.push_back(matrix.empty() ? std::vector<double>(size())
+                                       : rowLengths(matrix, columnEnds_));
 }
 
 double DiagonalForm::error(const std::array<double, 3>& byPower, double reach) const {

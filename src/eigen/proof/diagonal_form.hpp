@@ -41,6 +41,9 @@ class DiagonalForm {
   /// columns). An empty one is zero.
   const std::vector<linalg::ComplexMatrix>& a() const { return a_; }
   const std::vector<linalg::ComplexMatrix>& b() const { return b_; }
+  /// The lengths of the columns of a and of the rows of b, [coefficient][index of ν].
+  const std::vector<std::vector<double>>& aLengths() const { return aLengths_; }
+  const std::vector<std::vector<double>>& bLengths() const { return bLengths_; }
   std::span<const PetscInt> rowEnds() const { return rowEnds_; }        ///< of the parts of P_CV
   std::span<const PetscInt> columnEnds() const { return columnEnds_; }  ///< of the parts of P_VC
 
@@ -65,6 +68,7 @@ class DiagonalForm {
   bool squared_ = false, regular_ = false;
   std::vector<Complex> nu_;
   std::vector<linalg::ComplexMatrix> a_, b_;
+  std::vector<std::vector<double>> aLengths_, bLengths_;
   std::vector<PetscInt> rowEnds_, columnEnds_;
   std::array<double, 3> errorTo_ = {}, errorFrom_ = {};  // of the powers of s / top
   double eta0_ = 0, eta1_ = 0, normOfX_ = 0, normOfY_ = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "eigen/proof/expansion.hpp"
@@ -38,9 +39,42 @@ Radii search(double largest, const Free& free) {
   return radii;
 }
 
-/// Returns the radii about eigenvalue k, and what prevents a proof otherwise.
-std::pair<Radii, Isolation> radiiAbout(const DiagonalForm& form, const LeftOut& bounds,
-                                       std::span<const Complex> values, std::size_t k) {
+/// Returns the part of the poles outside the region. It is analytic in the region, and so at most
+/// as large as on the boundary, where all poles together are bounded by the proof of the count and
+/// the others by the sum of their terms.
+FarPart farPart(const DiagonalForm& form, const Contour& contour, const CountProof& count) {
+  const auto values = form.eigenvaluesInPlane();
+  FarPart far{std::vector<unsigned char>(values.size()), count.bound};
+  const double reach = contour.reach();
+  const auto atReach = [&](const std::vector<std::vector<double>>& lengths, std::size_t k) {
+    double sum = 0, power = 1;
+    for (const auto& list : lengths) {
+      sum += power * list[k];
+      power *= reach;
+    }
+    return sum;
+  };
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    far.poles[k] = !contour.encloses(values[k]);
+    if (!far.poles[k])
+      far.bound += atReach(form.aLengths(), k) * atReach(form.bLengths(), k) /
+                   (std::abs(form.nu()[k]) * contour.distance(values[k]));
+  }
+  return far;
+}
+
+/// An eigenvalue of P_VV among all in the plane of z, all borrowed.
+struct Pole {
+  const DiagonalForm& form;
+  std::span<const Complex> values;
+  std::size_t number;
+  double inside;       // distance from the boundary of the region
+  const FarPart* far;  // null: unknown
+};
+
+/// Returns the radii about an eigenvalue, and what prevents a proof otherwise.
+std::pair<Radii, Isolation> radiiAbout(const Pole& pole, const LeftOut& bounds) {
+  const auto& [form, values, k, inside, far] = pole;
   const Complex centre = values[k];
   double nearest = 1;
   for (std::size_t j = 0; j < values.size(); ++j)
@@ -51,16 +85,18 @@ std::pair<Radii, Isolation> radiiAbout(const DiagonalForm& form, const LeftOut& 
                           : definiteness(bounds, top * size, top * (radius - centre.real()));
   };
   if (!(delta(0) > margin)) return {Radii{}, Isolation::indefinite};
-  // The sum over the poles often suffices; the norm of the sum costs a product of matrices.
-  for (const int order : {-1, 0}) {
-    const Expansion expansion(form, centre, order, static_cast<PetscInt>(k));
-    const auto radii = search(0.9 * nearest, [&](double radius) {
+  const auto searched = [&](const Expansion& expansion, double largest) {
+    return search(largest, [&](double radius) {
       const double allowed = (1 - margin) * delta(radius);
       return allowed > margin && expansion.boundOnCircle(radius) < allowed;
     });
-    if (radii.outer > 0) return {radii, Isolation::single};
-  }
-  return {Radii{}, Isolation::neighbour};
+  };
+  const auto number = static_cast<PetscInt>(k);
+  Radii radii;
+  if (far) radii = searched(Expansion(form, centre, *far, number), std::min(0.9 * nearest, inside));
+  if (radii.outer == 0)  // the norm of the sum over the poles costs a product of matrices
+    radii = searched(Expansion(form, centre, 0, number), 0.9 * nearest);
+  return {radii, radii.outer > 0 ? Isolation::single : Isolation::neighbour};
 }
 
 /// Returns the enclosure in the plane of s.
@@ -88,12 +124,15 @@ Enclosure enclosure(const DiagonalForm& form, Complex z, const Radii& radii) {
 }  // namespace
 
 std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
-                               const Region& region, const linalg::EigenvalueFilter& wanted) {
+                               const Region& region, const CountProof& count,
+                               const linalg::EigenvalueFilter& wanted) {
   std::vector<Enclosure> result;
   if (!form.regular()) return result;
   const Contour contour(std::abs(form.inPlane(region.top)), region.left / form.top(),
                         form.squared());
   const auto values = form.eigenvaluesInPlane();
+  std::optional<FarPart> far;
+  if (count.verdict == Verdict::proved) far = farPart(form, contour, count);
   std::vector<std::pair<Complex, Enclosure>> upper;  // with Im z > 0, whose images are to come
   for (std::size_t k = 0; k < values.size(); ++k) {
     const auto z = values[k], s = form.outOfPlane(z);
@@ -106,7 +145,8 @@ std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
       upper.erase(image);  // each is the image of one
       found.s = form.squared() ? -std::conj(found.s) : std::conj(found.s);
     } else {
-      const auto [radii, isolation] = radiiAbout(form, bounds, values, k);
+      const auto [radii, isolation] =
+          radiiAbout({form, values, k, contour.distance(z), far ? &*far : nullptr}, bounds);
       if (isolation == Isolation::single)
         found = enclosure(form, z, radii);
       else

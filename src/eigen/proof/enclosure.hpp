@@ -6,6 +6,7 @@
 
 #include "algebra/linalg/quadratic.hpp"
 #include "eigen/proof/contour.hpp"
+#include "eigen/proof/count.hpp"
 #include "eigen/proof/diagonal_form.hpp"
 
 namespace squeal::proof {
@@ -25,10 +26,12 @@ struct Enclosure {
 };
 
 /// Not collective. Returns an enclosure for each wanted eigenvalue of P_VV in the region, by
-/// default for all; none if the form is not regular. An eigenvalue whose vectors are hardly coupled
-/// to C takes almost no time; others take as long as a disc of the boundary.
+/// default for all; none if the form is not regular. With a proof of the count of this region, an
+/// eigenvalue whose vectors are hardly coupled to C takes almost no time; others take as long as a
+/// disc of the boundary.
 std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
-                               const Region& region, const linalg::EigenvalueFilter& wanted = {});
+                               const Region& region, const CountProof& count = {},
+                               const linalg::EigenvalueFilter& wanted = {});
 
 /// Agreement of an entry of a list with the eigenvalues of P. If the count is proved and all
 /// enclosures are single, these eigenvalues lie in the discs of the inner radii.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "eigen/proof/lengths.hpp"
 #include "eigen/proof/norm_bound.hpp"
 
 namespace squeal::proof {
@@ -28,30 +29,14 @@ std::vector<ComplexMatrix> shifted(const std::vector<ComplexMatrix>& polynomial,
   return result;
 }
 
-/// Returns the sum over the parts of the lengths of their shares of each column.
-std::vector<double> columnLengths(const ComplexMatrix& a, std::span<const PetscInt> rowEnds) {
-  std::vector<double> lengths(a.columns());
-  for (PetscInt j = 0; j < a.columns(); ++j) {
-    PetscInt i = 0;
-    for (const PetscInt end : rowEnds) {
-      double squares = 0;
-      for (; i < end; ++i) squares += std::norm(a(i, j));
-      lengths[j] += std::sqrt(squares);
-    }
-  }
-  return lengths;
-}
-
-/// Returns the same for each row.
-std::vector<double> rowLengths(const ComplexMatrix& a, std::span<const PetscInt> columnEnds) {
-  std::vector<double> lengths(a.rows()), squares(a.rows());
-  PetscInt j = 0;
-  for (const PetscInt end : columnEnds) {
-    std::ranges::fill(squares, 0.0);
-    for (; j < end; ++j)
-      for (PetscInt i = 0; i < a.rows(); ++i) squares[i] += std::norm(a(i, j));
-    for (PetscInt i = 0; i < a.rows(); ++i) lengths[i] += std::sqrt(squares[i]);
-  }
+/// Returns bounds of the lengths of the Taylor coefficients at a distance from 0, from those of the
+/// coefficients: both [coefficient][index].
+std::vector<std::vector<double>> shifted(std::vector<std::vector<double>> lengths,
+                                         double distance) {
+  for (std::size_t first = 0; first + 1 < lengths.size(); ++first)  // Horner's scheme
+    for (std::size_t i = lengths.size() - 1; i-- > first;)
+      for (std::size_t k = 0; k < lengths[i].size(); ++k)
+        lengths[i][k] += distance * lengths[i + 1][k];
   return lengths;
 }
 
@@ -114,7 +99,20 @@ Expansion::Expansion(const DiagonalForm& form, Complex centre, int order, PetscI
     norms_.push_back(blockNorm(t, form.rowEnds(), form.columnEnds()));
     last = std::move(next);
   }
-  if (order >= 0) lastLengths_ = rowLengths(last, form.columnEnds());
+  lastLengths_ = rowLengths(last, form.columnEnds());
+}
+
+Expansion::Expansion(const DiagonalForm& form, Complex centre, const FarPart& far, PetscInt omitted)
+    : form_(form),
+      centre_(centre),
+      order_(-1),
+      omitted_(omitted),
+      far_(&far),
+      norms_{far.bound},
+      aLengths_(shifted(form.aLengths(), std::abs(centre))),
+      bLengths_(shifted(form.bLengths(), std::abs(centre))),
+      lastLengths_(form.size()) {
+  for (const auto nu : form.nu()) denominators_.push_back(std::abs(1.0 + (centre - 1.0) * nu));
 }
 
 double Expansion::bound(double radius, std::span<const double> distances) const {
@@ -154,6 +152,7 @@ double Expansion::sum(double radius, std::vector<double> inverses) const {
     total += power * norm;
     power *= radius;
   }
+  if (far_) power = 1;  // the bound does not grow with the radius
   double aSquares = 0, bSquares = 0, largest = 0, rest = 0;
   for (PetscInt k = 0; k < form_.size(); ++k) {
     const double a = at(aLengths_, k), b = at(bLengths_, k), inverse = inverses[k];
@@ -161,6 +160,7 @@ double Expansion::sum(double radius, std::vector<double> inverses) const {
     largest = std::max(largest, inverse);
     aSquares += a * a * inverse * inverse;
     bSquares += b * b * inverse * inverse;
+    if (far_ && far_->poles[k]) continue;
     if (k == omitted_) {
       total += a * b * inverse;
       continue;

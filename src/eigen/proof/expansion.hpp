@@ -8,6 +8,12 @@
 
 namespace squeal::proof {
 
+/// The part of T = a D⁻¹ b of some poles, known by a bound that holds in a region.
+struct FarPart {
+  std::vector<unsigned char> poles;  ///< [pole] 1 if it belongs to the part
+  double bound = 0;
+};
+
 /// The Taylor polynomial of T = a D⁻¹ b about a point z0, with all terms that it omits: for z = z0
 /// + h,
 ///   T(z) = Σ hʲ T_j (j ≤ order) + h^(order + 1) R(h),
@@ -15,10 +21,13 @@ namespace squeal::proof {
 /// collective.
 class Expansion {
  public:
-  /// Expands about z0. Borrows the form. The order −1 leaves all to R, which needs no products of
-  /// matrices. With `omitted`, the pole of this number is not in T_j and R, and bound() adds its
-  /// exact term.
+  /// Expands about z0. Borrows the form. With `omitted`, the pole of this number is not in T_j and
+  /// R, and bound() adds its exact term.
   Expansion(const DiagonalForm& form, Complex centre, int order, PetscInt omitted = -1);
+
+  /// Sums the terms of all poles except the far part, which needs no products of matrices. Borrows
+  /// both.
+  Expansion(const DiagonalForm& form, Complex centre, const FarPart& far, PetscInt omitted);
 
   Complex centre() const { return centre_; }
   /// Returns the bound of ‖P_CV P_VV⁻¹ P_VC‖ at the points z with |z − z0| ≤ radius that lie at
@@ -35,6 +44,7 @@ class Expansion {
   Complex centre_;
   int order_;
   PetscInt omitted_;
+  const FarPart* far_ = nullptr;
   std::vector<double> norms_;                             // ‖T_j‖
   std::vector<double> denominators_;                      // |D_k|
   std::vector<std::vector<double>> aLengths_, bLengths_;  // [j][k] of the Taylor coefficients

@@ -15,8 +15,8 @@ using Coefficients = std::array<linalg::DenseMatrix, 3>;
 
 /// A majorant of a block that couples V and C. For P_CV it is F(s) = Σ sᵏ F_k, rows × N, with
 ///   P_CV(s) = W F(s) + remainder,   ‖W‖ ≤ 1,   ‖remainder‖ ≤ Σ |s|ᵏ e_k,
-/// where W does not depend on s. For P_VC it is E(s), N × columns, with P_VC(s) = E(s) W +
-/// remainder. The exact block is its own majorant, with W = 1.
+/// where W is unknown and may depend on s. For P_VC it is E(s), N × columns, with P_VC(s) = E(s) W
+/// + remainder. The exact block is its own majorant, with W = 1.
 struct Coupling {
   Coefficients coefficients;         ///< F_k or E_k
   std::array<double, 3> error = {};  ///< e_k

@@ -339,6 +339,18 @@ linalg::DenseProblem ReducedProblem::project(const PointProblem& point) const {
   return basis_.project(basis_.state(point, {}));
 }
 
+linalg::DenseProblem ReducedProblem::projectAssociated(const PointProblem& point) const {
+  PointState state = basis_.state(point, {});
+  state.associated = true;
+  return basis_.project(state);
+}
+
+linalg::DenseMatrix ReducedProblem::addResponses(linalg::Block forces) {
+  auto energy = basis_.basis().addResponses(std::move(forces));
+  basis_.extend({});
+  return energy;
+}
+
 linalg::DenseProblem ReducedProblem::projectOwn(const PointProblem& point) const {
   return basis_.projectOwn(basis_.state(point, {}));
 }

@@ -99,6 +99,15 @@ class ReducedProblem {
   }
   /// Collective. Returns the projection of the terms that belong only to the point.
   linalg::DenseProblem projectOwn(const PointProblem& point) const;
+  /// Collective. Returns the same of K0 and M0 only; without Z.
+  linalg::DenseProblem projectAssociated(const PointProblem& point) const;
+  /// Returns the part of the basis that the points of a set use.
+  const subspace::PointSpace& space(int set) const { return basis_.set(set).space; }
+  /// Collective. Adds K0⁻¹ F to the basis for static forces F on the interior unknowns, by this
+  /// rank's rows. Returns FᵀK0⁻¹F.
+  linalg::DenseMatrix addResponses(linalg::Block forces);
+  /// Collective. Returns K0⁻¹ F without changing the basis, with zeros at the boundary unknowns.
+  linalg::Block responses(const linalg::Block& forces) { return basis_.basis().responses(forces); }
   PetscInt basisSize() const { return basis().size(); }
   const Basis& basis() const { return basis_.basis(); }
   /// Returns the band that all sets share; its upper limit is 0 if no pair is corrected, and

@@ -164,12 +164,18 @@ linalg::Block Basis::responses(const linalg::Block& forces) {
 }
 
 PetscInt Basis::add(linalg::Block residuals) {
+  const PetscInt before = size();
+  addResponses(std::move(residuals));
+  return size() - before;
+}
+
+linalg::DenseMatrix Basis::addResponses(linalg::Block residuals) {
   forces_ = linalg::Block(localRows());
   energies_ = {};
-  if (residuals.columns() == 0) return 0;
+  if (residuals.columns() == 0) return {};
   clearBoundary(residuals);
   linalg::Block z = responses(residuals);
-  const linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, residuals);
+  linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, residuals);
   ratio_ = ratio(residuals, energy);
   linalg::DenseMatrix parts = linalg::transposedProduct(comm_, columns_, residuals);  // VᵀK z
   setBoundaryReactions(linalg::rowRange(parts, 0, boundarySize()), residuals);
@@ -177,7 +183,7 @@ PetscInt Basis::add(linalg::Block residuals) {
   const PetscInt before = size();
   if (!addOrthogonal(z, residuals, energy, parts)) addOrthogonalised(z, parts);
   sketchColumns(before);
-  return size() - before;
+  return energy;
 }
 
 void Basis::restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves) {

@@ -52,6 +52,8 @@ class Basis {
   /// depend linearly on others or on V are omitted. The rows of the boundary unknowns are ignored,
   /// since the constraint modes represent them. Returns the number of columns added.
   PetscInt add(linalg::Block residuals);
+  /// Collective. The same for static forces F. Returns FᵀK0⁻¹F of their interior rows.
+  linalg::DenseMatrix addResponses(linalg::Block forces);
   /// Collective. Appends the vectors that add() found in an earlier run, by this rank's rows, and
   /// restores its state.
   void restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves);

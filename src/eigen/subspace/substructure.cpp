@@ -42,16 +42,21 @@ std::vector<Complex> PointSpace::lifted(const std::vector<Complex>& q) const {
   return result;
 }
 
+DenseMatrix PointSpace::restrictedColumns(const DenseMatrix& a) const {
+  if (isWhole()) return a;
+  // A C, with C = (L⁻ᵀ on the unknowns of the point; the identity)
+  DenseMatrix some(a.rows(), own());
+  for (PetscInt j = 0; j < own(); ++j)
+    std::ranges::copy(a.column(boundary_[j]), some.column(j).begin());
+  DenseMatrix result = own() > 0 ? linalg::product(some, turn_) : std::move(some);
+  result.append(a.columnRange(all_, a.columns()));
+  return result;
+}
+
 DenseMatrix PointSpace::restricted(const DenseMatrix& a) const {
   if (a.empty()) return a;
-  const PetscInt m = a.rows(), k = own(), n = size(m);
-  // A C, with C = (L⁻ᵀ on the unknowns of the point; the identity)
-  DenseMatrix some(m, k);
-  for (PetscInt j = 0; j < k; ++j)
-    std::ranges::copy(a.column(boundary_[j]), some.column(j).begin());
-  DenseMatrix right = linalg::product(some, turn_);
-  if (k == 0) right = DenseMatrix(m);
-  right.append(a.columnRange(all_, m));
+  const PetscInt k = own(), n = size(a.rows());
+  const DenseMatrix right = restrictedColumns(a);
   DenseMatrix top(k, n), result(n, n);
   for (PetscInt j = 0; j < n; ++j) {
     for (PetscInt i = 0; i < k; ++i) top(i, j) = right(boundary_[i], j);

@@ -45,6 +45,9 @@ class PointSpace {
   std::vector<Complex> lifted(const std::vector<Complex>& q) const;
   /// Returns the problem of the point from its projections on the basis.
   linalg::DenseProblem restricted(linalg::DenseProblem problem) const;
+  /// Returns the products of rows with the vectors of the point from those with the vectors of the
+  /// basis; both have a column for each vector.
+  linalg::DenseMatrix restrictedColumns(const linalg::DenseMatrix& a) const;
 
  private:
   linalg::DenseMatrix restricted(const linalg::DenseMatrix& a) const;

@@ -11,6 +11,9 @@ namespace squeal::sweep_solver {
 /// and the errors.
 std::string pointText(const pencil::ComplexModes& point);
 
+/// Returns one line: what is proved about the list of the point.
+std::string completenessText(const pencil::ComplexModes& point);
+
 /// Throws Error if an eigenvalue is not finite: overflow in the eigenvalue problems must not reach
 /// the results.
 void requireFiniteEigenvalues(const pencil::ComplexModes& point);

@@ -12,6 +12,7 @@ Settings Settings::given(const pencil::Settings& problem) {
     settings.direct = direct::Settings::given(problem);
   else
     settings.reduction = reduction::Settings::given(problem);
+  if (settings.reduction) settings.proof = completeness::Settings::given();
   // With the direct method, left vectors start from the free modes.
   if (settings.reduction || settings.sensitivity.wanted) settings.modes = modes::Settings::given();
   return settings;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "eigen/completeness/settings.hpp"
 #include "eigen/direct/settings.hpp"
 #include "eigen/modes/settings.hpp"
 #include "eigen/reduction/settings.hpp"
@@ -19,6 +20,7 @@ struct Settings {
   std::optional<direct::Settings> direct;
   std::vector<double> modalDamping{0};  ///< ratios of the free modes
   stability::Settings stability;
+  completeness::Settings proof;  ///< of the reduced method
   sensitivity::Settings sensitivity;
   /// Not collective. Reads the options, those of a method only if it is chosen.
   static Settings given(const pencil::Settings& problem);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algebra/factor/associated_system.hpp"
+#include "eigen/completeness/friction_factors.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/pencil/participation.hpp"
@@ -68,6 +69,12 @@ class SweepProblem {
 
   /// Collective. Returns the terms that belong only to steadyPoints[i].
   virtual std::vector<pencil::Term> termsOf(std::size_t /*i*/) const { return {}; }
+  /// Collective. Returns the factors of the friction terms of all ranges.
+  virtual completeness::FrictionFactors frictionFactors() const {
+    completeness::FrictionFactors factors;
+    factors.missing = "the factors of the friction terms are not known";
+    return factors;
+  }
   /// Collective. Returns a point between those of the sweep; none if it has no steady state, or
   /// another active set than steadyPoints[like]. Its forms borrow this problem.
   virtual std::optional<PointBetween> between(const sweep::Parameters& /*at*/,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <memory>
 
 #include "algebra/factor/symmetric_solver.hpp"
@@ -17,8 +18,10 @@
 #include "eigen/sweep/parameters.hpp"
 #include "eigen/sweep_solver/critical_modes.hpp"
 #include "eigen/sweep_solver/journal.hpp"
+#include "eigen/sweep_solver/list_proof.hpp"
 #include "eigen/sweep_solver/mode_shapes.hpp"
 #include "eigen/sweep_solver/point_text.hpp"
+#include "eigen/sweep_solver/set_modes.hpp"
 #include "eigen/sweep_solver/sweep_plan.hpp"
 
 namespace squeal::sweep_solver {
@@ -97,6 +100,7 @@ class SweepSolver {
     if (sets_.size() > 1) findModes();
     solvePoints();
     trackPoints();
+    provePoints();
   }
 
   void record() { journal_.record(freeModes(), reduced_.get()); }
@@ -148,10 +152,22 @@ class SweepSolver {
   /// Collective. Computes the free modes of each active set, which set the top of its band, unless
   /// the checkpoint contains them.
   void findModes() {
-    if (!state_.hasSetModes) restrictModes();
+    if (!state_.hasSetModes) {
+      std::vector<int> numbers;
+      for (const auto& set : sets_) numbers.push_back(set.number);
+      auto modes = modesOfSets(*reduced_, pencil_, problem_, interiorModes_, numbers);
+      for (std::size_t k = 0; k < modes.size(); ++k) state_.segments[k].modes = std::move(modes[k]);
+    }
     for (auto& segment : state_.segments)
       if (!segment.points.empty()) segment.shapes = shapesOf(segment.modes);
     state_.hasSetModes = true;
+  }
+
+  /// Collective. Returns the problem of a point with all its terms.
+  reduction::PointProblem problemOf(std::size_t i) const {
+    const Set& set = sets_[plan_.places[i].range];
+    return {plan_.points[i], set.pencil.with(problem_.termsOf(plan_.places[i].steadyPoint)),
+            set.number};
   }
 
   void solvePoints() {
@@ -161,10 +177,9 @@ class SweepSolver {
       if (end <= state_.solved) continue;  // the checkpoint contains them
       std::vector<reduction::PointProblem> problems;
       for (std::size_t i : batch) {
-        const Set& set = sets_[plan_.places[i].range];
-        auto terms = problem_.termsOf(plan_.places[i].steadyPoint);
-        state_.affine = state_.affine && terms.empty();
-        problems.push_back({plan_.points[i], set.pencil.with(std::move(terms)), set.number});
+        problems.push_back(problemOf(i));
+        const pencil::Pencil& all = problems.back().pencil;
+        state_.affine = state_.affine && all.affineCount() == all.terms().size();
       }
       solveBatch(batch, problems);
       for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -180,33 +195,6 @@ class SweepSolver {
     }
     if (reduced_)
       for (auto& segment : state_.segments) segment.solves = reduced_->basis().solves();
-  }
-
-  /// Collective. Computes the free modes of the active sets in the basis that they share.
-  void restrictModes() {
-    Stage stage(pencil_.comm(), "modes");
-    std::vector<int> numbers;
-    std::vector<ModalSegment*> restricted;
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      auto& segment = state_.segments[k];
-      if (segment.points.empty()) continue;
-      if (std::ranges::count(problem_.ranges[k].has, 1) == 0) {
-        segment.modes = onAllUnknowns(interiorModes_, reduced_->basis());
-        continue;
-      }
-      numbers.push_back(sets_[k].number);
-      restricted.push_back(&segment);
-    }
-    auto modes = reduced_->freeModes(numbers, pencil_);
-    for (std::size_t i = 0; i < restricted.size(); ++i) {
-      const auto& residuals = modes[i].relativeResidual;
-      stage.printLine(formatted("%zu free modes with %" PetscInt_FMT
-                                " open nodes, residuals up to %.1e",
-                                residuals.size(), restricted[i]->openNodes,
-                                residuals.empty() ? 0 : std::ranges::max(residuals)));
-      restricted[i]->modes = std::move(modes[i]);
-    }
-    stage.finish(formatted("free modes of %zu active sets", restricted.size()));
   }
 
   /// Returns the lines of the sweep, each with the number of the segment in which it begins.
@@ -299,6 +287,19 @@ class SweepSolver {
         formatted("%zu branches tracked over %zu frictions, %zu critical frictions, basis of "
                   "%" PetscInt_FMT,
                   branches, stations, criticals, reduced_->basisSize()));
+  }
+
+  /// Collective. Proves that the lists of the points are complete, if that is wanted.
+  void provePoints() {
+    if (!reduced_ || !request_.settings.proof.wanted) return;
+    stopIfRequested(pencil_.comm());
+    std::vector<ListedPoint> points;
+    for (std::size_t i = 0; i < plan_.points.size(); ++i)
+      if (isSolved(pointAt(i)))
+        points.push_back({plan_.places[i].range, problemOf(i), &pointAt(i)});
+    auto failures =
+        proveLists(problem_, *reduced_, freeModes(), std::move(points), request_.settings.proof);
+    std::ranges::move(failures, std::back_inserter(state_.failures));
   }
 
   /// Collective. Solves points together, or throws Error.

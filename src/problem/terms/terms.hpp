@@ -2,6 +2,7 @@
 #pragma once
 /// The terms of the friction-perturbed problem [4.15, 4.16], from the coupled matrices and the
 /// steady state.
+#include "eigen/completeness/friction_factors.hpp"
 #include "eigen/pencil/pencil.hpp"
 #include "model/contact/coupled.hpp"
 #include "problem/terms/settings.hpp"
@@ -19,6 +20,13 @@ pencil::Pencil affineTerms(const contact::Contact& contact, const contact::Coupl
 std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
                                        const contact::CoupledSystem& system,
                                        const std::vector<unsigned char>& slides);
+
+/// Collective. Returns the factors of the friction terms of affineTerms() for the contact nodes
+/// with slides[i] set, without the rows of ranges. They are missing if the slip differs between
+/// points.
+completeness::FrictionFactors frictionFactors(const contact::Contact& contact,
+                                              const contact::CoupledSystem& system,
+                                              const std::vector<unsigned char>& slides);
 
 /// Collective. Returns the terms that depend on the steady state. The first is the friction f^a
 /// S_aᵀ N X T if the slip depends on the deformation or on a friction law. The second is the change

@@ -213,6 +213,22 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
   return found;
 }
 
+completeness::FrictionFactors MeshSweep::frictionFactors() const {
+  auto factors = terms::frictionFactors(brake_.model.contact, *all_, anywhere_.closed);
+  const auto& all = anywhere_.closed;
+  const Concatenation ranks(brake_.comm(), std::ranges::count(all, 1));
+  for (const auto& one : sets_) {
+    std::vector<unsigned char> own;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i]) own.push_back(one.set.closed[i]);
+    const auto closed = ranks.gathered(own);
+    auto& rows = factors.rowsOf.emplace_back();
+    for (std::size_t i = 0; i < closed.size(); ++i)
+      if (closed[i]) rows.push_back(i);
+  }
+  return factors;
+}
+
 std::vector<pencil::Term> MeshSweep::termsOf(std::size_t i) const { return termsOf(steadyAt(i)); }
 
 std::vector<pencil::Term> MeshSweep::termsOf(const steady::Solution& solution) const {

@@ -34,6 +34,7 @@ class MeshSweep : public sweep_solver::SweepProblem {
             terms::Influences& influences, const energies::Components& components);
   const PointGroup& group() const { return group_; }
   std::vector<pencil::Term> termsOf(std::size_t i) const override;
+  completeness::FrictionFactors frictionFactors() const override;
   std::optional<sweep_solver::PointBetween> between(const sweep::Parameters& at,
                                                     std::size_t like) override;
   void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,

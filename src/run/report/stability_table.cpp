@@ -10,6 +10,7 @@
 #include "eigen/pencil/settings.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/report/branches.hpp"
+#include "run/report/proofs.hpp"
 
 namespace squeal::report {
 namespace {
@@ -182,7 +183,7 @@ std::string stabilityTable(const analysis::Analysis& analysis) {
       table +=
           sweep ? sweepRow(analysis, segment, point, shown) : modeRows(analysis, segment, point);
   return table + coverageText(analysis) + strongDampingText(analysis) + uncertifiedText(analysis) +
-         errorText(analysis) + trackingText(analysis);
+         errorText(analysis) + trackingText(analysis) + proofText(analysis);
 }
 
 }  // namespace squeal::report

@@ -13,6 +13,7 @@
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/analysis/inventory.hpp"
+#include "run/report/proofs.hpp"
 #include "run/report/report.hpp"
 #include "run/report/table_shapes.hpp"
 #include "run/report/verdict.hpp"
@@ -213,6 +214,7 @@ void addComplexModes(Json& entry, const pencil::ComplexModes& point) {
     entry["worst_error_estimate"] = finite(point.worstErrorEstimate());
     entry["uncertified"] = point.uncertifiedCount();
   }
+  if (point.completeness) entry["proof"] = proofEntry(point);
   entry["unstable_modes"] = unstableModes(point);
   entry["verdict"] = text(point.verdict());
   for (const auto verdict : pencil::allVerdicts)

@@ -18,6 +18,7 @@
 #include "run/report/branches.hpp"
 #include "run/report/components.hpp"
 #include "run/report/names.hpp"
+#include "run/report/proofs.hpp"
 #include "run/report/reactions.hpp"
 #include "run/report/regimes.hpp"
 #include "run/report/report.hpp"
@@ -28,21 +29,23 @@ namespace squeal::report {
 namespace {
 
 std::string eigenvalueTable(const analysis::Analysis& analysis) {
-  std::string table = sweep::parameterColumns() +
-                      ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_"
-                      "ratio,backward_error,error_estimate,certified,verdict,unstable,name\n";
+  std::string table =
+      sweep::parameterColumns() +
+      ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_"
+      "ratio,backward_error,error_estimate,radius_1_per_s,certified,verdict,unstable,name\n";
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points) {
       std::vector<std::string> names(point.eigenvalues.size());
       for (const auto& shape : point.shapes) names[shape.index] = modeName(shape.components);
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
-        table +=
-            sweep::parameterValues(point.at) + "," + std::to_string(i + 1) +
-            formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d,%s,%d,", e.s.real(), e.s.imag(),
-                      e.s.imag() / (2 * M_PI), e.dampingRatio(), e.backwardError, e.errorEstimate(),
-                      e.certified ? 1 : 0, text(e.verdict), e.unstable ? 1 : 0) +
-            nameCell(names[i]) + "\n";
+        table += sweep::parameterValues(point.at) + "," + std::to_string(i + 1) +
+                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,", e.s.real(), e.s.imag(),
+                           e.s.imag() / (2 * M_PI), e.dampingRatio(), e.backwardError,
+                           e.errorEstimate()) +
+                 (std::isfinite(e.radius) ? formatted("%.3e", e.radius) : "") +
+                 formatted(",%d,%s,%d,", e.certified ? 1 : 0, text(e.verdict), e.unstable ? 1 : 0) +
+                 nameCell(names[i]) + "\n";
       }
     }
   return table;
@@ -164,6 +167,7 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
                : "modes_" + pointName(analysis.flutter.segments[s].points.at(0).at) + ".csv";
     writeText(comm, folder / name, modeTable(analysis.flutter.segments[s]));
   }
+  if (hasProofs(analysis)) writeText(comm, folder / "proof.csv", proofTable(analysis));
   writeRegimes(analysis, folder);
   if (analysis.steady.events > 0)
     writeText(comm, folder / "contact_path.csv", contactPathTable(analysis));

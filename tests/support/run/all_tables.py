@@ -55,7 +55,10 @@ RUNS = {
         "-modes_count",
         "20",
     ],
-    "opening": pressed_block("nx=8,ny=8", modes=20, frictions="0:0.5:0.1"),
+    "opening": [
+        *pressed_block("nx=8,ny=8", modes=20, frictions="0:0.5:0.1"),
+        "-flutter_proof",
+    ],
 }
 
 

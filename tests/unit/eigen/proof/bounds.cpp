@@ -96,11 +96,11 @@ TEST(Bounds, DiscsBoundTheCoupling) {
     const auto split = test::split(brake, test::firstModes(12), true, false, top);
     const proof::DiagonalForm form(split.problem, top);
     for (const Complex centre : {Complex(0.2, 0.9), Complex(-0.7, 0.7)})
-      for (const int order : {-1, 0, 1, 2}) {
+      for (const int order : {0, 1, 2}) {
         const proof::Expansion expansion(form, centre, order);
         const double atCentre = norm(test::coupling(split.problem, form.outOfPlane(centre)));
         EXPECT_GE(expansion.boundAtCentre(), atCentre);
-        EXPECT_TRUE(order < 0 || expansion.boundAtCentre() <= 1.021 * atCentre);
+        EXPECT_LE(expansion.boundAtCentre(), 1.021 * atCentre);
         for (const double radius : {0.01, 0.03, 0.1}) {
           const double bound = expansion.bound(radius, {});
           for (int i = 0; i < 12; ++i) {

@@ -30,9 +30,9 @@ Solved solve(test::Damping damping, PetscInt modes, std::mt19937& generator) {
   const proof::DiagonalForm form(split.problem, wanted);
   solved.region.top = proof::placedTop(form.eigenvalues(), wanted);
   if (damping != test::Damping::none) solved.region.left = 0.05 * solved.region.top;
-  solved.discs = proof::enclose(form, split.leftOut, solved.region);
-  solved.proved =
-      proof::proveCount(form, split.leftOut, solved.region).verdict == proof::Verdict::proved;
+  const auto count = proof::proveCount(form, split.leftOut, solved.region);
+  solved.proved = count.verdict == proof::Verdict::proved;
+  solved.discs = proof::enclose(form, split.leftOut, solved.region, count);
   return solved;
 }
 

@@ -42,7 +42,7 @@ TEST(Special, NothingLeftOut) {
       EXPECT_EQ(disc.neutral, ratio == 0);
     }
     const auto high = [](Complex s) { return std::abs(s) > 30; };
-    EXPECT_EQ(proof::enclose(form, {}, {50, 5}, high).size(), 2u);
+    EXPECT_EQ(proof::enclose(form, {}, {50, 5}, {}, high).size(), 2u);
   }
 }
 

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "eigen/completeness/completeness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "algebra/linalg/columns.hpp"
+#include "algebra/linalg/spread.hpp"
+#include "algebra/linalg/symmetric.hpp"
+#include "base/system/concatenation.hpp"
+#include "base/system/stream.hpp"
+#include "base/system/text.hpp"
+#include "eigen/completeness/point_bounds.hpp"
+#include "eigen/pencil/serialization.hpp"
+#include "eigen/proof/count.hpp"
+#include "eigen/proof/enclosure.hpp"
+#include "eigen/reduction/free_modes.hpp"
+
+namespace squeal::completeness {
+namespace {
+
+using linalg::DenseMatrix;
+
+/// The top of the region lies in a gap of the eigenvalues up to this part above the top of the
+/// band.
+constexpr double above = 0.08;
+/// The bounds hold for |s| up to this multiple of the top of the band: circles about eigenvalues
+/// reach beyond the region.
+constexpr double reach = 1.15;
+
+/// Collective. Returns the rows of all ranks, given those of this one.
+DenseMatrix rowsOfAllRanks(MPI_Comm comm, const DenseMatrix& own) {
+  const DenseMatrix columns = linalg::transposed(own);
+  const Concatenation ranks(comm, own.rows());
+  DenseMatrix all(own.columns(), ranks.size());
+  ranks.gather(columns.data(), all.data(), static_cast<int>(own.columns()));
+  return linalg::transposed(all);
+}
+
+/// Collective. Returns A V for a matrix of few rows.
+DenseMatrix productWithBasis(const reduction::Basis& basis, Mat rows) {
+  PetscInt own = 0;
+  check(MatGetLocalSize(rows, &own, nullptr));
+  linalg::Block product(own);
+  basis.appendProducts(rows, 0, basis.size(), product);
+  return rowsOfAllRanks(basis.comm(), product);
+}
+
+/// Collective. Returns the columns of Aᵀ for a matrix of few rows, by this rank's rows.
+linalg::Block columnsOf(Mat rows) {
+  OwnedMat transpose;
+  check(MatTranspose(rows, MAT_INITIAL_MATRIX, transpose.out()));
+  PetscInt all = 0, count = 0, first = 0;
+  check(MatGetSize(rows, &all, nullptr));
+  check(MatGetLocalSize(transpose, &count, nullptr));
+  check(MatGetOwnershipRange(transpose, &first, nullptr));
+  linalg::Block columns(count, all);
+  for (PetscInt i = 0; i < count; ++i) {
+    PetscInt entries = 0;
+    const PetscInt* places = nullptr;
+    const PetscScalar* values = nullptr;
+    check(MatGetRow(transpose, first + i, &entries, &places, &values));
+    for (PetscInt k = 0; k < entries; ++k) columns(i, places[k]) = values[k];
+    check(MatRestoreRow(transpose, first + i, &entries, &places, &values));
+  }
+  return columns;
+}
+
+/// Collective. Returns FᵀK0⁻¹F of the interior rows of F.
+DenseMatrix flexibility(reduction::ReducedProblem& reduced, const linalg::Block& forces) {
+  return linalg::transposedProduct(reduced.basis().comm(), reduced.responses(forces), forces);
+}
+
+/// Collective. Returns Vᵀ M K0⁻¹ M V with K0⁻¹ of the interior. The modes d need no solves, as K0⁻¹
+/// M d = d/λ.
+DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes& modes,
+                            const std::vector<double>& lambda, Mat mass) {
+  constexpr PetscInt atOnce = 128;  // limits the memory
+  const auto& basis = reduced.basis();
+  DenseMatrix result(basis.size());
+  for (PetscInt first = 0; first < basis.size();) {
+    if (first == modes.first) {
+      result.resizeColumns(first += modes.count);
+      continue;
+    }
+    const PetscInt end = first < modes.first ? modes.first : basis.size(),
+                   last = std::min(first + atOnce, end);
+    linalg::Block forces(basis.localRows()), inertia(basis.localRows());
+    basis.appendProducts(mass, first, last, forces);
+    linalg::appendProduct(mass, reduced.responses(forces), inertia);
+    result.append(linalg::transposedProduct(basis.comm(), basis.columns(), inertia));
+    first = last;
+  }
+  for (PetscInt j = 0; j < modes.count; ++j) {
+    const PetscInt mode = modes.first + j;
+    for (PetscInt i = 0; i < basis.size(); ++i) result(i, mode) = result(mode, i);
+    result(mode, mode) = 1 / (lambda[j] * lambda[j]);
+  }
+  return result;
+}
+
+/// Collective. Adds the static responses to the slip rows to the basis. Returns S_a K0⁻¹ S_aᵀ,
+/// [power of the friction], r × r.
+std::vector<DenseMatrix> addResponses(reduction::ReducedProblem& reduced,
+                                      const FrictionFactors& factors) {
+  linalg::Block forces(reduced.basis().localRows());
+  for (const auto& slip : factors.slip) forces.append(columnsOf(slip.rows));
+  const DenseMatrix all = reduced.addResponses(std::move(forces));
+  const PetscInt count = std::ssize(factors.slip), rows = count > 0 ? all.rows() / count : 0;
+  std::vector<DenseMatrix> result;
+  for (PetscInt a = 0; a < count; ++a)
+    result.push_back(linalg::rowRange(DenseMatrix(all.columnRange(a * rows, (a + 1) * rows)),
+                                      a * rows, (a + 1) * rows));
+  return result;
+}
+
+/// Collective. Returns an estimate of ‖M0 d − d/λ‖ of all modes together, in energy, from random
+/// combinations of them, twice as large as its mean.
+double errorOfModes(reduction::ReducedProblem& reduced, const modes::Modes& modes,
+                    const pencil::Pencil& associated) {
+  constexpr PetscInt combinations = 16;
+  const auto& basis = reduced.basis();
+  const PetscInt count = std::ssize(modes.lambda), first = basis.boundarySize();
+  DenseMatrix signs(count, combinations), scaled(count, combinations);
+  unsigned state = 1;
+  for (PetscInt j = 0; j < combinations; ++j)
+    for (PetscInt i = 0; i < count; ++i) {
+      state = 1664525 * state + 1013904223;  // Numerical Recipes, section 7.1
+      signs(i, j) = state >> 31 ? 1 : -1;
+      scaled(i, j) = signs(i, j) / modes.lambda[i];
+    }
+  const auto vectors = basis.columns().columnRange(first, first + count);
+  const linalg::Block motions = linalg::product(vectors, signs),
+                      others = linalg::product(vectors, scaled);
+  linalg::Block forces(motions.rows()), stiffness(motions.rows());
+  linalg::appendProduct(associated.assembled(2, {}), motions, forces);
+  linalg::appendProduct(associated.assembled(0, {}), others, stiffness);
+  linalg::addScaled(forces, -1, stiffness);
+  const DenseMatrix energy = flexibility(reduced, forces);
+  double sum = 0;
+  for (PetscInt j = 0; j < combinations; ++j) sum += energy(j, j);
+  return 2 * std::sqrt(sum / combinations);
+}
+
+/// Returns why the list of a point cannot be proved; empty if it can.
+std::string obstacle(const reduction::PointProblem& problem) {
+  const auto& terms = problem.pencil.terms();
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const auto& term = terms[t];
+    if (term.coefficient(problem.at) == 0 || term.isAssociated()) continue;
+    if (t >= problem.pencil.affineCount())
+      return "the friction depends on the steady state, as friction damping does";
+    if (term.power == 1) return "the problem has damping or gyroscopic terms";
+    if (term.speedExponent != 0 || !term.containsFriction())
+      return "the problem has terms that depend on the speed";
+  }
+  return {};
+}
+
+/// Returns the reason of a verdict, with the remedy.
+std::string reasonOf(const proof::CountProof& count) {
+  const double hertz = std::abs(count.place) / (2 * M_PI);
+  switch (count.verdict) {
+    case proof::Verdict::proved:
+      return {};
+    case proof::Verdict::indefinite:
+      return "too few free modes above the band; a larger -modes_count helps";
+    case proof::Verdict::irregular:
+      return "the reduced problem is singular at the top of the band";
+    case proof::Verdict::edge:
+      return formatted("an eigenvalue lies on the boundary at %.6g Hz; another -flutter_band helps",
+                       hertz);
+    case proof::Verdict::ratio:
+      return formatted("ratio %.3g at %.6g Hz; a larger -modes_count helps", count.ratio, hertz);
+    case proof::Verdict::tooManyDiscs:
+      return formatted("ratio %.3g; the boundary needs more than -flutter_proof_discs",
+                       count.ratio);
+  }
+  return {};
+}
+
+/// Sets what a list lacks, and the radii of its entries.
+void judgeList(const std::vector<proof::Enclosure>& discs, const proof::Region& region,
+               pencil::ComplexModes& point) {
+  std::vector<Complex> list;
+  for (const auto& e : point.eigenvalues) list.push_back(e.s);
+  const auto judged = proof::judge(list, discs, region, point.tolerance * region.top);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (judged.entries[i].radius > 0) point.eigenvalues[i].radius = judged.entries[i].radius;
+  for (const auto& disc : judged.missing)
+    if (std::abs(disc.s) + disc.inner < point.bandTop)
+      point.completeness->missing.push_back({disc.s, disc.inner});
+}
+
+/// Proves the list of a point, if the bounds suffice.
+void proveList(const SetBounds& set, PointMatrices matrices, const Settings& settings,
+               pencil::ComplexModes& point) {
+  auto& found = *point.completeness;
+  const double wanted = (1 + above / 2) * point.bandTop;
+  const auto bounds = pointBounds(set, std::move(matrices));
+  const proof::DiagonalForm form(bounds.kept, wanted);
+  const proof::Region region{proof::placedTop(form.eigenvalues(), wanted, above / (2 + above))};
+  const auto count = proof::proveCount(form, bounds.leftOut, region, settings.discs);
+  found.proved = count.verdict == proof::Verdict::proved;
+  found.count = static_cast<int>(count.count / 2);
+  found.top = region.top;
+  found.definiteness = count.definiteness;
+  found.ratio = count.ratio;
+  found.place = count.place;
+  found.discs = static_cast<int>(count.discs);
+  found.reason = reasonOf(count);
+  judgeList(proof::enclose(form, bounds.leftOut, region, count), region, point);
+}
+
+/// The factors of friction with the vectors of the basis.
+struct ProjectedFactors {
+  std::vector<DenseMatrix> slip;    // [power of the friction] S_a V, r × size
+  DenseMatrix normal, inertia;      // N_0 V, N_2 V, r × size
+  std::vector<DenseMatrix> ofSlip;  // [power of the friction] S_a K0⁻¹ S_aᵀ, r × r
+  DenseMatrix ofMass;               // Vᵀ M K0⁻¹ M V, size × size
+  DenseMatrix ofNormal, ofInertia;  // N_0 K0⁻¹ N_0ᵀ, N_2 K0⁻¹ N_2ᵀ, r × r
+};
+
+/// Collective. Adds the static responses to the slip rows to the basis.
+ProjectedFactors project(reduction::ReducedProblem& reduced, const FrictionFactors& factors,
+                         const KnownModes& modes, const std::vector<double>& lambda, Mat mass) {
+  ProjectedFactors result;
+  result.ofSlip = addResponses(reduced, factors);
+  const auto& basis = reduced.basis();
+  for (const auto& slip : factors.slip) result.slip.push_back(productWithBasis(basis, slip.rows));
+  result.normal = productWithBasis(basis, factors.normal);
+  result.inertia = productWithBasis(basis, factors.inertia);
+  result.ofNormal = flexibility(reduced, columnsOf(factors.normal));
+  result.ofInertia = flexibility(reduced, columnsOf(factors.inertia));
+  result.ofMass = massFlexibility(reduced, modes, lambda, mass);
+  return result;
+}
+
+/// Returns some rows of a matrix.
+DenseMatrix someRows(const DenseMatrix& a, const std::vector<PetscInt>& rows) {
+  DenseMatrix result(rows.size(), a.columns());
+  for (PetscInt j = 0; j < a.columns(); ++j)
+    for (PetscInt i = 0; i < result.rows(); ++i) result(i, j) = a(rows[i], j);
+  return result;
+}
+
+/// Returns these rows and columns of a matrix.
+DenseMatrix square(const DenseMatrix& a, const std::vector<PetscInt>& rows) {
+  return linalg::transposed(someRows(linalg::transposed(someRows(a, rows)), rows));
+}
+
+/// Subtracts from N K0⁻¹ Nᵀ the part of the interior vectors of V.
+void subtractKept(const DenseMatrix& rows, PetscInt boundary, DenseMatrix& flexibility) {
+  const DenseMatrix inner(rows.columnRange(boundary, rows.columns()));
+  linalg::addScaled(flexibility, -1, linalg::product(inner, linalg::transposed(inner)));
+}
+
+/// Returns a bound of ‖S x‖ for x in C with energy 1, from S V and S K0⁻¹ Sᵀ.
+double slipError(const DenseMatrix& rows, PetscInt boundary, DenseMatrix flexibility) {
+  double trace = 0;
+  for (PetscInt i = 0; i < flexibility.rows(); ++i) trace += flexibility(i, i);
+  subtractKept(rows, boundary, flexibility);
+  const auto values = linalg::symmetricEigenvalues(linalg::symmetricPart(flexibility));
+  return std::sqrt(std::max(values.empty() ? 0 : values.back(), 0.0) + 1e-15 * trace);
+}
+
+/// The matrices of an active set, the same on all ranks.
+struct SetProjection {
+  std::vector<DenseMatrix> slip;   // [power of the friction] S_a V, r × N
+  std::vector<double> slipErrors;  // [power of the friction] ‖S_a x‖ of x in C with energy 1
+  SetMatrices matrices;
+};
+
+/// Returns the matrices of a set from those of the basis. `associated` has K0 and M0 on V.
+SetProjection projectionOf(const ProvedSet& set, const subspace::PointSpace& space,
+                           linalg::DenseProblem associated, const KnownModes& modes,
+                           const ProjectedFactors& projected) {
+  const auto onSet = [&](const DenseMatrix& rows) {
+    return space.restrictedColumns(someRows(rows, set.rows));
+  };
+  SetProjection result;
+  SetMatrices& matrices = result.matrices;
+  matrices.modes = modes;
+  matrices.modes.first = space.own();
+  // The vectors of V · turn are orthonormal in energy.
+  const DenseMatrix turn = linalg::inverseTransposed(linalg::choleskyFactor(associated.stiffness));
+  const auto turned = [&](const DenseMatrix& rows) { return linalg::product(rows, turn); };
+  for (std::size_t a = 0; a < projected.slip.size(); ++a) {
+    result.slip.push_back(onSet(projected.slip[a]));
+    result.slipErrors.push_back(
+        slipError(turned(result.slip[a]), space.own(), square(projected.ofSlip[a], set.rows)));
+  }
+  matrices.normal = onSet(projected.normal);
+  matrices.inertia = onSet(projected.inertia);
+  matrices.leftNormal = square(projected.ofNormal, set.rows);
+  matrices.leftInertia = square(projected.ofInertia, set.rows);
+  subtractKept(turned(matrices.normal), space.own(), matrices.leftNormal);
+  subtractKept(turned(matrices.inertia), space.own(), matrices.leftInertia);
+  linalg::DenseProblem flexible;
+  flexible.stiffness = projected.ofMass;
+  matrices.leftMass = linalg::congruent(space.restricted(std::move(flexible)).stiffness, turn);
+  subtractKept(linalg::congruent(associated.mass, turn), space.own(), matrices.leftMass);
+  matrices.energy = std::move(associated.stiffness);
+  return result;
+}
+
+/// Collective. Proves the lists of a set.
+void proveSet(reduction::ReducedProblem& reduced, const FrictionFactors& factors,
+              const SetProjection& projection, const ProvedSet& set, const Settings& settings) {
+  const SetBounds bounds = setBounds(projection.matrices, reach * set.points.front()->bandTop);
+  std::vector<linalg::DenseProblem> problems;
+  for (const auto& problem : set.problems) problems.push_back(reduced.project(problem));
+  linalg::onOwners(reduced.basis().comm(), set.points.size(), [&](std::size_t i) {
+    auto& point = *set.points[i];
+    if (!point.completeness->reason.empty()) return;
+    PointMatrices matrices{std::move(problems[i]), {}, 0};
+    for (std::size_t a = 0; a < projection.slip.size(); ++a) {
+      const double factor = std::pow(point.at.friction, factors.slip[a].frictionExponent);
+      linalg::addScaled(matrices.slip, factor, projection.slip[a]);
+      matrices.slipError += factor * projection.slipErrors[a];
+    }
+    proveList(bounds, std::move(matrices), settings, point);
+  });
+}
+
+/// Collective. Copies what a rank has found about its points to all ranks.
+void share(MPI_Comm comm, const std::vector<pencil::ComplexModes*>& points) {
+  const int ranks = mpi::size(comm);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int owner = static_cast<int>(i % ranks);
+    broadcast(comm, *points[i]->completeness, owner);
+    mpi::broadcast(comm, points[i]->eigenvalues, owner);
+  }
+}
+
+/// Collective. Returns θ below which all modes are known, if that is confirmed.
+std::optional<double> completeTo(const factor::AssociatedSystem& system, const modes::Modes& modes,
+                                 double bandTop) {
+  constexpr double enough = 0.3;  // of δ
+  if (!modes.countConfirmed) return {};
+  if (1 - std::pow((1 + above) * bandTop, 2) / modes.inertiaShift > enough)
+    return modes.inertiaShift;
+  const auto count = modes::countAtTop(system, modes);
+  if (!count.agrees) return {};
+  return std::max(count.shift, modes.inertiaShift);
+}
+
+}  // namespace
+
+void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
+           const modes::Modes& modes, const FrictionFactors& factors,
+           const std::vector<ProvedSet>& sets, const Settings& settings) {
+  const auto theta = completeTo(system, modes, reduced.band().top);
+  bool any = false;
+  for (const auto& set : sets)
+    for (std::size_t i = 0; i < set.points.size(); ++i) {
+      auto& found = set.points[i]->completeness.emplace();
+      found.reason = !factors.missing.empty() ? factors.missing
+                     : !theta                 ? "the number of free modes is not confirmed"
+                                              : obstacle(set.problems[i]);
+      any = any || found.reason.empty();
+    }
+  if (!any) return;
+  const auto associated = reduction::associatedTerms(sets.front().problems.front().pencil);
+  const KnownModes known{reduced.basis().boundarySize(), PetscInt(std::ssize(modes.lambda)), *theta,
+                         errorOfModes(reduced, modes, associated)};
+  const auto projected =
+      project(reduced, factors, known, modes.lambda, associated.assembled(2, {}));
+  for (const auto& set : sets) {
+    const auto& problem = set.problems.front();
+    const auto projection = projectionOf(set, reduced.space(problem.set),
+                                         reduced.projectAssociated(problem), known, projected);
+    try {
+      proveSet(reduced, factors, projection, set, settings);
+    } catch (const Error& error) {
+      for (auto* point : set.points) point->completeness->reason = error.what();
+    }
+    share(reduced.basis().comm(), set.points);
+  }
+}
+
+}  // namespace squeal::completeness

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "eigen/completeness/settings.hpp"
+
+#include "base/options/options.hpp"
+
+namespace squeal::completeness {
+namespace {
+
+const FlagOption proofOption("flutter", "flutter_proof", false,
+                             "proof at each point that the full problem has exactly the listed "
+                             "eigenvalues in the band, each "
+                             "in a disc of known radius; takes about four solves per contact node, "
+                             "and some seconds of dense "
+                             "work per point; without damping only");
+const IntegerOption discsOption("flutter", "flutter_proof_discs", 400, 1, 1'000'000,
+                                "largest number of discs on the boundary of the proof, per point");
+
+}  // namespace
+
+Settings Settings::given() {
+  Settings settings;
+  settings.wanted = proofOption.get();
+  if (settings.wanted) settings.discs = discsOption.get();
+  return settings;
+}
+
+}  // namespace squeal::completeness

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Lengths of the columns and rows of matrices whose parts are majorants of their own. Not
+/// collective.
+#include <span>
+#include <vector>
+
+#include "algebra/linalg/complexdense.hpp"
+
+namespace squeal::proof {
+
+/// Returns for each column the sum of its lengths in the parts, which end at these rows. Zeros for
+/// an empty matrix.
+std::vector<double> columnLengths(const linalg::ComplexMatrix& a,
+                                  std::span<const PetscInt> rowEnds);
+/// Returns the same for each row.
+std::vector<double> rowLengths(const linalg::ComplexMatrix& a,
+                               std::span<const PetscInt> columnEnds);
+
+}  // namespace squeal::proof

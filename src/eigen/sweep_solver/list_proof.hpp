@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The proof that the lists of a sweep are complete.
+#include <string>
+#include <vector>
+
+#include "eigen/completeness/settings.hpp"
+#include "eigen/modes/modes.hpp"
+#include "eigen/pencil/complex_modes.hpp"
+#include "eigen/reduction/reduced.hpp"
+#include "eigen/sweep_solver/sweep_problem.hpp"
+
+namespace squeal::sweep_solver {
+
+/// A solved point.
+struct ListedPoint {
+  std::size_t range;                ///< of the problem
+  reduction::PointProblem problem;  ///< with all terms
+  pencil::ComplexModes* list;       ///< borrowed
+};
+
+/// Collective. Sets what is proved about the lists of the points, and extends the basis for it.
+/// `modes` are the free modes of the interior unknowns. Returns a line for each list that lacks an
+/// eigenvalue.
+std::vector<std::string> proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
+                                    const modes::Modes& modes, std::vector<ListedPoint> points,
+                                    const completeness::Settings& settings);
+
+}  // namespace squeal::sweep_solver

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "run/report/proofs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/system/text.hpp"
+#include "eigen/sweep/parameters.hpp"
+#include "run/report/components.hpp"
+
+namespace squeal::report {
+namespace {
+
+/// Returns the points with a proof or the attempt of one.
+std::vector<const pencil::ComplexModes*> examined(const analysis::Analysis& analysis) {
+  std::vector<const pencil::ComplexModes*> points;
+  for (const auto& segment : analysis.flutter.segments)
+    for (const auto& point : segment.points)
+      if (point.completeness) points.push_back(&point);
+  return points;
+}
+
+}  // namespace
+
+bool hasProofs(const analysis::Analysis& analysis) { return !examined(analysis).empty(); }
+
+std::string proofTable(const analysis::Analysis& analysis) {
+  std::string table =
+      sweep::parameterColumns() +
+      ",complete,count_proved,eigenvalues,top_hz,ratio,definiteness,discs,without_disc,missing,"
+      "reason\n";
+  for (const auto* point : examined(analysis)) {
+    const auto& found = *point->completeness;
+    table +=
+        sweep::parameterValues(point->at) +
+        formatted(",%d,%d,%d,%.15e,%.6e,%.6e,%d,%d,%zu,", point->listIsProved() ? 1 : 0,
+                  found.proved ? 1 : 0, found.count, found.top / (2 * M_PI), found.ratio,
+                  found.definiteness, found.discs, point->withoutDisc(), found.missing.size()) +
+        nameCell(found.reason) + "\n";
+  }
+  return table;
+}
+
+nlohmann::json proofEntry(const pencil::ComplexModes& point) {
+  const auto& found = *point.completeness;
+  nlohmann::json entry = {{"complete", point.listIsProved()},
+                          {"count_proved", found.proved},
+                          {"eigenvalues", found.count},
+                          {"top_hz", found.top / (2 * M_PI)},
+                          {"ratio", found.ratio},
+                          {"definiteness", found.definiteness},
+                          {"discs", found.discs},
+                          {"without_disc", point.withoutDisc()},
+                          {"reason", found.reason},
+                          {"missing", nlohmann::json::array()}};
+  for (const auto& one : found.missing)
+    entry["missing"].push_back({{"growth_rate_1_per_s", one.centre.real()},
+                                {"angular_frequency_rad_per_s", one.centre.imag()},
+                                {"radius_1_per_s", one.radius}});
+  return entry;
+}
+
+std::string proofText(const analysis::Analysis& analysis) {
+  const auto points = examined(analysis);
+  if (points.empty()) return {};
+  double ratio = 0, radius = 0, top = INFINITY;
+  std::size_t complete = 0;
+  std::string others;
+  for (const auto* point : points) {
+    const auto& found = *point->completeness;
+    const std::string at = sweep::parameterText(point->at);
+    for (const auto& one : found.missing)
+      others += formatted(
+          "\nMissing in the list at %s: one eigenvalue within %.2g 1/s of "
+          "%.9g%+.9gi 1/s.",
+          at.c_str(), one.radius, one.centre.real(), one.centre.imag());
+    if (!found.proved)
+      others += "\nNot proved at " + at + ": " + found.reason + ".";
+    else if (found.missing.empty() && !point->listIsProved())
+      others += formatted(
+          "\nAt %s the number of eigenvalues is proved; %d of them have no disc of "
+          "their own.",
+          at.c_str(), point->withoutDisc());
+    if (!point->listIsProved()) continue;
+    ++complete;
+    ratio = std::max(ratio, found.ratio);
+    top = std::min(top, point->bandTop / (2 * M_PI));
+    for (const auto& e : point->eigenvalues) radius = std::max(radius, e.radius);
+  }
+  std::string text =
+      formatted("\nProof: the list is complete at %zu of %zu points", complete, points.size());
+  if (complete > 0)
+    text += formatted(
+        ": the full problem has no other eigenvalue with |s|/2π up to %.6g Hz, and "
+        "exactly one within %.1e 1/s of each (largest ratio %.2g; round-off is not "
+        "bounded)",
+        top, radius, ratio);
+  return text + "." + others;
+}
+
+}  // namespace squeal::report

@@ -1,0 +1,141 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
+"""The proof that lists of eigenvalues are complete: test_proof.py PROGRAM MPIEXEC."""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import scipy.io
+import scipy.linalg
+
+repository = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(repository / "tests/support/steady"))
+sys.dont_write_bytecode = True
+from pressed_block import pressed_block
+
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
+MPIEXEC = sys.argv.pop(1) if len(sys.argv) > 1 else "mpirun -n"
+
+SIZE = (
+    "n_pad_theta=4,n_pad_r=2,n_free_theta=4,n_h_ring=1,n_h_lining=1,n_h_plate=1,n_hat=1,"
+    "n_mount=1,n_plate=1,n_wall=1,n_inside=1"
+)
+BRAKE = [
+    "-options_file",
+    repository / "options/disc_brake.yaml",
+    "-mesh_set",
+    SIZE,
+    "-modes_count",
+    "50",
+    "-flutter_band",
+    "9000",
+    "-report_fields",
+    "off",
+    "-flutter_track",
+    "off",
+    "-flutter_proof",
+]
+BLOCK = [*pressed_block("nx=8,ny=8", modes=20, frictions="0:0.5:0.1"), "-flutter_proof"]
+
+
+class Proof(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.place = Path(temporary.name)
+
+    def run_program(self, name, words, ranks=1):
+        """Returns the folder of a run and its output."""
+        folder = self.place / name
+        done = subprocess.run(
+            [*MPIEXEC.split(), str(ranks), PROGRAM, *words, "-report_dir", folder],
+            capture_output=True,
+            text=True,
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return folder, done.stdout
+
+    def test_all_eigenvalues_of_the_full_problem(self):
+        """The count and the discs, against all eigenvalues of the full matrices by LAPACK."""
+        matrices = self.place / "matrices"
+        export = ["-report_matrices", matrices, "-report_matrices_format", "matrix_market"]
+        folder, _ = self.run_program("all", [*BRAKE, "-flutter_friction", "0.6", *export])
+        k, m, k1, m1 = (
+            scipy.io.mmread(matrices / f"{name}.mtx").toarray()
+            for name in ("stiffness", "mass", "stiffness_friction1", "mass_friction1")
+        )
+        # s² = −1/μ for the eigenvalues μ of K⁻¹ M
+        mu = scipy.linalg.eigvals(np.linalg.solve(k + 0.6 * k1, m + 0.6 * m1)).astype(complex)
+        s = np.sqrt(-1 / mu)
+        s = np.concatenate([s, -s])
+        proof = pd.read_csv(folder / "proof.csv").iloc[0]
+        self.assertEqual(proof.complete, 1)
+        inside = np.abs(s) < 2 * np.pi * proof.top_hz
+        self.assertEqual(2 * proof.eigenvalues, inside.sum())
+        listed = pd.read_csv(folder / "eigenvalues.csv")
+        self.assertGreater(listed.unstable.sum(), 0)
+        for row in listed.itertuples():
+            centre = complex(row.growth_rate_1_per_s, row.angular_frequency_rad_per_s)
+            # LAPACK's errors are 1e-11 of the largest |s| that counts here.
+            near = np.abs(s - centre) <= row.radius_1_per_s + 1e-6
+            self.assertEqual(near.sum(), 1)
+        # A growth rate at least the radius from zero: all of these are proved to be unstable.
+        grown = listed[listed.unstable == 1]
+        self.assertTrue((grown.growth_rate_1_per_s > grown.radius_1_per_s).all())
+
+    def test_ranks(self):
+        """The verdicts do not depend on the ranks; the ratios do, with the corrections."""
+        words = [*BRAKE, "-flutter_friction", "0,0.3,0.6"]
+        tables = []
+        for ranks in (1, 2, 3):
+            folder, output = self.run_program(f"ranks{ranks}", words, ranks)
+            self.assertIn("Proof: the list is complete at 3 of 3 points", output)
+            tables.append(pd.read_csv(folder / "proof.csv"))
+        for table in tables[1:]:
+            self.assertEqual(table.eigenvalues.tolist(), tables[0].eigenvalues.tolist())
+            # The top lies between eigenvalues that are not listed, to 1e-5.
+            np.testing.assert_allclose(table.top_hz, tables[0].top_hz, rtol=1e-5)
+            self.assertTrue((table.ratio < 0.5).all())
+
+    def test_opening_contact(self):
+        """Several active sets with one basis, each with constraint modes of its own."""
+        for ranks in (1, 2):
+            folder, _ = self.run_program(f"block{ranks}", BLOCK, ranks)
+            summary = json.loads((folder / "summary.json").read_text())
+            self.assertGreater(len(summary["active_sets"]), 1)
+            proof = pd.read_csv(folder / "proof.csv")
+            self.assertTrue((proof.complete == 1).all())
+            listed = pd.read_csv(folder / "eigenvalues.csv")
+            for point, count in zip(proof.friction, proof.eigenvalues):
+                self.assertLessEqual((listed.friction == point).sum(), count)
+
+    def test_too_few_modes(self):
+        """The band reaches nearly to the last free mode: nothing is proved."""
+        words = [*BRAKE, "-flutter_friction", "0.6", "-modes_count", "32"]
+        folder, output = self.run_program("few", words)
+        self.assertIn("Not proved at friction 0.6: ", output)
+        self.assertIn("-modes_count helps", output)
+        row = pd.read_csv(folder / "proof.csv").iloc[0]
+        self.assertEqual((row.complete, row.count_proved), (0, 0))
+
+    def test_reasons(self):
+        """What is not covered is named."""
+        words = [*BRAKE, "-flutter_friction", "0.6"]
+        for name, more, reason in (
+            ("damped", ["-flutter_friction_damping"], "depends on the steady state"),
+            ("material", ["-material_disc_rayleigh_stiffness", "1e-7"], "has damping"),
+            ("modal", ["-flutter_basis", "modal"], "only with -flutter_basis corrected"),
+            ("uncounted", ["-modes_sturm", "off"], "free modes is not confirmed"),
+        ):
+            _, output = self.run_program(name, [*words, *more])
+            self.assertIn(reason, output)
+
+
+if __name__ == "__main__":
+    unittest.main()
