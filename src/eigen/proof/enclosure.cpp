@@ -39,6 +39,11 @@ Radii search(double largest, const Free& free) {
   return radii;
 }
 
+/// Returns the distance from the whole boundary: the contour is its upper half.
+double fromBoundary(const Contour& contour, Complex z) {
+  return contour.distance({z.real(), std::abs(z.imag())});
+}
+
 /// Returns the part of the poles outside the region. It is analytic in the region, and so at most
 /// as large as on the boundary, where all poles together are bounded by the proof of the count and
 /// the others by the sum of their terms.
@@ -58,7 +63,7 @@ FarPart farPart(const DiagonalForm& form, const Contour& contour, const CountPro
     far.poles[k] = !contour.encloses(values[k]);
     if (!far.poles[k])
       far.bound += atReach(form.aLengths(), k) * atReach(form.bLengths(), k) /
-                   (std::abs(form.nu()[k]) * contour.distance(values[k]));
+                   (std::abs(form.nu()[k]) * fromBoundary(contour, values[k]));
   }
   return far;
 }
@@ -146,7 +151,7 @@ std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
       found.s = form.squared() ? -std::conj(found.s) : std::conj(found.s);
     } else {
       const auto [radii, isolation] =
-          radiiAbout({form, values, k, contour.distance(z), far ? &*far : nullptr}, bounds);
+          radiiAbout({form, values, k, fromBoundary(contour, z), far ? &*far : nullptr}, bounds);
       if (isolation == Isolation::single)
         found = enclosure(form, z, radii);
       else
