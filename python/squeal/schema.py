@@ -8,6 +8,15 @@ import dataclasses
 import math
 import re
 
+REFEREE_VERDICTS = (
+    "right",
+    "inexact",
+    "double",
+    "artefact",
+    "missing",
+    "unproved",
+    "outside",
+)
 VERDICTS = ("unstable", "undecided", "uncertified", "stable", "neutral")  # the gravest first
 CLASSES = ("growing", "steady", "periodic", "modulated", "irregular", "nothing measured")
 
@@ -440,6 +449,23 @@ TABLES = {
             *numbers("end_friction", empty=True, read=False),
             word("reason", read=False),
         )
+    ),
+    "referee": Table(
+        (
+            whole("entry", 1, empty=True),
+            *numbers("growth_rate_1_per_s angular_frequency_rad_per_s", empty=True),
+            word("verdict", *REFEREE_VERDICTS),
+            *numbers("proved_growth_rate_1_per_s proved_angular_frequency_rad_per_s", empty=True),
+            *numbers("radius_rad_per_s distance_rad_per_s", empty=True, **SIZE),
+        ),
+        together=(
+            ("entry", "growth_rate_1_per_s", "angular_frequency_rad_per_s"),
+            (
+                "proved_growth_rate_1_per_s",
+                "proved_angular_frequency_rad_per_s",
+                "radius_rad_per_s",
+            ),
+        ),
     ),
     "floquet": Table(
         (

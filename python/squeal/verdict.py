@@ -78,6 +78,8 @@ def certificate(results):
     """Returns the grounds of the verdict, in sentences."""
     table, summary = results.eigenvalues, results.summary
     certified = int((table["certified"] == 1).sum()) if "certified" in table else 0
+    if "referee" in summary:
+        return _judgement(summary["referee"], len(table))
     lines = [
         f"{certified} of {len(table)} eigenvalues are certified against the full-order problem"
     ]
@@ -104,6 +106,21 @@ def certificate(results):
             + ", ".join(f"{p['friction']:g}" for p in failed[:8])
             + "."
         )
+    return lines
+
+
+def _judgement(referee, count):
+    """Returns the judgement of the list of another program, in sentences."""
+    most = 20
+    faults = referee["faults"]
+    lines = [
+        "The list is complete and right." if referee["complete"] else "The list has faults.",
+        referee["sentence"][0].upper() + referee["sentence"][1:] + ".",
+        f"The eigenvalues of this report are {count} proved ones, each in a disc of its own.",
+    ]
+    lines += [fault[0].upper() + fault[1:] + "." for fault in faults[:most]]
+    if len(faults) > most:
+        lines.append(f"{len(faults) - most} more entries are not right: referee.csv.")
     return lines
 
 

@@ -39,7 +39,7 @@ const std::vector<std::string>& stages() {
       "general",    "mesh",    "frame",   "matrices", "material", "elasticity", "reference",
       "ground",     "spring",  "bushing", "mass",     "coupling", "equation",   "bolt",
       "constraint", "load",    "motion",  "friction", "contact",  "tie",        "steady",
-      "modes",      "flutter", "regime",  "report"};
+      "modes",      "flutter", "regime",  "referee",  "report"};
   return inOrder;
 }
 

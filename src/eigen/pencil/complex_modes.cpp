@@ -79,7 +79,9 @@ int ComplexModes::uncertifiedCount() const {
 
 double ComplexModes::worstBackwardError() const {
   double worst = 0;
-  for (const auto& eigenvalue : eigenvalues) worst = std::max(worst, eigenvalue.backwardError);
+  for (const auto& eigenvalue : eigenvalues)
+    if (!std::isnan(worst) && !(eigenvalue.backwardError <= worst))
+      worst = eigenvalue.backwardError;
   return worst;
 }
 

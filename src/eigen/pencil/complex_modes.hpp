@@ -210,7 +210,7 @@ struct ComplexModes {
   Verdict verdict() const;
   /// Returns the number of eigenvalues that are not certified.
   int uncertifiedCount() const;
-  /// Returns the largest backward error; 0 if there are no eigenvalues.
+  /// Returns the largest backward error; 0 if there are no eigenvalues, NaN if one is NaN.
   double worstBackwardError() const;
   /// Returns the largest estimate of the relative error; NaN if one is NaN.
   double worstErrorEstimate() const;

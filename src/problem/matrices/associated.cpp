@@ -113,9 +113,13 @@ SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms) {
   const PetscInt massless = factor::zeroRows(mass);
   requirePositiveDefinite(
       mass, massName, "an unknown without mass must have a row and a column of zeros", massless);
-  requirePositiveDefinite(stiffness,
-                          stiffnessName + (departure > 0 ? ", by its symmetric part," : ""),
-                          "is a body under-constrained? If so, support it by weak springs");
+  requirePositiveDefinite(
+      stiffness, stiffnessName + (departure > 0 ? ", by its symmetric part," : ""),
+      departure > 0 ? "friction in it may be the reason: mark its matrix by "
+                      "-matrices_<name>_of_friction or an exponent of friction, or judge "
+                      "a list of eigenvalues by -referee_list; if a body is "
+                      "under-constrained, support it by weak springs"
+                    : "is a body under-constrained? If so, support it by weak springs");
   return {factor::AssociatedSystem(std::move(stiffness), std::move(mass),
                                    "associated symmetric stiffness"),
           departure, massless};

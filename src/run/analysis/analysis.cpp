@@ -54,7 +54,10 @@ Analysis analyse(MPI_Comm comm, const Settings& settings,
   SteadyStates steady;
   UniquenessStudy uniqueness;
   Flutter flutter{.complete = false};
-  if (!settings.mesh) {
+  std::optional<JudgedList> judged;
+  if (settings.referee) {
+    judged = judgeList(comm, settings, sweep, flutter);
+  } else if (!settings.mesh) {
     flutter = matrixFlutter(comm, settings, sweep, request, checkpoint);
   } else {
     CurrentSystem current(model);
@@ -71,6 +74,7 @@ Analysis analyse(MPI_Comm comm, const Settings& settings,
           .steady = std::move(steady),
           .uniqueness = std::move(uniqueness),
           .flutter = std::move(flutter),
+          .judged = std::move(judged),
           .checkpoint = std::move(checkpoint)};
 }
 

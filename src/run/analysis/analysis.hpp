@@ -10,6 +10,7 @@
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/sweep/sweep.hpp"
 #include "run/analysis/flutter.hpp"
+#include "run/analysis/matrix_referee.hpp"
 #include "run/analysis/model.hpp"
 #include "run/analysis/settings.hpp"
 #include "run/analysis/speed_uniqueness.hpp"
@@ -27,6 +28,7 @@ struct Analysis {
   SteadyStates steady;                ///< empty for matrices from files
   UniquenessStudy uniqueness;         ///< of the steady states
   Flutter flutter;
+  std::optional<JudgedList> judged;  ///< with `-referee_list`
   checkpoint::Checkpoint checkpoint;
 
   /// Returns true if the run has been asked to stop before it had all results.

@@ -17,6 +17,7 @@
 #include "run/analysis/checks.hpp"
 #include "run/analysis/inventory.hpp"
 #include "run/analysis/matrix_flutter.hpp"
+#include "run/analysis/matrix_referee.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -114,6 +115,7 @@ void printMemory(MPI_Comm comm, const Settings& settings, Mat k0) {
 }
 
 void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep) {
+  if (settings.referee) readList(comm, settings, sweep);
   const auto named = readMatrices(comm, settings, sweep);
   OwnedMat pattern;  // of K0
   for (const auto& [name, term] : named) {

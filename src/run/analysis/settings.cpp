@@ -81,13 +81,36 @@ MeshSettings meshSettings(const Settings& others) {
   return settings;
 }
 
+/// Throws Error for an option that asks for results which a referee does not compute, or that
+/// changes the problem.
+RefereeSettings refereeSettings(eigenlist::Settings list, const matrices::Settings& matrices) {
+  const std::string option = "option " + eigenlist::listOption() + ": ";
+  if (matrices.ofMesh())
+    throw Error(option +
+                "a list is judged for matrices (-matrices_<name>_file); -report_matrices writes "
+                "those of a mesh");
+  if (givenOptions().contains("flutter_modal_damping"))
+    throw Error(option + "-flutter_modal_damping is not part of the matrices; leave it out");
+  return {std::move(list), referee::Settings::given()};
+}
+
 }  // namespace
 
 Settings Settings::given() {
   rejectUnknownOptions();
   Settings settings;
+  if (auto list = eigenlist::Settings::given()) {
+    settings.sweep = sweep::Settings::given();
+    settings.matrices = matrices::Settings::given();
+    settings.referee = refereeSettings(std::move(*list), settings.matrices);
+    settings.solver.modes = modes::Settings::given();
+    settings.output = OutputSettings::given();
+    settings.dryRun = dryRunOption.get();
+    return settings;
+  }
   settings.output = OutputSettings::given();
   settings.dryRun = dryRunOption.get();
+  referee::rejectWithout(eigenlist::listOption());
   settings.pencil = pencil::Settings::given();
   direct::rejectIdleSolverOptions(settings.pencil.method);
   if (settings.pencil.method == pencil::Method::direct && settings.pencil.isModallyDamped())

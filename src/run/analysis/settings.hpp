@@ -6,8 +6,10 @@
 #include "base/checkpoint/settings.hpp"
 #include "base/session/settings.hpp"
 #include "eigen/pencil/settings.hpp"
+#include "eigen/referee/settings.hpp"
 #include "eigen/sweep/settings.hpp"
 #include "eigen/sweep_solver/settings.hpp"
+#include "problem/eigenlist/settings.hpp"
 #include "problem/matrices/settings.hpp"
 #include "problem/terms/settings.hpp"
 #include "regime/regime/settings.hpp"
@@ -35,6 +37,12 @@ struct MeshSettings {
   int ownModes = 0;   ///< `-report_component_modes`: elastic modes of each body by itself
 };
 
+/// Settings of the judgement of a list of eigenvalues.
+struct RefereeSettings {
+  eigenlist::Settings list;
+  referee::Settings proof;
+};
+
 /// Settings of an analysis.
 struct Settings {
   OutputSettings output;
@@ -48,6 +56,9 @@ struct Settings {
   matrices::ExportSettings matrixExport;
   std::optional<MeshSettings> mesh;  ///< none for matrices from files
   regime::Settings regime;
+  /// Of a run with `-referee_list`, which judges the list and computes nothing else; only its
+  /// settings, the matrices, the sweep and the free modes are then read.
+  std::optional<RefereeSettings> referee;
 
   /// Collective. Reads all options of the analysis. Throws Error for an option that is unknown, out
   /// of range or idle: for every mistake that shows before a file is read or written.

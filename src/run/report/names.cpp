@@ -14,6 +14,7 @@ namespace {
 const std::set<std::string> fixedNames{"eigenvalues.csv",
                                        "branches.csv",
                                        "critical.csv",
+                                       "referee.csv",
                                        "critical_sensitivities.csv",
                                        "proof.csv",
                                        "contact_path.csv",

@@ -7,6 +7,7 @@
 #include "base/session/stages.hpp"
 #include "run/audit/audit.hpp"
 #include "run/report/fields.hpp"
+#include "run/report/judgement.hpp"
 #include "run/report/names.hpp"
 #include "run/report/recipe.hpp"
 #include "run/report/stability_table.hpp"
@@ -77,7 +78,8 @@ void write(const analysis::Analysis& analysis, const Settings& settings, Directo
   const std::string note = settings.note.empty() ? "" : "\nNote: " + settings.note;
   if (!analysis.interrupted()) {
     writeInto(analysis, settings, directory);
-    printLine(comm, stabilityTable(analysis) + note);
+    printLine(comm, stabilityTable(analysis) +
+                        (analysis.judged ? refereeText(*analysis.judged) : "") + note);
     return;
   }
   const std::string how = analysis.checkpoint.exists() ? "; -resume continues it" : "";

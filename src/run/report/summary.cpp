@@ -13,6 +13,7 @@
 #include "eigen/sweep/parameters.hpp"
 #include "run/analysis/contact_path.hpp"
 #include "run/analysis/inventory.hpp"
+#include "run/report/judgement.hpp"
 #include "run/report/proofs.hpp"
 #include "run/report/report.hpp"
 #include "run/report/table_shapes.hpp"
@@ -336,6 +337,7 @@ Json runEntry(const analysis::Analysis& analysis) {
 
 void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   Json summary = runEntry(analysis);
+  if (analysis.judged) summary["referee"] = refereeEntry(*analysis.judged);
   summary["frictions"] = pointEntries(analysis);
   for (const auto& [speed, found] : analysis.uniqueness.speeds)
     summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));

@@ -17,6 +17,7 @@
 #include "run/analysis/contact_path.hpp"
 #include "run/report/branches.hpp"
 #include "run/report/components.hpp"
+#include "run/report/judgement.hpp"
 #include "run/report/names.hpp"
 #include "run/report/proofs.hpp"
 #include "run/report/reactions.hpp"
@@ -135,6 +136,7 @@ std::string contactPathTable(const analysis::Analysis& analysis) {
 void writeTables(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
   writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
+  if (analysis.judged) writeText(comm, folder / "referee.csv", refereeTable(*analysis.judged));
   if (analysis.settings.solver.sensitivity.wanted) {
     const std::string table = sensitivityTable(analysis);
     writeText(comm, folder / "sensitivities.csv", table);

@@ -46,6 +46,14 @@ RUNS = {
         "2",
     ],
     "chain": ["-options_file", repository / "options/external_chain.yaml"],
+    "judged": [
+        "-options_file",
+        repository / "options/external_chain.yaml",
+        "-flutter_friction",
+        "0.2",
+        "-referee_list",
+        repository / "tests/support/problem/chain_list.txt",
+    ],
     "belt": ["-options_file", repository / "options/external.yaml"],
     "layer": [
         "-options_file",

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "eigen/referee/settings.hpp"
+
+#include <cmath>
+
+#include "base/options/options.hpp"
+#include "base/system/error.hpp"
+
+namespace squeal::referee {
+namespace {
+
+const RealOption topOption(
+    "referee", "referee_top", 0, "Hz", nonNegative,
+    "top of the judged region |s| < 2 pi top, moved into a gap up to 8 % away; 0 = automatic (in "
+    "the first gap above the list)");
+const RealOption leftOption(
+    "referee", "referee_left", 0, "", Range{0, 1},
+    "reach of the judged region of a damped problem left of the imaginary axis, as a fraction of "
+    "its top; 0 = automatic (to the most damped entry, from 0.02 to 0.2)");
+const RealOption toleranceOption("referee", "referee_tolerance", 1e-4, "", Range{1e-12, 0.1},
+                                 "distance |ds|/|s| from a proved eigenvalue up to which an entry "
+                                 "is right; farther ones are inexact");
+const IntegerOption discsOption("referee", "referee_discs", 400, 1, 100'000,
+                                "largest number of discs that cover the boundary of the region");
+
+}  // namespace
+
+Settings Settings::given() {
+  return {.top = 2 * M_PI * topOption.get(),
+          .left = leftOption.get(),
+          .tolerance = toleranceOption.get(),
+          .discs = discsOption.get()};
+}
+
+void rejectWithout(const std::string& needed) {
+  for (const Option* option : std::initializer_list<const Option*>{&topOption, &leftOption,
+                                                                   &toleranceOption, &discsOption})
+    if (option->given()) throw Error("option " + option->dashed() + " needs " + needed);
+}
+
+}  // namespace squeal::referee

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Eigenvalues in the printed results of Abaqus, CalculiX, Nastran and Ansys.
+///
+/// Abaqus (.dat, "COMPLEX EIGENVALUE OUTPUT"): mode, Re s, Im s in rad/s (not in all versions),
+/// Im s / 2π, damping ratio −2 Re s / |Im s|.
+/// CalculiX (.dat, "EIGENVALUE OUTPUT" of a complex step): mode, Re ω, Re ω / 2π, Im ω of motions
+/// e^(iωt), so that s = i ω.
+/// Nastran (.f06, "COMPLEX EIGENVALUE SUMMARY"): root, order, Re s, Im s, |Im s| / 2π, damping
+/// −2 Re s / |Im s|.
+/// Ansys ("COMPLEX FREQUENCY (HERTZ)"): mode, Re s / 2π, Im s / 2π, "j", damping ratio
+/// −Re s / |s|; a conjugate follows without its number.
+#include <vector>
+
+#include "problem/eigenlist/lines.hpp"
+#include "problem/eigenlist/list.hpp"
+
+namespace squeal::eigenlist {
+
+/// Returns the format of the first title; columns if there is none.
+Format formatOf(const std::vector<Line>& lines);
+
+/// Returns the eigenvalues of the only table of this program, conjugates included.
+std::vector<Complex> listed(const std::vector<Line>& lines, Format format);
+
+/// Returns the name of the program, its unit and its sign.
+std::string layoutOf(Format format);
+
+}  // namespace squeal::eigenlist

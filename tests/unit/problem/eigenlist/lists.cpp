@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Lists of eigenvalues: the same two eigenvalues in the layout of each program, and lists that are
+// refused by name.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+
+#include "base/system/error.hpp"
+#include "problem/eigenlist/list.hpp"
+
+namespace {
+
+using namespace squeal;
+using eigenlist::Format, eigenlist::Unit;
+
+constexpr double turn = 2 * std::numbers::pi;
+
+// s = 12.5 ± 6283.1853 i (1000 Hz, growing) and −3 ± 12566.3706 i (2000 Hz).
+const std::string abaqus = R"(
+          E I G E N V A L U E    O U T P U T
+ MODE NO      EIGENVALUE              FREQUENCY         GENERALIZED MASS   COMPOSITE MODAL DAMPING
+                             (RAD/TIME)   (CYCLES/TIME)
+       1      3.94784E+07        6283.2        1000.0        1.0000         0.0000
+
+          C O M P L E X   E I G E N V A L U E   O U T P U T
+ MODE NO      REAL PART OF EIGENVALUE      FREQUENCY           DAMPING RATIO
+                                    (RAD/TIME)   (CYCLES/TIME)
+       1       12.500             6283.2        1000.0       -3.97887E-03
+       2      -3.0000             12566.        2000.0        4.77465E-04
+
+     THE ANALYSIS HAS BEEN COMPLETED
+       1  2  3  4  5
+)";
+const std::string calculix = R"(
+     E I G E N V A L U E   O U T P U T
+ MODE NO    EIGENVALUE                       FREQUENCY
+                                     REAL PART            IMAGINARY PART
+                           (RAD/TIME)      (CYCLES/TIME     (RAD/TIME)
+     1   0.3947842E+08   0.6283185E+04   0.1000000E+04   0.0000000E+00
+
+    E I G E N V A L U E   O U T P U T
+
+MODE NO                     FREQUENCY
+                     REAL PART         IMAGINARY PART
+            (RAD/TIME)   (CYCLES/TIME)   (RAD/TIME)
+
+      1   0.6283185E+04   0.1000000E+04  -0.1250000E+02
+      2   0.1256637E+05   0.2000000E+04   0.3000000E+01
+)";
+const std::string nastran = R"(
+                         C O M P L E X   E I G E N V A L U E   S U M M A R Y
+0   ROOT     EXTRACTION          EIGENVALUE             FREQUENCY      DAMPING
+   NO.        ORDER        (REAL)           (IMAG)           (CYCLES)         COEFFICIENT
+   1           2         1.250000E+01   -6.283185E+03         1.000000E+03       -3.978874E-03
+   2           1         1.250000E+01    6.283185E+03         1.000000E+03       -3.978874E-03
+1    BRAKE                                       OCTOBER  12, 2020  MSC NASTRAN   PAGE    12
+                         C O M P L E X   E I G E N V A L U E   S U M M A R Y
+0   ROOT     EXTRACTION          EIGENVALUE             FREQUENCY      DAMPING
+   NO.        ORDER        (REAL)           (IMAG)           (CYCLES)         COEFFICIENT
+   3           3        -3.000000E+00    1.256637E+04         2.000000E+03        4.774648E-04
+)";
+const std::string ansys = R"(
+  MODE       COMPLEX FREQUENCY (HERTZ)              MODAL DAMPING RATIO
+     1    1.9894368       1000.0000     j       -0.19894329E-02
+          1.9894368      -1000.0000     j       -0.19894329E-02
+     2  -0.47746483       2000.0000     j        0.23873241E-03
+        -0.47746483      -2000.0000     j        0.23873241E-03
+)";
+
+const std::vector<Complex> expected{{12.5, turn * 1000}, {-3, turn * 2000}};
+
+void expectList(const std::string& text, Format format, std::optional<Unit> unit, double accuracy,
+                long conjugates) {
+  const auto list = eigenlist::parse(text, format, unit);
+  ASSERT_EQ(list.values.size(), expected.size()) << text;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_LT(std::abs(list.values[i] - expected[i]), accuracy * std::abs(expected[i])) << text;
+  EXPECT_EQ(list.conjugates + list.mirrored, conjugates) << text;
+}
+
+// Within the digits that each list prints: five, seven, and all.
+TEST(Lists, OfEachProgram) {
+  expectList(abaqus, Format::automatic, {}, 5e-5, 0);
+  expectList(abaqus, Format::abaqus, {}, 5e-5, 0);
+  expectList(nastran, Format::automatic, {}, 5e-7, 1);
+  expectList(ansys, Format::automatic, {}, 5e-7, 2);
+  const std::string complexTable = calculix.substr(calculix.find("    E I G", 20));
+  expectList(complexTable, Format::automatic, {}, 5e-7, 0);
+}
+
+TEST(Lists, OfColumns) {
+  const std::string rows = "12.5 6283.185307179586\n-3, 12566.370614359172\n";
+  const std::string hertz = "1.98943678864869e0 1000\n-4.7746482927568601D-1;2000\n";
+  expectList(rows, Format::automatic, Unit::radians, 1e-12, 0);
+  expectList("real_rad_per_s,imaginary_rad_per_s\n" + rows, Format::automatic, {}, 1e-12, 0);
+  expectList("# s in 1/s\n\n" + rows + "12.5 -6283.185307179586\n", Format::columns, {}, 1e-12, 1);
+  expectList(hertz, Format::columns, Unit::hertz, 1e-12, 0);
+  expectList("% Hz\r\n" + hertz, Format::automatic, {}, 1e-12, 0);
+  expectList(
+      "friction,speed,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,name\n"
+      "0.6,1,1,12.5,6283.185307179586,1000,\n0.6,1,2,-3,12566.370614359172,2000,disc (0,2)\n",
+      Format::automatic, {}, 1e-12, 0);
+  // Conjugates only: both halves have the same eigenvalues.
+  expectList("12.5 -6283.185307179586\n-3 -12566.370614359172", Format::columns, Unit::radians,
+             1e-12, 2);
+}
+
+std::string refusal(const std::string& text, Format format, std::optional<Unit> unit) {
+  try {
+    eigenlist::parse(text, format, unit);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Lists, RefusedByName) {
+  const auto expect = [](const std::string& text, Format format, std::optional<Unit> unit,
+                         const std::string& reason) {
+    const auto why = refusal(text, format, unit);
+    EXPECT_NE(why.find(reason), std::string::npos) << why;
+    EXPECT_EQ(why.find('\n'), std::string::npos) << why;
+  };
+  expect("", Format::automatic, {}, "the file is empty");
+  expect("# rad/s\n", Format::automatic, {}, "no eigenvalue was found");
+  expect("1 2\n", Format::automatic, {}, "give -referee_unit rad or Hz");
+  expect("1/s,Hz\n1 2\n", Format::automatic, {}, "both Hz and rad/s");
+  expect("Hz Hz\n1 2\n", Format::automatic, Unit::radians, "another unit than -referee_unit");
+  expect("1 nan\n", Format::columns, Unit::radians, "line 1: 'nan' is not a finite number");
+  expect("1 2\nend of list\n", Format::columns, Unit::radians, "line 2: 'end'");
+  expect("1 1e999\n", Format::columns, Unit::radians, "not a finite number");
+  expect("1 2 3\n", Format::columns, Unit::radians, "3 words instead of 2");
+  expect("friction,growth_rate_1_per_s,angular_frequency_rad_per_s\n0,1,2\n0.1,1,2\n",
+         Format::automatic, {}, "several points");
+  expect(abaqus, Format::abaqus, Unit::hertz, "leave -referee_unit out");
+  expect(abaqus, Format::nastran, {}, "no eigenvalue was found (Nastran");
+  expect(nastran + nastran, Format::automatic, {}, "several tables");
+  const auto replaced = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  expect(replaced(abaqus, "12.500", "*****"), Format::abaqus, {}, "'*****' is not a finite");
+  expect(replaced(abaqus, "12566.", "12466."), Format::abaqus, {}, "do not agree");
+  expect(replaced(abaqus, "-3.97887E-03", "3.97887E-03"), Format::abaqus, {}, "the signs of");
+}
+
+}  // namespace
