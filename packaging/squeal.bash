@@ -15,10 +15,10 @@ _squeal() {
       ;;
     -checkpoint | -resume | -quiet | -dry_run | -audit | -elasticity_prestress | \
     -bolt_under_pressure | -load_centrifugal | -motion_convective | -steady_full \
-    | -steady_uniqueness | -modes_sturm | -flutter_direct_confirm | \
-    -flutter_shapes_stable | -flutter_sensitivities | -flutter_track | \
-    -flutter_critical | -flutter_friction_damping | -regime_cycle | \
-    -report_fields)
+    | -steady_uniqueness | -modes_sturm | -flutter_proof | \
+    -flutter_direct_confirm | -flutter_shapes_stable | -flutter_sensitivities | \
+    -flutter_track | -flutter_critical | -flutter_friction_damping | \
+    -regime_cycle | -report_fields)
       _squeal_words "on off"
       return
       ;;
@@ -84,22 +84,22 @@ _squeal() {
     -friction_decay_speed -friction_table_speed -friction_table_factor
     -steady_full -steady_path -steady_uniqueness -steady_uniqueness_dense
     -steady_uniqueness_pmatrix -modes_count -modes_solver -modes_block_size
-    -modes_tolerance -modes_sturm -flutter_direct_count -flutter_direct_band
-    -flutter_direct_limit -flutter_direct_confirm -flutter_method
-    -flutter_modal_damping -flutter_band -flutter_band_damping -flutter_accuracy
-    -flutter_unstable_tolerance -flutter_shapes -flutter_shapes_stable
-    -flutter_shapes_below -flutter_basis -flutter_tolerance -flutter_rounds
-    -flutter_growth -flutter_sensitivities -flutter_track -flutter_critical
-    -flutter_critical_tolerance -flutter_track_halvings -flutter_friction
-    -flutter_speed -flutter_pressure -flutter_damping -flutter_friction_damping
-    -flutter_released -regime_friction -regime_time -regime_step
-    -regime_start_factor -regime_starts -regime_boundary -regime_cycle
-    -regime_cycle_steps -regime_cycle_tolerance -regime_cycle_range
-    -regime_cycle_motions -regime_cycles_kept -regime_frames
-    -regime_air_impedance -regime_spectrum_points -referee_top -referee_left
-    -referee_tolerance -referee_discs -referee_list -referee_format
-    -referee_unit -report_matrices -report_matrices_format
-    -report_component_modes -report_dir -report_note -report_fields
-    -report_modes -report_animated -report_pieces -report_frames"
+    -modes_tolerance -modes_sturm -flutter_proof -flutter_proof_discs
+    -flutter_direct_count -flutter_direct_band -flutter_direct_limit
+    -flutter_direct_confirm -flutter_method -flutter_modal_damping -flutter_band
+    -flutter_band_damping -flutter_accuracy -flutter_unstable_tolerance
+    -flutter_shapes -flutter_shapes_stable -flutter_shapes_below -flutter_basis
+    -flutter_tolerance -flutter_rounds -flutter_growth -flutter_sensitivities
+    -flutter_track -flutter_critical -flutter_critical_tolerance
+    -flutter_track_halvings -flutter_friction -flutter_speed -flutter_pressure
+    -flutter_damping -flutter_friction_damping -flutter_released
+    -regime_friction -regime_time -regime_step -regime_start_factor
+    -regime_starts -regime_boundary -regime_cycle -regime_cycle_steps
+    -regime_cycle_tolerance -regime_cycle_range -regime_cycle_motions
+    -regime_cycles_kept -regime_frames -regime_air_impedance
+    -regime_spectrum_points -referee_top -referee_left -referee_tolerance
+    -referee_discs -referee_list -referee_format -referee_unit -report_matrices
+    -report_matrices_format -report_component_modes -report_dir -report_note
+    -report_fields -report_modes -report_animated -report_pieces -report_frames"
 }
 complete -o default -F _squeal squeal

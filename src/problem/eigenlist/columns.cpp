@@ -105,9 +105,12 @@ std::vector<Complex> columns(const std::vector<Line>& lines, std::optional<Unit>
     throw Error("the names of the columns state rad/s; leave -referee_unit out");
   layout = named ? "columns growth_rate_1_per_s and angular_frequency_rad_per_s"
                  : setUnit(header, unit, columns);
+  // Cells behind those of s may be empty, and are then no words.
+  std::size_t least = std::max(columns.real, columns.imaginary) + 1;
+  for (const auto place : columns.constant) least = std::max(least, place + 1);
   std::vector<Complex> values;
   for (const auto* row : rows) {
-    if (named ? row->words.size() + 1 < columns.count : row->words.size() != columns.count)
+    if (named ? row->words.size() < least : row->words.size() != columns.count)
       throw Error(formatted("line %ld: %zu words instead of %zu%s", row->number, row->words.size(),
                             columns.count, named ? "" : ", the real and the imaginary part"));
     for (const auto place : columns.constant)
