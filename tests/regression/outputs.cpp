@@ -29,7 +29,7 @@ TEST(Outputs, Eigenvalues) {
   EXPECT_EQ(table.header,
             "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,"
             "frequency_hz,damping_ratio,"
-            "backward_error,error_estimate,certified,verdict,unstable,name");
+            "backward_error,error_estimate,radius_1_per_s,certified,verdict,unstable,name");
   const auto friction = table.column("friction"), mode = table.column("mode"),
              growth = table.column("growth_rate_1_per_s"),
              angular = table.column("angular_frequency_rad_per_s"),
