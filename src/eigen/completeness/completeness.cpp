@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "algebra/linalg/columns.hpp"
+#include "algebra/linalg/rows.hpp"
 #include "algebra/linalg/spread.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/concatenation.hpp"
@@ -30,22 +30,13 @@ constexpr double above = 0.08;
 /// reach beyond the region.
 constexpr double reach = 1.15;
 
-/// Collective. Returns the rows of all ranks, given those of this one.
-DenseMatrix rowsOfAllRanks(MPI_Comm comm, const DenseMatrix& own) {
-  const DenseMatrix columns = linalg::transposed(own);
-  const Concatenation ranks(comm, own.rows());
-  DenseMatrix all(own.columns(), ranks.size());
-  ranks.gather(columns.data(), all.data(), static_cast<int>(own.columns()));
-  return linalg::transposed(all);
-}
-
 /// Collective. Returns A V for a matrix of few rows.
 DenseMatrix productWithBasis(const reduction::Basis& basis, Mat rows) {
   PetscInt own = 0;
   check(MatGetLocalSize(rows, &own, nullptr));
   linalg::Block product(own);
   basis.appendProducts(rows, 0, basis.size(), product);
-  return rowsOfAllRanks(basis.comm(), product);
+  return linalg::gatheredRows(Concatenation(basis.comm(), own), product);
 }
 
 /// Collective. Returns the columns of Aᵀ for a matrix of few rows, by this rank's rows.
@@ -238,19 +229,6 @@ ProjectedFactors project(reduction::ReducedProblem& reduced, const FrictionFacto
   return result;
 }
 
-/// Returns some rows of a matrix.
-DenseMatrix someRows(const DenseMatrix& a, const std::vector<PetscInt>& rows) {
-  DenseMatrix result(rows.size(), a.columns());
-  for (PetscInt j = 0; j < a.columns(); ++j)
-    for (PetscInt i = 0; i < result.rows(); ++i) result(i, j) = a(rows[i], j);
-  return result;
-}
-
-/// Returns these rows and columns of a matrix.
-DenseMatrix square(const DenseMatrix& a, const std::vector<PetscInt>& rows) {
-  return linalg::transposed(someRows(linalg::transposed(someRows(a, rows)), rows));
-}
-
 /// Subtracts from N K0⁻¹ Nᵀ the part of the interior vectors of V.
 void subtractKept(const DenseMatrix& rows, PetscInt boundary, DenseMatrix& flexibility) {
   const DenseMatrix inner(rows.columnRange(boundary, rows.columns()));
@@ -278,7 +256,7 @@ SetProjection projectionOf(const ProvedSet& set, const subspace::PointSpace& spa
                            linalg::DenseProblem associated, const KnownModes& modes,
                            const ProjectedFactors& projected) {
   const auto onSet = [&](const DenseMatrix& rows) {
-    return space.restrictedColumns(someRows(rows, set.rows));
+    return space.restrictedColumns(linalg::rowsOf(set.rows, rows));
   };
   SetProjection result;
   SetMatrices& matrices = result.matrices;
@@ -289,13 +267,13 @@ SetProjection projectionOf(const ProvedSet& set, const subspace::PointSpace& spa
   const auto turned = [&](const DenseMatrix& rows) { return linalg::product(rows, turn); };
   for (std::size_t a = 0; a < projected.slip.size(); ++a) {
     result.slip.push_back(onSet(projected.slip[a]));
-    result.slipErrors.push_back(
-        slipError(turned(result.slip[a]), space.own(), square(projected.ofSlip[a], set.rows)));
+    result.slipErrors.push_back(slipError(turned(result.slip[a]), space.own(),
+                                          linalg::principalPart(set.rows, projected.ofSlip[a])));
   }
   matrices.normal = onSet(projected.normal);
   matrices.inertia = onSet(projected.inertia);
-  matrices.leftNormal = square(projected.ofNormal, set.rows);
-  matrices.leftInertia = square(projected.ofInertia, set.rows);
+  matrices.leftNormal = linalg::principalPart(set.rows, projected.ofNormal);
+  matrices.leftInertia = linalg::principalPart(set.rows, projected.ofInertia);
   subtractKept(turned(matrices.normal), space.own(), matrices.leftNormal);
   subtractKept(turned(matrices.inertia), space.own(), matrices.leftInertia);
   linalg::DenseProblem flexible;

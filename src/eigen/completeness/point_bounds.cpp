@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/linalg/rows.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/error.hpp"
 #include "base/system/text.hpp"
@@ -23,15 +24,6 @@ std::vector<PetscInt> otherColumns(const KnownModes& modes, PetscInt size) {
   for (PetscInt i = 0; i < size; ++i)
     if (i < modes.first || i >= modes.first + modes.count) others.push_back(i);
   return others;
-}
-
-/// Returns A with these rows and columns.
-DenseMatrix part(const DenseMatrix& a, const std::vector<PetscInt>& rows,
-                 const std::vector<PetscInt>& columns) {
-  DenseMatrix result(rows.size(), columns.size());
-  for (PetscInt j = 0; j < result.columns(); ++j)
-    for (PetscInt i = 0; i < result.rows(); ++i) result(i, j) = a(rows[i], columns[j]);
-  return result;
 }
 
 /// A factor Γ^½ of Γ ≥ A, with orthogonal columns by ascending length.
@@ -68,7 +60,7 @@ proof::Coupling massCoupling(const SetMatrices& set, double most) {
   coupling.error[2] = set.modes.error;
   if (others.empty()) return coupling;
   const auto [root, raise] =
-      rootOf(linalg::symmetricPart(part(set.leftMass, others, others)),
+      rootOf(linalg::symmetricPart(linalg::principalPart(others, set.leftMass)),
              "the free modes are not complete below the frequency of their count", most * most);
   const double small = 4 * raise;
   PetscInt first = 0;
@@ -86,7 +78,6 @@ proof::Coupling massCoupling(const SetMatrices& set, double most) {
 
 SetBounds setBounds(const SetMatrices& set, double reach) {
   SetBounds bounds{};
-  bounds.reach = reach;
   bounds.mass = 1 / set.modes.theta + set.modes.error;
   bounds.toLeftOut = massCoupling(set, bounds.mass);
   bounds.normal = proof::quickBound(linalg::DenseView(set.normal));

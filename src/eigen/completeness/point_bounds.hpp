@@ -28,7 +28,6 @@ struct SetMatrices {
 
 /// Bounds of these blocks, which all points of the set share.
 struct SetBounds {
-  double reach;                    ///< the bounds hold for |s| up to this value, rad/s
   double mass;                     ///< M on C is at most this, s²
   proof::Coupling toLeftOut;       ///< s² M_CV
   linalg::DenseMatrix forces;      ///< N_0C + s² N_2C = forces · W with ‖W‖ ≤ 1, r × r
@@ -36,8 +35,8 @@ struct SetBounds {
   double leftNormal, leftInertia;  ///< ‖N_0C‖ and ‖N_2C‖
 };
 
-/// Returns the bounds of a set. Throws Error if modes below θ are missing in V, or if a matrix of
-/// squares has a negative eigenvalue.
+/// Returns the bounds of a set for |s| up to `reach`, rad/s. Throws Error if modes below θ are
+/// missing in V, or if a matrix of squares has a negative eigenvalue.
 SetBounds setBounds(const SetMatrices& set, double reach);
 
 /// A point in coordinates of V.

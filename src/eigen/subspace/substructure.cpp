@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/subspace/substructure.hpp"
 
-#include <slepcblaslapack.h>
-
 #include <algorithm>
 
-#include "base/petsc/check.hpp"
+#include "algebra/linalg/rows.hpp"
+#include "algebra/linalg/symmetric.hpp"
+#include "base/system/error.hpp"
 
 namespace squeal::subspace {
 
@@ -15,22 +15,14 @@ PointSpace::PointSpace(const DenseMatrix& boundaryStiffness, const std::vector<u
     : all_(boundaryStiffness.rows()) {
   for (std::size_t i = 0; i < has.size(); ++i)
     if (has[i]) boundary_.push_back(i);
-  DenseMatrix stiffness(own(), own());
-  turn_ = stiffness;
-  for (PetscInt j = 0; j < own(); ++j) {
-    turn_(j, j) = 1;
-    for (PetscInt i = 0; i < own(); ++i)
-      stiffness(i, j) = boundaryStiffness(boundary_[i], boundary_[j]);
-  }
-  PetscBLASInt n = own(), info = 0;
-  const PetscScalar one = 1;
-  if (n == 0) return;
-  LAPACKpotrf_("L", &n, stiffness.data(), &n, &info);
-  if (info != 0)
+  try {
+    turn_ = linalg::inverseTransposed(
+        linalg::choleskyFactor(linalg::principalPart(boundary_, boundaryStiffness)));
+  } catch (const Error&) {
     throw Error(
         "a body is under-constrained: with the present open contact nodes the stiffness matrix is "
         "not positive definite");
-  BLAStrsm_("L", "L", "T", "N", &n, &n, &one, stiffness.data(), &n, turn_.data(), &n);
+  }
 }
 
 std::vector<Complex> PointSpace::lifted(const std::vector<Complex>& q) const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/sweep_solver/point_text.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/system/error.hpp"
@@ -30,10 +29,8 @@ std::string completenessText(const pencil::ComplexModes& point) {
   if (!found.proved) return text + "not proved: " + found.reason;
   text += formatted("%d eigenvalues below %.6g Hz proved, ratio %.2g, %d discs", found.count,
                     found.top / (2 * M_PI), found.ratio, found.discs);
-  const auto inDiscs = std::ranges::count_if(point.eigenvalues,
-                                             [](const auto& e) { return std::isfinite(e.radius); });
-  text += formatted(", %zu of %zu listed in discs of their own", std::size_t(inDiscs),
-                    point.eigenvalues.size());
+  text += formatted(", %zu of %zu listed in discs of their own",
+                    point.eigenvalues.size() - point.withoutDisc(), point.eigenvalues.size());
   for (const auto& one : found.missing)
     text += formatted(", missing within %.2g of %.9g%+.9gi", one.radius, one.centre.real(),
                       one.centre.imag());

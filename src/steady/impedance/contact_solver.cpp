@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "algebra/linalg/block.hpp"
+#include "algebra/linalg/rows.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/object.hpp"
 #include "base/system/concatenation.hpp"
@@ -35,22 +36,6 @@ constexpr double newInSpace = 1e-10, newInBlock = 0.3;
 constexpr double mostBytes = 256e6;
 /// The largest number of active sets in memory.
 constexpr std::size_t mostBlocks = 32;
-
-/// Collective. Returns the rows of all ranks, on every rank.
-DenseMatrix gathered(const Concatenation& ranks, const DenseView& rows) {
-  const DenseMatrix own = linalg::transposed(rows);  // by rows: all of them in one message
-  DenseMatrix all(rows.columns(), ranks.size());
-  ranks.gather(own.data(), all.data(), static_cast<int>(rows.columns()));
-  return linalg::transposed(all);
-}
-
-/// Returns some rows of a matrix.
-DenseMatrix rowsOf(const std::vector<PetscInt>& rows, const DenseView& matrix) {
-  DenseMatrix part(std::ssize(rows), matrix.columns());
-  for (PetscInt j = 0; j < part.columns(); ++j)
-    for (PetscInt i = 0; i < part.rows(); ++i) part(i, j) = matrix(rows[i], j);
-  return part;
-}
 
 /// Collective. Returns the coefficients a that minimise |b − G a|. It refines the normal equations,
 /// which gives all digits if the condition number of G is below some 1e7.
@@ -113,7 +98,7 @@ void ContactSolver::computeColumns(std::span<const unsigned char> free) {
   for (const PetscInt unknown : all) place_.emplace(unknown, place_.size());
   const DenseMatrix fresh = impedance_.responsesToUnits(all);
   columns_.append(fresh);
-  frictionalColumns_.append(rowsOf(frictional_, fresh));
+  frictionalColumns_.append(linalg::rowsOf(frictional_, fresh));
 }
 
 /// Collective. Extends the list of nodes with friction by those of these cases.
@@ -128,7 +113,7 @@ void ContactSolver::noteFriction(std::span<const ContactCase> cases) {
         frictional_.push_back(i);
       }
   if (!mpi::any(impedance_.comm(), frictional_.size() > before)) return;
-  frictionalColumns_ = rowsOf(frictional_, columns_);
+  frictionalColumns_ = linalg::rowsOf(frictional_, columns_);
   for (auto& block : blocks_) block->normal = DenseMatrix(std::ssize(frictional_));
 }
 
@@ -160,7 +145,7 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
   DenseMatrix rows(local.size(), std::ssize(places));
   for (PetscInt j = 0; j < rows.columns(); ++j)
     for (std::size_t i = 0; i < local.size(); ++i) rows(i, j) = columns_(n + local[i], places[j]);
-  DenseMatrix stiffness = linalg::symmetricPart(gathered(ranks, rows));
+  DenseMatrix stiffness = linalg::symmetricPart(linalg::gatheredRows(ranks, rows));
   OwnedMat direct;
   if (conditions.direct) {
     check(PetscObjectReference(object(conditions.direct)));
@@ -188,7 +173,7 @@ DenseMatrix ContactSolver::released(const FreeBlock& block, const DenseView& eff
   for (PetscInt j = 0; j < effects.columns(); ++j)
     for (std::size_t i = 0; i < block.local.size(); ++i)
       rows(i, j) = -effects(n + block.local[i], j);
-  DenseMatrix freed = gathered(block.ranks, rows);
+  DenseMatrix freed = linalg::gatheredRows(block.ranks, rows);
   block.stiffness.apply(freed);
   DenseMatrix amounts(columns_.columns(), freed.columns());
   for (PetscInt j = 0; j < freed.columns(); ++j)
@@ -222,7 +207,7 @@ void ContactSolver::update(FreeBlock& block) const {
   DenseMatrix fresh(responses_.columnRange(known, all));
   addDirect(block, magnitudes_.columnRange(known, all), fresh);
   // Elsewhere c = 0, and R is not needed: most of the nodes of a brake have no friction.
-  DenseMatrix normal = rowsOf(frictional_, fresh);
+  DenseMatrix normal = linalg::rowsOf(frictional_, fresh);
   const DenseMatrix amounts = released(block, fresh);
   if (!amounts.empty()) linalg::multiplyAdd(frictionalColumns_, amounts, normal);
   block.normal.append(normal);
