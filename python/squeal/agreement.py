@@ -26,6 +26,8 @@ def require_agreement(folder, summary, tables):
         _require_directions(folder / "critical.csv", tables["critical"])
     if "regime" in tables and "regimes" in summary:
         _require_classes(folder / "regime.csv", tables["regime"], summary["regimes"])
+    if "referee" in tables and "referee" in summary:
+        _require_judgement(folder / "referee.csv", tables["referee"], summary["referee"])
 
 
 def _differ(path, at, found, listed):
@@ -143,6 +145,15 @@ def _require_classes(path, table, runs):
             raise ResultsError(
                 f"{path}, line {number}: start {row['start']} is {row['class']}, summary.json lists"
                 f" {entry['start']}, {entry['class']}"
+            )
+
+
+def _require_judgement(path, table, judgement):
+    found = collections.Counter(table["verdict"])
+    for word, count in judgement["verdicts"].items():
+        if found[word] != count:
+            raise ResultsError(
+                f"{path}: it has {found[word]} entries that are {word}, summary.json lists {count}"
             )
 
 

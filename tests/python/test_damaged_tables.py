@@ -90,7 +90,7 @@ class DamagedTables(OnTables):
             results, path = self.runs[run], self.place / run / f"{name}.csv"
             whole = path.read_text()
             text, must = self.damaged(whole, schema.schema_of(name), generator)
-            if text == whole:
+            if text in (whole, text_of(cells_of(whole))):  # not damaged; quotes may be missing
                 continue
             damaged = self.place / "damaged" / path.name
             damaged.parent.mkdir(exist_ok=True)

@@ -177,6 +177,12 @@ class Schema(OnTables):
             self.change_cell(1, "class", "steady"),
             "is steady, summary.json lists",
         )
+        self.refused(
+            "judged",
+            "referee",
+            self.change_cell(1, "verdict", "double"),
+            "entries that are .*, summary.json lists",
+        )
 
     def test_results_of_versions_without_shapes(self):
         """What a program here reads has to be there; other columns need not be."""
