@@ -213,7 +213,7 @@ TABLES = {
         together=(("right_backward_error", "left_backward_error"),),
     ),
     "contact_path": Table(
-        (*POINT[:3], *PLACE, word("interface"), word("change", "opens", "closes"))
+        (*POINT[:3], *PLACE, word("interface"), word("change", "opens", "closes", "unheld", "held"))
     ),
     "friction_work": Table(
         (

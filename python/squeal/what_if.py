@@ -307,7 +307,8 @@ def compare(base, changed, changes):
     ]
     more = int(changed.eigenvalues["grows"].sum()) - int(base.eigenvalues["grows"].sum())
     parts.append(
-        f"Unstable eigenvalues at all points: {int(base.eigenvalues['grows'].sum())} before,"
+        "Unstable eigenvalues, summed over all points:"
+        f" {int(base.eigenvalues['grows'].sum())} before,"
         f" {int(changed.eigenvalues['grows'].sum())} now"
         + ("; modes that grow only now have no prediction" if more > 0 else "")
     )

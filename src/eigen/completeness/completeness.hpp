@@ -11,16 +11,18 @@
 
 namespace squeal::completeness {
 
-/// The points with one active set.
+/// The points of a sweep that share the same active set.
 struct ProvedSet {
-  std::vector<PetscInt> rows;                     ///< of the factors, ascending
+  std::vector<PetscInt> rows;  ///< of the FrictionFactors that the set uses, ascending
   std::vector<reduction::PointProblem> problems;  ///< at least one
   std::vector<pencil::ComplexModes*> points;      ///< [problem] solved, borrowed
 };
 
-/// Collective. Adds the static responses to the slip rows to the basis, and sets the completeness
-/// of each point and the radii of its eigenvalues. `modes` are the free modes of `system`, of the
-/// interior unknowns. If their count reaches hardly beyond the band, they are counted once more.
+/// Collective. Extends the basis by the static responses to forces in the slip rows. Sets the
+/// completeness of each point and, for each of its eigenvalues, the radius of the disc that
+/// contains it. `modes` are the free modes of `system`, which has only the interior unknowns
+/// (subspace::Substructure). If their number is known only to just above the band, they are counted
+/// again at a higher frequency.
 void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
            const modes::Modes& modes, const FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings);

@@ -107,9 +107,9 @@ std::string modeName(const std::vector<Component>& components);
 struct Shape {
   std::size_t index;  ///< index into ComplexModes::eigenvalues
   OwnedVec real, imaginary;
-  linalg::ComplexVector unknowns;    ///< the same d in the unknowns x
-  std::vector<double> frictionWork;  ///< [owned contact node] contribution of friction there to the
-                                     ///< growth rate, 1/s [M.52]; empty without contact
+  linalg::ComplexVector unknowns;     ///< the same d in the unknowns x
+  std::vector<double> frictionWork;   ///< [contact node] contribution of friction there to the
+                                      ///< growth rate, 1/s [M.52]; empty without contact
   std::vector<Component> components;  ///< the same on all ranks; empty for matrices from files
   std::vector<Participation> participations;  ///< [free mode]; not in checkpoints
   std::vector<BodyCorrelation> correlations;  ///< most energy first; not in checkpoints

@@ -2,6 +2,7 @@
 #pragma once
 /// The points of a batch while the basis is corrected.
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "eigen/pencil/complex_modes.hpp"
@@ -25,9 +26,10 @@ struct PointProblem {
 /// Points with the same boundary unknowns.
 struct PointSet {
   PointSpace space;
-  ProjectedTerms terms;  ///< terms of these points
-  double top;            ///< upper end of the listed band, rad/s
-  int modesInBand;       ///< free modes up to there
+  pencil::Pencil pencil;                ///< with the terms of these points
+  std::optional<ProjectedTerms> terms;  ///< terms of these points; none if they are not loaded
+  double top;                           ///< upper end of the listed band, rad/s
+  int modesInBand;                      ///< free modes up to there
 };
 
 using Norms = std::array<double, 3>;  ///< 2-norms of K̄, Z̄, M̄ of a point

@@ -16,13 +16,31 @@ ProjectedBasis::ProjectedBasis(const pencil::Pencil& pencil, const factor::Assoc
   serialised_ = basis_.size();
 }
 
-int ProjectedBasis::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
-  sets_.push_back(std::make_unique<PointSet>(
-      PointSet{.space = PointSpace(basis_.boundaryStiffness(), has),
-               .terms = ProjectedTerms(basis_, pencil, terms_.count(), pencil.affineCount()),
-               .top = 0,
-               .modesInBand = 0}));
+int ProjectedBasis::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
+                           bool passed) {
+  auto& set = *sets_.emplace_back(
+      std::make_unique<PointSet>(PointSet{.space = PointSpace(basis_.boundaryStiffness(), has),
+                                          .pencil = pencil.with({}),
+                                          .terms = {},
+                                          .top = 0,
+                                          .modesInBand = 0}));
+  if (!passed) set.terms.emplace(basis_, pencil, terms_.count(), pencil.affineCount());
   return std::ssize(sets_) - 1;
+}
+
+void ProjectedBasis::load(int number) {
+  auto& set = *sets_[number];
+  const auto known = std::ranges::find(loaded_, number);
+  if (known == loaded_.end() && set.terms) return;  // the set of a point
+  if (known != loaded_.end()) loaded_.erase(known);
+  if (!set.terms) {
+    if (loaded_.size() == mostLoaded) {
+      sets_[loaded_.front()]->terms.reset();
+      loaded_.erase(loaded_.begin());
+    }
+    set.terms.emplace(basis_, set.pencil, terms_.count(), set.pencil.affineCount());
+  }
+  loaded_.push_back(number);
 }
 
 PointState ProjectedBasis::state(const PointProblem& point, const Norms& norms) const {
@@ -38,7 +56,8 @@ PointState ProjectedBasis::state(const PointProblem& point, const Norms& norms) 
 
 void ProjectedBasis::extend(const std::vector<PointState*>& states) {
   terms_.extend();
-  for (auto& set : sets_) set->terms.extend();
+  for (auto& set : sets_)
+    if (set->terms) set->terms->extend();
   for (auto* state : states) state->ownTerms.extend();
 }
 
@@ -48,7 +67,7 @@ linalg::DenseProblem ProjectedBasis::project(const PointState& state) const {
 
 linalg::DenseProblem ProjectedBasis::projectOnAll(const PointState& state) const {
   linalg::DenseProblem problem;
-  for (const auto* terms : {&terms_, &state.set->terms, &state.ownTerms})
+  for (const auto* terms : {&terms_, &state.set->terms.value(), &state.ownTerms})
     terms->addTo({state.point->at, state.associated}, problem);
   return problem;
 }
@@ -62,7 +81,7 @@ linalg::DenseProblem ProjectedBasis::projectOwn(const PointState& state) const {
 linalg::DenseMatrix ProjectedBasis::residualSketch(const PointState& state, const PointPairs& pairs,
                                                    pencil::Side side) const {
   linalg::DenseMatrix sketch(2 * subspace::Sketch::size, pairs.pairs.columns);
-  for (const auto* terms : {&terms_, &state.set->terms, &state.ownTerms})
+  for (const auto* terms : {&terms_, &state.set->terms.value(), &state.ownTerms})
     terms->addTo(pairs, side, sketch);
   return sketch;
 }
@@ -95,7 +114,7 @@ linalg::Block ProjectedBasis::residuals(const std::vector<PairsOfPoint>& points,
   for (const auto& [state, pairs] : points) {
     const PetscInt last = first + pairs->pairs.columns;
     const linalg::DenseMatrix some = linalg::rowRange(combinations, first, last);
-    for (const auto* terms : {&state->set->terms, &state->ownTerms})
+    for (const auto* terms : {&state->set->terms.value(), &state->ownTerms})
       terms->addTo({pairs}, some, columns);
     first = last;
   }
@@ -111,7 +130,8 @@ void ProjectedBasis::combine(const linalg::DenseMatrix& directions) {
     std::ranges::copy(directions.column(j), all.column(boundary + j).begin() + boundary);
   basis_.combine(all);
   terms_.combine(all);
-  for (auto& set : sets_) set->terms.combine(all);
+  for (auto& set : sets_)
+    if (set->terms) set->terms->combine(all);
 }
 
 void ProjectedBasis::serialise(checkpoint::Archive& archive) {

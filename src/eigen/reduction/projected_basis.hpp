@@ -34,9 +34,14 @@ class ProjectedBasis {
 
   /// Collective. Adds the set of points with the boundary unknowns has[boundary unknown of all
   /// ranks] and returns its number. The terms of the set are those of `pencil` that follow the
-  /// terms of all points and hold for all parameters. Throws Error if their stiffness is not
-  /// positive definite.
-  int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
+  /// terms of all points and hold for all parameters. The set of a point that is only `passed`
+  /// has to be loaded before use. Throws Error if the stiffness is not positive definite.
+  int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
+             bool passed = false);
+  /// Collective. Projects the terms of a passed set, unless this is done. The terms of all but the
+  /// `mostLoaded` passed sets that were used last are dropped, since a path has hundreds of sets.
+  void load(int set);
+  static constexpr std::size_t mostLoaded = 12;
   PointSet& set(int number) { return *sets_[number]; }
   const PointSet& set(int number) const { return *sets_[number]; }
 
@@ -81,6 +86,7 @@ class ProjectedBasis {
   ProjectedTerms terms_;
   PetscInt unknowns_ = 0;
   std::vector<std::unique_ptr<PointSet>> sets_;
+  std::vector<int> loaded_;  // passed sets, the last one used at the end
   PetscInt serialised_ = 0;  // vectors that the checkpoint contains
 };
 

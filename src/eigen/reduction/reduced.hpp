@@ -57,8 +57,12 @@ class ReducedProblem {
   /// Collective. Adds a set of points with the same boundary unknowns: unknown i, numbered over all
   /// ranks, is one of them if has[i] is 1. Returns the index of the set. The set shares the terms
   /// of `pencil` that come after those passed to the constructor; they hold for all parameters.
-  /// Throws Error if their stiffness is not positive definite.
-  int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
+  /// The set of a point that is only `passed` has to be loaded before use. Throws Error if the
+  /// stiffness is not positive definite.
+  int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
+             bool passed = false);
+  /// Collective. Makes a set ready for use (ProjectedBasis::load()).
+  void load(int set) { basis_.load(set); }
   /// Collective. Returns the free modes in the band of each of these sets, [set], corrected
   /// together and in the same way as the complex modes. Their vectors have the entries of all
   /// unknowns. Only K and M of `pencil` are used. The number of modes is verified if that of the

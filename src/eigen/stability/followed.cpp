@@ -74,6 +74,12 @@ std::string TrackedLine::statement() const {
       if (!gap.identityOnly)
         text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.reason.c_str());
   }
+  if (branches.omitted > 0)
+    text += formatted(
+        "; assumed: no eigenvalue changes its stability twice among the %d active sets that were "
+        "not "
+        "examined",
+        branches.omitted);
   if (const auto open = std::ranges::count(criticals, false, &Critical::converged); open > 0)
     text += formatted("; %td of %zu changes of stability %s located only within their bounds", open,
                       criticals.size(), open == 1 ? "is" : "are");
@@ -99,11 +105,15 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
     for (const auto& piece : line.pieces) {
       families.push_back(std::make_unique<tracking::ReducedFamily>(reduced, comm, line.at,
                                                                    piece.source, progress));
-      path.push_back({families.back().get(), piece.frictions});
+      auto& added = path.emplace_back(families.back().get(), piece.frictions);
+      for (const double friction : piece.frictions)
+        added.needed.push_back(std::ranges::binary_search(line.swept, friction));
       tracked.activeSet.push_back(piece.activeSet);
     }
-    auto& first = path.front().frictions;
-    if (first.front() != 0) first.insert(first.begin(), 0);
+    if (auto& first = path.front(); first.frictions.front() != 0) {
+      first.frictions.insert(first.frictions.begin(), 0);
+      first.needed.insert(first.needed.begin(), 1);
+    }
     tracking::TrackLimits limits;
     limits.smallest = settings.smallest;
     tracked.branches = track(path, reduced.band(), limits);
@@ -115,6 +125,7 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
       const double top = tracked.branches.band.top;
       const auto below =
           std::count_if(w.begin(), w.end(), [&](double omega) { return omega <= top; });
+      families.front()->load();
       const auto problem = families.front()->at(0);
       tracked.countExact = problem && problem->damping.empty() && line.modes->countConfirmed &&
                            top * top <= line.modes->inertiaShift &&

@@ -33,9 +33,9 @@ namespace squeal::stability {
 
 void fields(Stream& stream, TrackedLine& tracked) {
   auto& [line, activeSet, from, branches, criticals, modes, countExact, wholeSpace] = tracked;
-  auto& [band, stations, events, gaps, count, entered, left] = branches;
-  stream(line, activeSet, from, band, stations, events, gaps, count, entered, left, criticals,
-         modes, countExact, wholeSpace);
+  auto& [band, stations, events, gaps, count, entered, left, omitted] = branches;
+  stream(line, activeSet, from, band, stations, events, gaps, count, entered, left, omitted,
+         criticals, modes, countExact, wholeSpace);
 }
 
 }  // namespace squeal::stability

@@ -25,7 +25,7 @@ struct Place {
 /// Collective. Returns critical frictions from one on that are roots of a function, and sets it to
 /// the next one. Equal eigenvalues that split at an end of the sweep have no slope, and neither has
 /// a jump. Each steady state is found once, for the terms and the derivatives.
-std::vector<Place> nextPlaces(SweepProblem& problem, const reduction::ReducedProblem& reduced,
+std::vector<Place> nextPlaces(SweepProblem& problem, reduction::ReducedProblem& reduced,
                               const stability::Line& line, bool derives,
                               const stability::TrackedLine& tracked, std::size_t& next) {
   std::vector<Place> places;
@@ -42,6 +42,7 @@ std::vector<Place> nextPlaces(SweepProblem& problem, const reduction::ReducedPro
     if (!between && !source.local) continue;
     if (!between) between.emplace();
     reduction::PointProblem there{at, source.shared.with(std::move(between->terms)), source.set};
+    reduced.load(source.set);
     auto projected = reduced.project(there);
     const bool isCrossing = critical.kind == tracking::Event::Kind::crossing;
     places.push_back({i,
@@ -68,7 +69,7 @@ std::vector<linalg::ComplexVector> vectorsOf(const reduction::ReducedProblem& re
 
 }  // namespace
 
-void addCriticalModes(SweepProblem& problem, const reduction::ReducedProblem& reduced,
+void addCriticalModes(SweepProblem& problem, reduction::ReducedProblem& reduced,
                       const stability::Line& line, bool derives,
                       const std::function<void(const std::string&)>& progress,
                       stability::TrackedLine& tracked) {

@@ -14,7 +14,7 @@ namespace squeal::sweep_solver {
 /// function: the name of the mode, the shares of the free modes in it and, if `derives`, the
 /// derivatives of the critical friction. Calls `progress`, which may throw, before the derivatives
 /// of each critical friction.
-void addCriticalModes(SweepProblem& problem, const reduction::ReducedProblem& reduced,
+void addCriticalModes(SweepProblem& problem, reduction::ReducedProblem& reduced,
                       const stability::Line& line, bool derives,
                       const std::function<void(const std::string&)>& progress,
                       stability::TrackedLine& tracked);

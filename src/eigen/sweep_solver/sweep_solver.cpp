@@ -141,7 +141,8 @@ class SweepSolver {
       state_.segments[0].modes = std::move(modes);
     } else {
       for (std::size_t k = 0; k < sets_.size(); ++k)
-        sets_[k].number = reduced_->addSet(sets_[k].pencil, problem_.ranges[k].has);
+        sets_[k].number = reduced_->addSet(sets_[k].pencil, problem_.ranges[k].has,
+                                           problem_.ranges[k].first == problem_.ranges[k].last);
       interiorModes_ = std::move(modes);
       text += formatted(" and %" PetscInt_FMT " constraint modes for %zu active sets",
                         reduced_->basis().boundarySize(), sets_.size());

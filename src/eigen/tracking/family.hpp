@@ -23,6 +23,9 @@ class Family {
  public:
   virtual ~Family() = default;
   virtual MPI_Comm comm() const = 0;
+  /// Collective. Makes the problems available until some other families of the path have been
+  /// loaded. Required before any other call.
+  virtual void load() {}
   /// Collective. Returns the problem at one friction in the present basis, the same on all ranks;
   /// none where it does not exist, for example because the contact opens.
   virtual std::optional<linalg::DenseProblem> at(double friction) = 0;

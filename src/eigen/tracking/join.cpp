@@ -102,30 +102,29 @@ std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
   return whole;
 }
 
-std::vector<std::vector<linalg::DensePair>> watchedPairs(
-    Family& family, const std::vector<double>& frictions,
-    const std::vector<linalg::DenseProblem>& problems, const pencil::WatchedBand& band) {
-  std::vector<std::vector<linalg::DensePair>> pairs(problems.size());
+std::vector<std::vector<linalg::DensePair>> watchedPairs(MPI_Comm comm,
+                                                         const std::vector<ProblemAt>& list,
+                                                         const pencil::WatchedBand& band) {
+  std::vector<std::vector<linalg::DensePair>> pairs(list.size());
   std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < problems.size(); ++i)
-    if (auto known = family.watchedPairs(frictions[i])) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (auto known = list[i].family->watchedPairs(list[i].friction)) {
       pairs[i] = std::move(*known);
       for (auto& pair : pairs[i])
-        for (auto* vector : {&pair.q, &pair.left}) vector->resize(problems[i].order());
+        for (auto* vector : {&pair.q, &pair.left}) vector->resize(list[i].problem->order());
       std::ranges::sort(pairs[i], [](const auto& a, const auto& b) {
         return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
       });
     } else {
       open.push_back(i);
     }
-  auto solved =
-      linalg::spread(family.comm(), open.size(), linalg::Vectors::both, [&](std::size_t k) {
-        return linalg::solveQuadratic(problems[open[k]], linalg::Vectors::both,
-                                      [&](Complex s) { return band.watches(s); });
-      });
+  auto solved = linalg::spread(comm, open.size(), linalg::Vectors::both, [&](std::size_t k) {
+    return linalg::solveQuadratic(*list[open[k]].problem, linalg::Vectors::both,
+                                  [&](Complex s) { return band.watches(s); });
+  });
   for (std::size_t k = 0; k < open.size(); ++k) pairs[open[k]] = std::move(solved[k]);
-  for (std::size_t i = 0; i < problems.size(); ++i)
-    std::erase_if(pairs[i], [&](const auto& pair) { return !counted(problems[i], pair.s); });
+  for (std::size_t i = 0; i < list.size(); ++i)
+    std::erase_if(pairs[i], [&](const auto& pair) { return !counted(*list[i].problem, pair.s); });
   return pairs;
 }
 

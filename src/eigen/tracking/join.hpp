@@ -44,13 +44,20 @@ std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Sp
 std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here,
                                  const std::vector<linalg::DensePair>& there);
 
+/// The problem of a family at a friction; borrowed.
+struct ProblemAt {
+  Family* family;
+  double friction;
+  const linalg::DenseProblem* problem;
+};
+
 /// Collective. Returns the watched eigenvalues with Im s ≥ 0, by ascending Im s, with both vectors,
-/// of the problems at some frictions of a family, [friction]. It takes known pairs from the family
-/// and distributes the other problems over the ranks. In a problem in s², where −s is an eigenvalue
-/// with every s, it omits negative real ones.
-std::vector<std::vector<linalg::DensePair>> watchedPairs(
-    Family& family, const std::vector<double>& frictions,
-    const std::vector<linalg::DenseProblem>& problems, const pencil::WatchedBand& band);
+/// of these problems. It takes known pairs from the family and distributes the other problems over
+/// the ranks. In a problem in s², where −s is an eigenvalue with every s, it omits negative real
+/// ones.
+std::vector<std::vector<linalg::DensePair>> watchedPairs(MPI_Comm comm,
+                                                         const std::vector<ProblemAt>& list,
+                                                         const pencil::WatchedBand& band);
 
 /// Not collective. Returns the eigenvalues of this problem that continue those of `from`, one or
 /// two at a neighbouring friction. It searches in their own subspace, from `expected` and

@@ -64,7 +64,7 @@ class Order {
 }  // namespace
 
 void renumber(Branches& branches) {
-  auto& [band, stations, events, gaps, count, entered, left] = branches;
+  auto& [band, stations, events, gaps, count, entered, left, omitted] = branches;
   std::map<int, int> number;  // of the branches that are in the band somewhere; 0: to be given
   for (const auto& station : stations)
     for (std::size_t i = 0; i < station.pairs.size(); ++i)

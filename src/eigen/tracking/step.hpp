@@ -35,6 +35,7 @@ struct SolvedStation {
   std::optional<StepResult> step = {};  ///< from the preceding station
   bool whole = false;                   ///< the step from the preceding station must not be halved
   double smallest = 0;                  ///< smallest step here
+  std::size_t place = 0;  ///< among those of the path; of its lower neighbour if it is inserted
 };
 
 /// Returns the event of an eigenvalue that changes its stability by itself, or of two equal

@@ -43,6 +43,7 @@ StepResult StepJoiner::jump(Family& before, const SolvedStation& a, const Solved
       joinAcrossJump(ends, group, step);
     else
       joinUncertain(ends, group, matters(ends, group), step);
+  step.sure = step.gaps.empty();
   return step;
 }
 

@@ -15,118 +15,179 @@
 namespace squeal::tracking {
 namespace {
 
+/// A friction of a piece of the path.
+struct Place {
+  std::size_t piece;
+  double friction;
+  bool needed;
+};
+
+/// Returns the frictions of all pieces of a path. Those that may be omitted are needed if there are
+/// at most `examined` of them between two needed ones.
+std::vector<Place> placesOf(const std::vector<Piece>& path, std::size_t examined) {
+  std::vector<Place> places;
+  for (std::size_t p = 0; p < path.size(); ++p)
+    for (std::size_t k = 0; k < path[p].frictions.size(); ++k)
+      places.push_back({p, path[p].frictions[k], path[p].needed.empty() || path[p].needed[k] != 0});
+  if (places.empty()) return places;
+  places.front().needed = places.back().needed = true;
+  for (std::size_t from = 0, to = 0; from + 1 < places.size(); from = to) {
+    for (to = from + 1; !places[to].needed;) ++to;
+    if (to - from - 1 <= examined)
+      for (std::size_t k = from + 1; k < to; ++k) places[k].needed = true;
+  }
+  return places;
+}
+
 /// Tracks eigenvalues along a path, in batches of its frictions.
 class Tracker {
  public:
   Tracker(const std::vector<Piece>& path, const pencil::WatchedBand& band,
           const TrackLimits& limits)
-      : path_(path), limits_(limits) {
+      : path_(path),
+        places_(placesOf(path, limits.examined)),
+        limits_(limits),
+        comm_(path.front().family->comm()),
+        together_(std::min<std::size_t>(mpi::size(comm_), mostTogether)) {
     result_.band = band;
   }
 
   Branches run() {
     std::list<SolvedStation> row;  // the last station already finished, and the next ones
-    for (; piece_ < path_.size(); ++piece_) run(path_[piece_].frictions, row);
+    std::vector<Wanted> some;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      if (places_[k].needed)
+        some.push_back({places_[k].piece, places_[k].friction, k, smallestStep(k), true});
+      if (some.size() < together_ && k + 1 < places_.size()) continue;
+      append(some, row);
+      some.clear();
+      if (row.empty()) continue;
+      if (result_.stations.empty()) finish(nullptr, row.front());
+      refine(row);
+      path_[row.back().station.piece].family->progress(formatted(
+          "%d branches tracked to friction %g", result_.count, row.back().station.friction));
+    }
     return std::move(result_);
   }
 
  private:
   static constexpr std::size_t mostTogether = 4;  // stations whose matrices are in memory at a time
 
-  Family& family() const { return *path_[piece_].family; }
-  StepJoiner joiner() const { return {family(), result_.band}; }
+  /// A station to be solved.
+  struct Wanted {
+    std::size_t piece;
+    double friction;
+    std::size_t place;
+    double smallest;
+    bool swept;
+  };
 
-  void run(const std::vector<double>& frictions, std::list<SolvedStation>& row) {
-    const std::size_t together = std::min<std::size_t>(mpi::size(family().comm()), mostTogether);
-    for (std::size_t first = 0; first < frictions.size(); first += together) {
-      const std::vector<double> some(
-          frictions.begin() + first,
-          frictions.begin() + (std::min(first + together, frictions.size())));
-      auto found = solve(some, true);
-      for (std::size_t k = 0; k < some.size(); ++k) {
-        if (!found[k]) {
-          result_.gaps.push_back({some[k], some[k], "no reduced problem"});
-          continue;
-        }
-        if (!row.empty())
-          found[k]->smallest = limits_.smallest * (some[k] - row.back().station.friction);
-        if (!row.empty() && row.back().station.piece != piece_) {
-          const auto& last = row.back();
-          found[k]->step = joiner().jump(*path_[last.station.piece].family, last, *found[k]);
-          found[k]->whole = true;
-        }
-        row.push_back(std::move(*found[k]));
-      }
-      refine(row);
-      const SolvedStation* last = nullptr;
-      for (auto& next : row) {
-        if (last || result_.stations.empty()) finish(last, next);
-        last = &next;
-      }
-      if (!row.empty())
-        family().progress(formatted("%d branches tracked to friction %g", result_.count,
-                                    row.back().station.friction));
-      if (!row.empty()) row.erase(row.begin(), std::prev(row.end()));
-    }
+  double smallestStep(std::size_t place) const {
+    return place == 0 ? 0
+                      : limits_.smallest * (places_[place].friction - places_[place - 1].friction);
+  }
+  Family& loaded(const SolvedStation& station) const {
+    Family& family = *path_[station.station.piece].family;
+    family.load();
+    return family;
   }
 
-  /// Solves the problems at these frictions together, [friction]; none where there is no problem.
-  std::vector<std::optional<SolvedStation>> solve(const std::vector<double>& frictions,
-                                                  bool swept) {
-    std::vector<linalg::DenseProblem> problems;
-    std::vector<std::size_t> places;
-    std::vector<double> solvable;
-    for (std::size_t k = 0; k < frictions.size(); ++k)
-      if (auto problem = family().at(frictions[k])) {
-        problems.push_back(std::move(*problem));
-        places.push_back(k);
-        solvable.push_back(frictions[k]);
+  void append(const std::vector<Wanted>& some, std::list<SolvedStation>& row) {
+    auto found = solve(some);
+    for (std::size_t k = 0; k < some.size(); ++k)
+      if (found[k])
+        row.push_back(std::move(*found[k]));
+      else
+        result_.gaps.push_back({some[k].friction, some[k].friction, "no reduced problem"});
+  }
+
+  /// Solves these problems together; none where there is no problem.
+  std::vector<std::optional<SolvedStation>> solve(const std::vector<Wanted>& some) {
+    std::vector<std::optional<linalg::DenseProblem>> problems;
+    std::vector<ProblemAt> solvable;
+    std::vector<std::size_t> which;
+    for (const auto& wanted : some) {
+      path_[wanted.piece].family->load();
+      problems.push_back(path_[wanted.piece].family->at(wanted.friction));
+    }
+    for (std::size_t k = 0; k < some.size(); ++k)
+      if (problems[k]) {
+        solvable.push_back({path_[some[k].piece].family, some[k].friction, &*problems[k]});
+        which.push_back(k);
       }
-    auto pairs = watchedPairs(family(), solvable, problems, result_.band);
-    std::vector<std::optional<SolvedStation>> list(frictions.size());
-    for (std::size_t i = 0; i < problems.size(); ++i) {
-      Station station{.friction = frictions[places[i]],
-                      .swept = swept,
+    auto pairs = watchedPairs(comm_, solvable, result_.band);
+    std::vector<std::optional<SolvedStation>> list(some.size());
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      const Wanted& wanted = some[which[i]];
+      Station station{.friction = wanted.friction,
+                      .swept = wanted.swept,
                       .pairs = std::move(pairs[i]),
-                      .piece = piece_};
+                      .piece = wanted.piece};
       station.branch.assign(station.pairs.size(), -1);
       station.overlap.assign(station.pairs.size(), 0);
       for (const auto& pair : station.pairs)
         station.inBand.push_back(result_.band.contains(pair.s));
-      linalg::Spectrum spectrum(problems[i], station.pairs);
-      list[places[i]].emplace(
-          SolvedStation{std::move(station), std::move(problems[i]), std::move(spectrum)});
+      linalg::Spectrum spectrum(*problems[which[i]], station.pairs);
+      list[which[i]].emplace(SolvedStation{.station = std::move(station),
+                                           .problem = std::move(*problems[which[i]]),
+                                           .spectrum = std::move(spectrum),
+                                           .smallest = wanted.smallest,
+                                           .place = wanted.place});
     }
     return list;
   }
 
-  /// Inserts frictions until all continuations are certain or the steps are too small. Solves the
-  /// problems of a round together.
+  /// Returns true if no station is to be inserted between `a` and `b`, which are joined.
+  static bool isSettled(const SolvedStation& a, const SolvedStation& b) {
+    const StepResult& step = *b.step;
+    if (b.whole) return true;
+    if (a.station.piece == b.station.piece)
+      return step.sure || b.station.friction - a.station.friction <= b.smallest;
+    return b.place - a.place <= 1 || (step.sure && step.events.empty());
+  }
+  Wanted middleOf(const SolvedStation& a, const SolvedStation& b) const {
+    if (a.station.piece == b.station.piece)
+      return {a.station.piece, 0.5 * (a.station.friction + b.station.friction), a.place, b.smallest,
+              false};
+    const std::size_t place = (a.place + b.place) / 2;
+    return {places_[place].piece, places_[place].friction, place, smallestStep(place), true};
+  }
+  void join(const SolvedStation& a, SolvedStation& b) const {
+    if (b.step) return;
+    const StepJoiner joiner(loaded(b), result_.band);
+    b.step = a.station.piece == b.station.piece ? joiner.join(a, b) : joiner.jump(loaded(a), a, b);
+  }
+
+  /// Finishes all steps of the row. Inserts stations until all continuations are certain or cannot
+  /// be divided. Solves some of them together, those of the lowest frictions first, so that few
+  /// stations are in memory.
   void refine(std::list<SolvedStation>& row) {
-    for (bool open = true; open;) {
-      std::vector<std::list<SolvedStation>::iterator> places;
-      std::vector<double> middles;
-      for (auto a = row.begin(), b = row.begin(); a != row.end() && ++b != row.end(); a = b) {
-        if (!b->step) b->step = joiner().join(*a, *b);
-        if (b->step->sure || b->whole || b->station.friction - a->station.friction <= b->smallest)
-          continue;
-        places.push_back(b);
-        middles.push_back(0.5 * (a->station.friction + b->station.friction));
+    while (row.size() > 1) {
+      std::vector<std::list<SolvedStation>::iterator> ends;
+      std::vector<Wanted> middles;
+      for (auto a = row.begin(), b = std::next(a); b != row.end() && ends.size() < together_;
+           a = b++) {
+        join(*a, *b);
+        if (!isSettled(*a, *b)) {
+          ends.push_back(b);
+          middles.push_back(middleOf(*a, *b));
+        } else if (ends.empty()) {
+          finish(&*a, *b);
+          row.erase(a);
+        }
       }
-      auto found = solve(middles, false);
-      for (std::size_t k = 0; k < places.size(); ++k) {
-        SolvedStation& end = *places[k];
+      auto found = solve(middles);
+      for (std::size_t k = 0; k < ends.size(); ++k) {
+        SolvedStation& end = *ends[k];
         if (found[k]) {
-          found[k]->smallest = end.smallest;
           end.step.reset();
-          row.insert(places[k], std::move(*found[k]));
+          row.insert(ends[k], std::move(*found[k]));
         } else {
           end.whole = true;
-          end.step->gaps.push_back({std::prev(places[k])->station.friction, end.station.friction,
+          end.step->gaps.push_back({std::prev(ends[k])->station.friction, end.station.friction,
                                     "no reduced problem in between"});
         }
       }
-      open = !places.empty();
     }
   }
 
@@ -144,17 +205,19 @@ class Tracker {
       // At a jump the problems at both ends have different unknowns, and there is no problem in
       // between.
       if (a->station.piece == b.station.piece)
-        screen(family(), {a->station.friction, a->problem}, {b.station.friction, b.problem},
+        screen(loaded(b), {a->station.friction, a->problem}, {b.station.friction, b.problem},
                step.singles, step.events, step.gaps);
       const auto number = [&](int index) { return index < 0 ? index : a->station.branch[index]; };
       for (auto& event : step.events) {
         event.branch = number(event.branch);
         event.partner = number(event.partner);
-        event.piece = piece_;
+        event.piece = b.station.piece;
         result_.events.push_back(std::move(event));
       }
       for (auto& gap : step.gaps) result_.gaps.push_back(std::move(gap));
       b.step.reset();
+      if (b.station.piece > a->station.piece + 1)
+        result_.omitted += b.station.piece - a->station.piece - 1;
     }
     for (int& branch : b.station.branch)
       if (branch < 0) branch = result_.count++;
@@ -162,8 +225,10 @@ class Tracker {
   }
 
   const std::vector<Piece>& path_;
-  std::size_t piece_ = 0;  // of the path
+  std::vector<Place> places_;
   TrackLimits limits_;
+  MPI_Comm comm_;
+  std::size_t together_;
   Branches result_;
 };
 

@@ -54,18 +54,25 @@ struct Branches {
   std::vector<Gap> gaps;
   int count = 0;              ///< number of branches
   int entered = 0, left = 0;  ///< numbers of eigenvalues that have crossed the edge of the band
+  int omitted = 0;            ///< pieces of the path that were not examined
   int inBandAt(const Station& station) const;
 };
 
 struct TrackLimits {
   /// Smallest step with a full solve, as a fraction of a step of the sweep.
   double smallest = 1. / 1024;
+  /// The largest number of frictions that may be omitted between two needed ones and yet are all
+  /// examined. Of more, only those are examined that a bisection of the path needs until each
+  /// continuation is certain and without a change of stability.
+  std::size_t examined = 32;
 };
 
 /// A part of a path on which the problem is a smooth function of the friction.
 struct Piece {
   Family* family = nullptr;       ///< borrowed
   std::vector<double> frictions;  ///< ascending; the next piece begins where this one ends
+  /// [friction] 0 if it may be omitted (TrackLimits::examined); empty: none may
+  std::vector<unsigned char> needed = {};
 };
 
 /// Collective. Tracks all eigenvalues of the band over ascending frictions. A continuation is

@@ -7,9 +7,9 @@
 /// src/README.md lists all symbols, and docs/method.md has the equations in brackets. Lists marked
 /// [contact node] have one entry per contact node of this rank.
 ///
-/// At each contact node of the pad, the variables z are the tangential displacements and the gap g.
-/// At all other nodes they are the Cartesian displacement. With the matrix A of this change and the
-/// unit normal n from disc (D) to pad (P):
+/// At each contact node, here of the pad (the slave side), the variables z are the tangential
+/// displacements and the gap g. At all other nodes they are the Cartesian displacement. With the
+/// matrix A of this change and the unit normal n from disc (D) to pad (P):
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
 /// A selection B removes held components and periodic images from z, so that T = A B.
 ///
@@ -17,9 +17,10 @@
 /// nodal gaps g = E h [M.12]. With h, a uniform pressure has positive forces at all nodes.
 /// gap_basis.hpp defines E.
 ///
-/// Friction enters through two matrices with a row per contact node. N extracts the normal forces
-/// from the nodal forces r. S computes the slip from the displacement jump [u] = u_P − u_D between
-/// pad and disc, along the sliding direction τ, weighted by the friction law φ:
+/// Friction enters through two matrices; their only rows that are not empty belong to the gaps of
+/// contact nodes. N extracts the normal forces from the nodal forces r. S computes the slip from
+/// the displacement jump [u] = u_P − u_D between pad and disc, along the sliding direction τ,
+/// weighted by the friction law φ:
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u],   u = T x.
 /// The test functions add the friction force due to R_N to the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.
@@ -78,9 +79,9 @@ struct Contact {
   /// projected on the tangent plane. Without convective terms, or if `displacement` u is null, it
   /// is w = −v V.
   std::vector<Slip> slip(double speed, Vec displacement) const;
-  /// Collective. Returns the normal components E⁻ᵀ R_N of the nodal contact forces, given the
-  /// normal forces R_N. Both lists are [contact node], in newtons. They are equal on faces whose E
-  /// is the identity.
+  /// Collective. Returns the normal components E⁻ᵀ R_N of the forces at the nodes, given the
+  /// forces R_N that belong to the gap coefficients h. Both lists are [contact node], in newtons.
+  /// They are equal on faces whose E is the identity.
   std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
   /// Collective. Returns the same, with R_N = 0 at the nodes that are not closed.
   std::vector<double> nodalForce(std::vector<double> normalForce, const Mask& closed) const;
@@ -91,9 +92,9 @@ struct Contact {
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
   /// Collective. Returns E⁻¹ v for gaps v at the nodes; both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
-  /// Collective. Returns the nodal forces after each force on a node of a soft layer has been moved
-  /// to its node on the face. Tangentially, the two nodes move together. The normal forces of a
-  /// layer on its two sides then cancel.
+  /// Collective. Adds the force on each node of a soft layer to the node of the face below it, sets
+  /// it to zero at the layer node, and returns the result. Tangentially, the two nodes move
+  /// together. The two normal forces by which a layer acts on its own ends then cancel.
   OwnedVec movedFromLayers(Vec forces) const;
   /// Returns the exponents of the swept friction that occur in the coefficients of the interfaces:
   /// the list contains 0 if any coefficient is fixed, and 1 if any is swept. The same on all ranks.
@@ -102,10 +103,11 @@ struct Contact {
   bool hasSticking() const;
   /// Returns true if any interface has friction at `swept`. The same on all ranks.
   bool hasFriction(double swept) const;
-  /// Collective. Returns S_a (N×n) for a = `exponent`, 0 or 1. The rows are S x = E⁻¹ c φ τ·[u]
-  /// with u = T x, at the gap of each contact node whose flag in `slides` is set; all other rows
-  /// are empty. If a = 0, c is the fixed coefficient of the node. If a = 1, c is its factor on the
-  /// swept friction. If the node has no such coefficient, c = 0.
+  /// Collective. Returns S_a for a = `exponent`, 0 or 1, with a row per entry of nodal vectors and
+  /// n columns. The rows are S x = E⁻¹ c φ τ·[u] with u = T x, at the gap of each contact node
+  /// whose flag in `slides` is set; all other rows are empty. If a = 0, c is the fixed coefficient
+  /// of the node. If a = 1, c is its factor on the swept friction. If the node has no such
+  /// coefficient, c = 0.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, int exponent) const;
   /// Collective. Returns S_0 + f S_1 at the swept friction f.

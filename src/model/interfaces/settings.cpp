@@ -36,8 +36,9 @@ const RealOption factorOption(
     "ratio of the coefficient of friction of a sliding interface to -flutter_friction");
 const RealOption frictionOption(
     "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
-    "fixed coefficient of friction of a sliding interface, in place of -flutter_friction; sticking "
-    "interface: largest ratio of tangential to normal force of a node, unlimited if not given");
+    "sliding interface: fixed coefficient of friction; if not given, the swept friction applies. "
+    "Sticking interface: largest ratio of tangential to normal force of a node; if not given, the "
+    "ratio is not limited");
 const FlagOption releaseOption("contact", "contact_<interface>_release", false,
                                "release of the nodes of a sticking interface that exceed the limit "
                                "-contact_<interface>_friction; on: they slide, with this limit as "
@@ -52,16 +53,17 @@ const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveName
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance between two faces that the program pairs if the "
                               "two meshes do not match; 0 = automatic (half the size of a face)");
-const FlagOption separationOption("contact", "contact_<interface>_separation", true,
-                                  "separation of the two sides; off: they stay in contact, also "
-                                  "under tension; tension at a node with friction is refused");
+const FlagOption separationOption(
+    "contact", "contact_<interface>_separation", true,
+    "separation of the two sides; off: they stay in contact, also "
+    "under tension; a point with tension at a node with friction has no solution");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
 const RealOption tangentialStiffnessOption(
     "contact", "contact_<interface>_stiffness_tangential", 0.0, "N/m3", nonNegative,
     "tangential contact stiffness of a sticking interface with a soft layer: shear stress per "
-    "tangential displacement of the layer");
+    "tangential displacement of the layer; required if the layer is on a sticking interface");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
     "slave surface group of a tie, preferably the one with the finer mesh");

@@ -26,7 +26,7 @@ std::string nameOfMotion(const Components& components, const elasticity::Bodies&
 struct ComplexMode {
   const terms::Motion& motion;
   const terms::MotionForces& force;
-  /// Contribution of friction to the growth rate, [owned contact node], 1/s.
+  /// Contribution of friction to the growth rate, [contact node], 1/s.
   const std::vector<pencil::GrowthParts>& friction;
   /// Contribution of modal damping to the growth rate, 1/s, ≤ 0; 0 without modal damping.
   double modalDamping = 0;

@@ -59,7 +59,7 @@ ContactMotion contactMotion(const contact::Contact& contact,
 /// The data of friction at one point of a sweep.
 struct FrictionState {
   sweep::Parameters at;  ///< its friction applies to the part with the change of the normal force
-  std::vector<contact::Slip> slip;  ///< [owned contact node]
+  std::vector<contact::Slip> slip;  ///< [contact node]
   OwnedMat response;                ///< B at this state, N×N
   OwnedMat turning;                 ///< the part of B without the slope of the friction law, N×N
 };
@@ -85,7 +85,7 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
                                         const ContactMotion& motion);
 
 /// Collective. Returns the contribution of friction at each contact node to the growth rate of the
-/// mode by cause, [owned contact node]; closed[k] is set for the closed gaps. At open nodes it is
+/// mode by cause, [contact node]; closed[k] is set for the closed gaps. At open nodes it is
 /// zero, except on tri6 and quad8 faces that are partly closed. `force` contains the forces and the
 /// energy of the mode.
 ///

@@ -41,7 +41,7 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const steady::Solution& solution, Mat prestressChange,
                                      const Settings& settings);
 
-/// Not collective. Returns the normal forces for B, [owned contact node], N: R_N at the `closed`
+/// Not collective. Returns the normal forces for B, [contact node], N: R_N at the `closed`
 /// nodes, zero at the others and without friction damping.
 std::vector<double> responseForces(const std::vector<unsigned char>& closed,
                                    std::vector<double> normalForce, const Settings& settings);

@@ -20,12 +20,12 @@ namespace squeal::regime {
 
 /// One march from one start.
 struct Run {
-  std::string start;    ///< the number of the unstable mode, or "all"
-  Complex s;            ///< of the mode, or of the fastest growing one
-  std::string failure;  ///< the reason if nothing was measured; empty: none
-  Onset onset;
+  std::string start;          ///< the number of the unstable mode, or "all"
+  Complex s;                  ///< of the mode, or of the fastest growing one
+  std::string failure;        ///< the reason if nothing was measured; empty: none
+  Onset onset;                ///< first contact node that separates, sticks or slides
   Point onsetPosition{};      ///< m
-  double onsetKinetic = NAN;  ///< largest over a cycle at the onset, J; NaN: not known
+  double onsetKinetic = NAN;  ///< largest kinetic energy over a cycle there, J; NaN: not known
   double step = NAN;          ///< s; NaN: not known
   Regime regime;
   Cycles cycles;  ///< with `-regime_cycle`
@@ -36,8 +36,8 @@ struct Run {
 struct Study {
   sweep::Parameters at;
   int unstable = 0;          ///< modes that are unstable there
-  int modes = 0, rows = 0;   ///< of the reduced model; 0: there is none
-  double modelError = NAN;   ///< largest |δs|/|s| of the reduced against the certified ones
+  int modes = 0, rows = 0;   ///< of the reduced model, its contact rows; 0: no such model
+  double modelError = NAN;   ///< largest |δs|/|s| of its eigenvalues from the certified ones
   double stableStep = 0;     ///< with all contact nodes held, s
   double steadyPower = NAN;  ///< heat of friction of steady sliding, W
   std::vector<Node> nodes;
@@ -48,11 +48,11 @@ struct Study {
   std::vector<std::string> failures;
 };
 
-/// Collective. Returns the regime at one point. `free` are the free modes, nodal displacements,
-/// this rank's rows; the shapes of the unstable modes are those of `modes`. An Error, such as a
-/// reduced model without the certified eigenvalues, counts as a failure of the point or of one
-/// start: it is printed and returned, not thrown. Throws Interrupted within a second of a request
-/// to stop.
+/// Collective. Returns the regime at one point. `free` contains the free modes as nodal
+/// displacements, this rank's rows; `modes` contains the shapes of the unstable modes. An Error,
+/// for example if the reduced model does not reproduce the certified eigenvalues, counts as a
+/// failure of the point or of one start: it is printed and returned, not thrown. Throws Interrupted
+/// within a second of a request to stop.
 Study study(const FullModel& full, const Settings& settings, linalg::Block free,
             const pencil::ComplexModes& modes);
 

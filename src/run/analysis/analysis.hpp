@@ -28,7 +28,7 @@ struct Analysis {
   SteadyStates steady;                ///< empty for matrices from files
   UniquenessStudy uniqueness;         ///< of the steady states
   Flutter flutter;
-  std::optional<JudgedList> judged;  ///< with `-referee_list`
+  std::optional<JudgedList> judged;  ///< the list of `-referee_list` and its judgement
   checkpoint::Checkpoint checkpoint;
 
   /// Returns true if the run has been asked to stop before it had all results.

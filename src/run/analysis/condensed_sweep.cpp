@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
 #include "run/analysis/steady_messages.hpp"
@@ -202,34 +203,47 @@ void CondensedSweep::followPath(const Step& step) {
                                       states_.solutions[step.to].at);
   if (!path.obstacle.empty())
     printWarning(comm_, stepText(step) + "followed up to " + endText(path));
-  for (auto& event : path.events) {
-    event.order += states_.events;
-    states_.path.push_back(event);
-  }
-  states_.events += path.count;
+  const int count = path.count;
+  addEvents(std::move(path.events), count, step);
   if (path.obstacle.empty()) takeSolutionOfPath(path, step);
-  if (path.count > 0)
+  if (count > 0)
     stage.finish(stepText(step) +
-                 formatted("%d %s", path.count,
-                           path.count == 1 ? "node opens or closes" : "nodes open or close"));
+                 formatted("%d %s", count, count == 1 ? "node changes" : "nodes change"));
 }
 
-/// Collective. Replaces the solution at the end of a step by the one that the path leads to, if it
-/// is another one.
+/// Adds the events of this rank on a step, `count` on all ranks.
+void CondensedSweep::addEvents(std::vector<condensed::ContactEvent> events, int count,
+                               const Step& step) {
+  for (auto& event : events) {
+    event.order += states_.events;
+    event.point = step.to;
+    states_.path.push_back(event);
+  }
+  states_.events += count;
+}
+
+/// Collective. Replaces the solution at the end of a step by the one that the path leads to, if
+/// other nodes are open there. If only the holds of sticking nodes differ, the path ends with a
+/// change to those of the solution, which is computed with as many nodes held as possible.
 void CondensedSweep::takeSolutionOfPath(condensed::ContactPath& path, const Step& step) {
   steady::Solution& solution = states_.solutions[step.to];
-  const PetscInt others = contact::countDifferent(comm_, path.closed, solution.closed);
-  if (others == 0) return;
-  condensed_->startFrom(std::move(path.gaps), std::move(path.sticking));
-  auto ahead = condensed_->solve(solution.at);
-  if (!ahead.converged || contact::countDifferent(comm_, ahead.closed, path.closed) != 0) return;
-  solution = std::move(ahead);
-  solution.nodesOfAnother = others;
-  printWarning(
-      comm_, stepText(step) + formatted("steady sliding is not unique at the end: another solution "
-                                        "differs in %" PetscInt_FMT
-                                        " %s; the run keeps the one that the path leads to",
-                                        others, others == 1 ? "contact node" : "contact nodes"));
+  const contact::ActiveSet end{path.closed, path.sticking.free()};
+  if (const PetscInt others = contact::countDifferent(comm_, path.closed, solution.closed);
+      others > 0) {
+    condensed_->startFrom(std::move(path.gaps), std::move(path.sticking));
+    auto ahead = condensed_->solve(solution.at);
+    if (!ahead.converged || contact::countDifferent(comm_, ahead.closed, path.closed) != 0) return;
+    solution = std::move(ahead);
+    solution.nodesOfAnother = others;
+    printWarning(comm_, stepText(step) +
+                            formatted("steady sliding is not unique at the end: another solution "
+                                      "differs in %" PetscInt_FMT
+                                      " %s; the run keeps the one that the path leads to",
+                                      others, others == 1 ? "contact node" : "contact nodes"));
+  }
+  auto changes = condensed::changesBetween(end, steady::activeSet(solution), path.end, 0);
+  const int count = mpi::sum(comm_, static_cast<int>(changes.size()));
+  addEvents(std::move(changes), count, step);
 }
 
 }  // namespace squeal::analysis

@@ -37,6 +37,7 @@ class CondensedSweep {
   std::vector<Step> stepsToFollow(std::size_t begin) const;
   void anticipate(const std::vector<Step>& steps);
   void followPath(const Step& step);
+  void addEvents(std::vector<condensed::ContactEvent> events, int count, const Step& step);
   void takeSolutionOfPath(condensed::ContactPath& path, const Step& step);
 
   const SteadyInput input_;

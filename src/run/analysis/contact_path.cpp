@@ -11,7 +11,7 @@ std::vector<PathEvent> contactPath(const Analysis& analysis) {
   std::vector<PathEvent> own;
   for (const auto& event : analysis.steady.path) {
     const auto& node = analysis.model.contact.interfaces.nodes[event.node];
-    own.push_back({event.order, event.at, node.position, node.interface, event.opens});
+    own.push_back({event.order, event.at, node.position, node.interface, event.change});
   }
   auto events = concatenated(analysis.comm, own);
   std::ranges::sort(events, [](const auto& a, const auto& b) {

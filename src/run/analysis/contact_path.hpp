@@ -7,13 +7,13 @@
 
 namespace squeal::analysis {
 
-/// One node that opens or closes.
+/// The change of one node.
 struct PathEvent {
   int order;  ///< along the path
   sweep::Parameters at;
   mesh::Point position;  ///< m
   int interface;         ///< index into Contact::interfaces
-  bool opens;
+  condensed::Change change;
 };
 
 /// Collective. Returns the events of all ranks in their order, the same on all ranks.

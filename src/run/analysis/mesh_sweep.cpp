@@ -137,9 +137,7 @@ std::vector<sweep_solver::PathPiece> MeshSweep::piecesAfter(std::size_t point) {
   const sweep::Parameters &here = steadyPoints[point], &next = steadyPoints[point + 1];
   std::vector<condensed::ContactEvent> events;
   for (const auto& event : brake_.states.path)
-    if (event.at.speed == here.speed && event.at.pressure == here.pressure &&
-        event.at.friction >= here.friction && event.at.friction <= next.friction)
-      events.push_back(event);
+    if (event.point == group_.first + point + 1) events.push_back(event);
   std::vector<double> own;
   for (const auto& event : events) own.push_back(event.at.friction);
   std::vector<double> frictions = concatenated(brake_.comm(), own);
@@ -149,16 +147,13 @@ std::vector<sweep_solver::PathPiece> MeshSweep::piecesAfter(std::size_t point) {
   std::vector<contact::ActiveSet> after;  // [friction] the set beyond it
   for (const double friction : frictions) {
     for (const auto& event : events)
-      if (event.at.friction == friction) set.closed[event.node] = !event.opens;
+      if (event.at.friction == friction) {
+        set.closed[event.node] = event.change != condensed::Change::opens;
+        set.released[event.node] = event.isReleased;
+      }
     after.push_back(set);
   }
   const contact::ActiveSet last = steady::activeSet(steadyAt(point + 1));
-  // Whether a sticking node is held is known only at the points. A node that opens or closes takes
-  // the state of the next point with that event; where other nodes begin or cease to slide is not
-  // known.
-  const std::vector<unsigned char>& closedBefore = steadyAt(point).closed;
-  for (std::size_t i = 0; i < set.released.size(); ++i)
-    if (!closedBefore[i] || !last.closed[i]) set.released[i] = last.released[i];
   const std::size_t range = *steps[point].back().range;
   const bool changes =
       !contact::sameOnAllRanks(brake_.comm(), steady::activeSet(steadyAt(point)), last);
@@ -193,6 +188,7 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
   std::vector<PetscInt> contactNode(contact.mesh->ownedNodes, -1);
   for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
     contactNode[contact.interfaces.nodes[i].node] = i;
+  contact::Mask before;  // nodes that slide in the set before
   for (const auto& [set, first, last] : sets_) {
     sweep_solver::PointRange range;
     range.first = first, range.last = last;
@@ -205,9 +201,16 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
       own.push_back(!set.closed[i] || (!isGap && set.released[i]));
     }
     range.has = ranks.gathered(own);
-    std::vector<unsigned char> slides = set.closed;
-    for (std::size_t i = 0; i < slides.size(); ++i) slides[i] = slides[i] && !all_->closed()[i];
-    if (ranks.size() > 0) range.terms = terms::slidingTerms(contact, *all_, slides);
+    contact::Mask slides = set.closed;
+    for (std::size_t i = 0; i < slides.size(); ++i)
+      slides[i] = slides[i] && !all_->closed()[i] &&
+                  contact.interfaces.nodes[i].role == contact::Role::sliding;
+    // Most changes on a path concern nodes without friction.
+    if (!found.empty() && contact::countDifferent(brake_.comm(), slides, before) == 0)
+      for (const auto& term : found.back().terms) range.terms.push_back(term.share());
+    else if (ranks.size() > 0)
+      range.terms = terms::slidingTerms(contact, *all_, slides);
+    before = std::move(slides);
     found.push_back(std::move(range));
   }
   return found;

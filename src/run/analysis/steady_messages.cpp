@@ -22,8 +22,8 @@ void reportSticking(const steady::Solution& solution, MPI_Comm comm) {
         sweep::parameterText(solution.at) + ": interface '" + resultant.interface + "': ";
     if (resultant.released + resultant.unheld > 0)
       printLine(comm, head + formatted("after %d revisions of the active set, %" PetscInt_FMT
-                                       " nodes slide, and %" PetscInt_FMT
-                                       " cycle between stick and separation (they are left free)",
+                                       " nodes slide; nodes left free, since they separate if held "
+                                       "and close if free: %" PetscInt_FMT,
                                        solution.revisions, resultant.released, resultant.unheld));
     if (const PetscInt pressed = resultant.overLimit - resultant.pulled; pressed > 0)
       printWarning(

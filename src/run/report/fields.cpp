@@ -124,11 +124,11 @@ void writePath(const analysis::Analysis& analysis, Hdf5File& file) {
   const auto events = analysis::contactPath(analysis);
   if (events.empty()) return;
   std::vector<std::vector<double>> rows;
-  for (const auto& [order, at, x, interface, opens] : events)
+  for (const auto& [order, at, x, interface, change] : events)
     rows.push_back({at.friction, at.speed, at.pressure, x[0], x[1], x[2], double(interface),
-                    opens ? 1.0 : 0.0});
+                    static_cast<double>(change)});
   file.writeTable("/path", "contact",
-                  {"friction", "speed", "pressure", "x_m", "y_m", "z_m", "interface", "opens"},
+                  {"friction", "speed", "pressure", "x_m", "y_m", "z_m", "interface", "change"},
                   rows);
   file.writeAttribute("/path/contact", "interfaces",
                       joined(analysis.model.contact.interfaces.names));

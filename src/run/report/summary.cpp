@@ -262,7 +262,7 @@ Json contactEventEntry(const contact::Contact& contact, const analysis::PathEven
           {"pressure", event.at.pressure},
           {"position_m", event.position},
           {"interface", contact.interfaces.names[event.interface]},
-          {"change", event.opens ? "opens" : "closes"}};
+          {"change", condensed::text(event.change)}};
 }
 
 Json sparseWorkEntry(const SparseWork& work) {

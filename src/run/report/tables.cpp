@@ -120,14 +120,14 @@ std::string steadyRows(const analysis::Analysis& analysis, const steady::Solutio
   return rows;
 }
 
-/// Collective. Returns the table of opening and closing nodes.
+/// Collective. Returns the table of the changes of contact nodes.
 std::string contactPathTable(const analysis::Analysis& analysis) {
   std::string table = "friction,speed,pressure,x_m,y_m,z_m,interface,change\n";
-  for (const auto& [order, at, x, interface, opens] : analysis::contactPath(analysis))
+  for (const auto& [order, at, x, interface, change] : analysis::contactPath(analysis))
     table += formatted("%.12g,%.12g,%.12g,%.12e,%.12e,%.12e,", at.friction, at.speed, at.pressure,
                        x[0], x[1], x[2]) +
-             analysis.model.contact.interfaces.names[interface] +
-             (opens ? ",opens\n" : ",closes\n");
+             analysis.model.contact.interfaces.names[interface] + "," + condensed::text(change) +
+             "\n";
   return table;
 }
 

@@ -22,8 +22,8 @@ namespace {
 constexpr double rounding = 1e-9;
 /// The length of the line after an event on which the new active set must be consistent.
 constexpr double behind = 1e-7;
-/// The largest number of nodes that may change together; for more, SNES finds the new set.
-constexpr int mostTogether = 8;
+/// The largest number of changes at one place before SNES finds the new set.
+constexpr int mostTogether = 32;
 
 /// The point where a force or a gap changes its sign.
 struct SignChange {
@@ -110,6 +110,7 @@ class PathTracer {
     ContactPath path;
     path.end = to_;
     double s = 0;
+    int inPlace = 0;  // successive events at one place
     while (true) {
       Place worst = worstAt(1);
       if (worst.margin >= -rounding) break;
@@ -129,9 +130,8 @@ class PathTracer {
         path.end = at(*pole);
         break;
       }
-      const bool changesBack =
-          !(event > s) && path.count > 0 && last_.rank == first.rank && last_.node == first.node;
-      if (changesBack || !change(first, event, path)) {
+      inPlace = event > s ? 0 : inPlace + 1;
+      if (inPlace > mostTogether || !change(first, event, path)) {
         path.obstacle = turningPoint(first);
         path.end = at(event);
         break;
@@ -139,9 +139,11 @@ class PathTracer {
       s = event;
     }
     if (path.obstacle.empty()) {
-      for (std::size_t i = 0; i < closed_.size(); ++i)
-        path.gaps.push_back(closed_[i] ? 0 : std::max(0.0, state_.causes[closed_.size() + i]));
+      path.gaps = gaps();
       path.closed = closed_;
+      // Held again, an unheld node may lead to another solution than that of the path.
+      for (std::size_t i = 0; i < closed_.size(); ++i)
+        sticking_.heldAgain[i] = closed_[i] && sticking_.holds[i] == steady::Hold::open;
       path.sticking = sticking_;
     }
     return path;
@@ -150,6 +152,17 @@ class PathTracer {
  private:
   MPI_Comm comm() const { return problem_.comm(); }
   sweep::Parameters at(double s) const { return between(from_, to_, s); }
+  bool sticks(std::size_t i) const {
+    return problem_.contact().interfaces.nodes[i].role == contact::Role::sticking;
+  }
+  contact::ActiveSet set() const { return {closed_, sticking_.free()}; }
+  /// Returns the gaps of the last state computed, [contact node].
+  std::vector<double> gaps() const {
+    std::vector<double> found;
+    for (std::size_t i = 0; i < closed_.size(); ++i)
+      found.push_back(closed_[i] ? 0 : std::max(0.0, state_.causes[closed_.size() + i]));
+    return found;
+  }
   /// Returns the forces at closed nodes and the gaps at open ones, relative, [contact node];
   /// infinity at nodes that do not separate.
   const std::vector<double>& margins(double s) {
@@ -220,36 +233,44 @@ class PathTracer {
     for (std::size_t i = 0; i < places.size(); ++i) reciprocals[i] = 1 / marginOf(place, places[i]);
     return {found - near, poleNear(places, reciprocals)};
   }
-  /// Opens or closes a node, and the nodes that change with it. Returns false if no active set is
-  /// consistent after the event.
+  /// Opens or closes a node of this rank. One of a sticking interface is held again when it closes,
+  /// at most once at each event, as in steady::revised().
+  void change(std::size_t i) {
+    closed_[i] = !closed_[i];
+    if (!sticks(i)) return;
+    const bool isHeld = closed_[i] && !sticking_.heldAgain[i];
+    sticking_.holds[i] = isHeld ? steady::Hold::held : steady::Hold::open;
+    if (isHeld) sticking_.heldAgain[i] = 1;
+  }
+  /// Changes a node and the nodes that change with it. Returns false if no active set is consistent
+  /// after the event.
   bool change(Place place, double s, ContactPath& path) {
-    const auto before = closed_;
+    const contact::ActiveSet before = set();
     const Sticking heldBefore = sticking_;
     const double next = std::min(1.0, s + behind);
-    last_ = place;
+    margins(s);
+    const std::vector<double> gapsBefore = gaps();
+    sticking_.heldAgain.assign(closed_.size(), 0);
     for (int together = 0; together < mostTogether; ++together) {
-      if (rank_ == place.rank) closed_[place.node] = !closed_[place.node];
+      if (rank_ == place.rank) change(place.node);
       place = worstAt(next);
       if (place.margin >= -rounding && state_.found) return record(before, s, path);
     }
+    problem_.startFrom(gapsBefore, heldBefore);
     const Solution found = problem_.solve(at(next));
     if (!found.converged) {
-      closed_ = before, sticking_ = heldBefore;
+      closed_ = before.closed, sticking_ = heldBefore;
       return false;
     }
     closed_ = found.closed, sticking_ = found.sticking;
     return record(before, s, path);
   }
-  bool record(const contact::Mask& before, double s, ContactPath& path) {
-    int own = 0;
-    for (std::size_t i = 0; i < before.size(); ++i)
-      if (before[i] != closed_[i]) {
-        path.events.push_back({at(s), i, before[i] != 0, path.count});
-        ++own;
-      }
-    own = mpi::sum(comm(), own);
-    path.count += own;
-    return own > 0;
+  bool record(const contact::ActiveSet& before, double s, ContactPath& path) {
+    const auto changes = changesBetween(before, set(), at(s), path.count);
+    path.events.insert(path.events.end(), changes.begin(), changes.end());
+    const int all = mpi::sum(comm(), static_cast<int>(changes.size()));
+    path.count += all;
+    return all > 0;
   }
 
   CondensedProblem& problem_;
@@ -260,10 +281,37 @@ class PathTracer {
   std::vector<double> margins_;
   double forceUnit_ = 0;
   int rank_ = 0;
-  Place last_;
 };
 
 }  // namespace
+
+std::string text(Change change) {
+  switch (change) {
+    case Change::opens:
+      return "opens";
+    case Change::closes:
+      return "closes";
+    case Change::unheld:
+      return "unheld";
+    case Change::held:
+      return "held";
+  }
+  return "";
+}
+
+std::vector<ContactEvent> changesBetween(const contact::ActiveSet& before,
+                                         const contact::ActiveSet& after,
+                                         const sweep::Parameters& at, int order) {
+  std::vector<ContactEvent> found;
+  for (std::size_t i = 0; i < before.closed.size(); ++i) {
+    const bool isReleased = after.released[i] != 0;
+    if (before.closed[i] != after.closed[i])
+      found.push_back({at, i, after.closed[i] ? Change::closes : Change::opens, isReleased, order});
+    else if (after.closed[i] && before.released[i] != after.released[i])
+      found.push_back({at, i, isReleased ? Change::unheld : Change::held, isReleased, order});
+  }
+  return found;
+}
 
 void precomputeContact(CondensedProblem& problem, const std::vector<ContactInterval>& intervals) {
   const int rank = mpi::rank(problem.comm());

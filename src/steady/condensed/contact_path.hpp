@@ -4,17 +4,35 @@
 #include <string>
 #include <vector>
 
+#include "model/contact/active_set.hpp"
 #include "steady/condensed/condensed_problem.hpp"
 
 namespace squeal::condensed {
 
-/// The opening or closing of a contact node along a line of parameters.
+enum class Change : unsigned char {
+  opens,
+  closes,
+  unheld,  ///< a closed node of a sticking interface is freed along the surface, without a force
+  held     ///< a closed node that was free is held again
+};
+
+/// Returns the word of the tables.
+std::string text(Change change);
+
+/// The change of a contact node along a line of parameters.
 struct ContactEvent {
   sweep::Parameters at;
   std::size_t node = 0;  ///< contact node of this rank
-  bool opens = false;
-  int order = 0;  ///< index among the events of all ranks on the path
+  Change change = Change::opens;
+  bool isReleased = false;  ///< afterwards (contact::ActiveSet)
+  int order = 0;            ///< index among the events of all ranks on the path
+  std::size_t point = 0;    ///< of the sweep, to which the path leads; set by its owner
 };
+
+/// Returns the changes of this rank from one set to another at one place; `order` is their order.
+std::vector<ContactEvent> changesBetween(const contact::ActiveSet& before,
+                                         const contact::ActiveSet& after,
+                                         const sweep::Parameters& at, int order);
 
 struct ContactPath {
   std::vector<ContactEvent> events;  ///< of this rank, in their order
@@ -41,9 +59,11 @@ void precomputeContact(CondensedProblem& problem, const std::vector<ContactInter
 /// Collective. Follows the steady state from a solution along the line to `to`, which differs in
 /// friction, pressure or speed. On each active set the state is a smooth function of these
 /// parameters, and the next change is the first zero of a normal force or gap, with an accuracy of
-/// 1e-8 of the line. The path ends if the equations of an active set are singular (a pole of forces
-/// and gaps), or if no active set is consistent after a change. Two zeros of one node within a
-/// single step may be missed.
+/// 1e-8 of the line. A node of a sticking interface that opens is freed along the surface, and held
+/// again when it closes. If this makes it change again at once, it stays closed and unheld. All
+/// unheld nodes have lost their tangential force, so the state jumps there. The path ends if the
+/// equations of an active set are singular (a pole of forces and gaps), or if no active set is
+/// consistent after a change. Two zeros of one node within a single step may be missed.
 ContactPath traceContact(CondensedProblem& problem, const Solution& from,
                          const sweep::Parameters& to);
 

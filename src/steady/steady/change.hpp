@@ -23,7 +23,7 @@ struct Cause {
 /// The first-order change of the steady state with a fixed active set.
 struct Change {
   OwnedVec displacement;            ///< du, N entries
-  std::vector<double> normalForce;  ///< dR_N, [owned contact node]
+  std::vector<double> normalForce;  ///< dR_N, [contact node]
 };
 
 /// Collective. Returns the change of the converged `solution` with dF = 0 on the active set of

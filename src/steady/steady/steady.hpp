@@ -5,8 +5,8 @@
 /// where g is the gap, R_N and R_T the normal and the friction force, f the coefficient of
 /// friction, φ the friction law and τ the sliding direction. src/README.md explains the other
 /// symbols, and docs/method.md has the equations in brackets. Nodal vectors have N entries, one per
-/// component of each node. [contact node] and [owned contact node] both mark a list with one entry
-/// per contact node of this rank.
+/// component of each node. [contact node] marks a list with one entry per contact node of this
+/// rank.
 #include <string>
 #include <vector>
 
@@ -63,14 +63,14 @@ struct Solution {
   /// Relative residual: its 2-norm divided by that at zero displacements [M.15].
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
-  std::vector<ContactState> contact;  ///< [owned contact node]
-  std::vector<contact::Slip> slip;    ///< [owned contact node] slip of sliding interfaces
-  contact::Mask closed;         ///< [owned contact node] 1: closed, with R_N > negligibleForce
-  Sticking sticking;            ///< stick state of the nodes of sticking interfaces
-  int revisions = 0;            ///< number of revisions of `sticking` for this state
-  double negligibleForce = 0;   ///< contact forces below this are round-off, N
-  PetscInt openNodes = 0;       ///< contact nodes that are not closed, over all ranks
-  double smallestPressure = 0;  ///< smallest pressure of all contact nodes, Pa
+  std::vector<ContactState> contact;  ///< [contact node]
+  std::vector<contact::Slip> slip;    ///< [contact node] slip of sliding interfaces
+  contact::Mask closed;               ///< [contact node] 1: closed, with R_N > negligibleForce
+  Sticking sticking;                  ///< stick state of the nodes of sticking interfaces
+  int revisions = 0;                  ///< number of revisions of `sticking` for this state
+  double negligibleForce = 0;         ///< contact forces below this are round-off, N
+  PetscInt openNodes = 0;             ///< contact nodes that are not closed, over all ranks
+  double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
   /// Largest resultant of the forces on a connected part (contact, supports and load), divided by
   /// the sum of the magnitudes of all nodal forces.
@@ -83,7 +83,7 @@ struct Solution {
 /// Returns the active set of a steady state.
 contact::ActiveSet activeSet(const Solution& solution);
 
-/// The complementarity problem [3.3–3.4, M.13], with u = T x + p u0:
+/// The complementarity problem [3.3–3.4, M.13], with u = T x + p u0 + u_g:
 ///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
@@ -91,9 +91,9 @@ contact::ActiveSet activeSet(const Solution& solution);
 /// the slip weighted by φ. The factors v and p scale speed and pressure.
 ///
 /// Convective terms arise because moving matter carries its displacement along. Without them
-/// (-motion_convective off, the paper's approximation A) the problem is linear except for the
-/// inequalities. With them, S depends on u through the relative velocity w = −v (V + D u_D), where
-/// V is the base velocity of the disc and D u_D = (V·∇) u_D the convected part.
+/// (-motion_convective off, approximation A of Moirot and Nguyen) the problem is linear except for
+/// the inequalities. With them, S depends on u through the relative velocity w = −v (V + D u_D),
+/// where V is the base velocity of the disc and D u_D = (V·∇) u_D the convected part.
 ///
 /// A node of a sticking interface may be held (it sticks), free or released. A free node has
 /// tangential unknowns and no friction. A released node has tangential unknowns and slides: its row
@@ -106,8 +106,8 @@ class Problem {
   /// Collective. The same, with a given state of the nodes of sticking interfaces.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
           Sticking sticking);
-  /// Collective. Solves with SNES VI (-steady_snes_*). The initial guess keeps the gaps of the
-  /// active set of `system` closed; the factorisation of `system` computes it. Nodes of sticking
+  /// Collective. Solves with SNES VI (-steady_snes_*). The initial guess is the
+  /// solution on the active set of `system`, computed with its factorisation. Nodes of sticking
   /// interfaces stick at first; nextHolds() then updates their state until it no longer changes.
   /// `converged` and `reason` report whether there is a solution. Throws Error if |w| = 0 at a node
   /// with friction.
@@ -118,7 +118,7 @@ class Problem {
   /// Collective. Returns the exact derivative dF/dx [M.14], n×n, as a new matrix whose pattern is
   /// the same at every x.
   OwnedMat jacobian(const sweep::Parameters& at, Vec x) const;
-  /// Collective. Returns u = T x + p u0, N entries, m.
+  /// Collective. Returns u = T x + p u0 + u_g, N entries, m.
   OwnedVec displacement(const sweep::Parameters& at, Vec x) const {
     return displacement(transformation_, at, x);
   }
@@ -131,8 +131,8 @@ class Problem {
   /// solution is marked as not converged.
   std::optional<Sticking> nextHolds(Solution& solution) const;
   /// Collective. Sets the remaining members of a solution from the unknowns x. `left` is the
-  /// 2-norm, in newtons, of the natural residual at x. This is F, with min(R_N, 0) in the rows of
-  /// gaps g ≤ 0.
+  /// 2-norm, in newtons, of the natural residual at x, which is F except in the rows of gaps g ≤ 0;
+  /// these have min(R_N, 0).
   void conclude(Vec x, double left, Solution& solution) const;
   /// Collective. Returns b with the pressures and the centrifugal forces of this point: N entries,
   /// in newtons.
@@ -149,8 +149,8 @@ class Problem {
 
   const mesh::Mesh& mesh() const { return mesh_; }
   const contact::Contact& contact() const { return contact_; }
-  /// Returns the T whose unknowns include all gaps, and the tangential displacements of the free
-  /// nodes of sticking interfaces.
+  /// Returns the T whose unknowns include all gaps, and the tangential displacements of the
+  /// free and released nodes of sticking interfaces.
   const contact::Transformation& transformation() const { return transformation_; }
   const elasticity::Bodies& bodies() const { return bodies_; }
   /// Collective on the first call. Returns Tᵀ K T and N K T, with this transformation T.

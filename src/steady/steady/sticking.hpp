@@ -22,19 +22,19 @@ enum class Hold : unsigned char {
 
 /// The holds of all contact nodes. They have no meaning on other interfaces.
 struct Sticking {
-  std::vector<Hold> holds;       ///< [owned contact node]
-  std::vector<Point> direction;  ///< [owned contact node] d, unit, if released
-  contact::Mask heldAgain;       ///< [owned contact node] 1 after it has been held again
+  std::vector<Hold> holds;       ///< [contact node]
+  std::vector<Point> direction;  ///< [contact node] d, unit, if released
+  contact::Mask heldAgain;       ///< [contact node] 1 after it has been held again
 
   /// Returns the holds with all nodes held.
   static Sticking allHeld(const contact::Contact& contact);
   /// Returns the holds with all nodes free.
   static Sticking allFree(const contact::Contact& contact);
-  /// Returns 1 for the nodes that are not held, [owned contact node].
+  /// Returns 1 for the nodes that are not held, [contact node].
   contact::Mask free() const;
 };
 
-/// Returns the slip, [owned contact node], with that of the released nodes: the direction d and
+/// Returns the slip, [contact node], with that of the released nodes: the direction d and
 /// their limit as a fixed coefficient.
 std::vector<contact::Slip> withReleased(const contact::Contact& contact,
                                         std::vector<contact::Slip> slip, const Sticking& sticking);

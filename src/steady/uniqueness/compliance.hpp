@@ -30,7 +30,7 @@ class OpenContact {
  public:
   /// Collective. Factorises K_o (prefix -steady_uniqueness_); factorised() returns whether this
   /// succeeded. No body may be under-constrained with open contact. `stiffness` is K on all nodal
-  /// displacements, N×N, symmetric, N/m, and `slip`, [owned contact node], defines U; both are used
+  /// displacements, N×N, symmetric, N/m, and `slip`, [contact node], defines U; both are used
   /// only during this call. Borrows `contact` during the lifetime of the object.
   OpenContact(const contact::Contact& contact, Mat stiffness,
               const std::vector<contact::Slip>& slip);

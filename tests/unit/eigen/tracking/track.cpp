@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -105,6 +106,41 @@ TEST(Track, TheEdgeOfTheBand) {
     for (std::size_t i = 0; i < station.pairs.size(); ++i) {
       EXPECT_TRUE(!station.inBand[i] || &station == &first || station.overlap[i] > 0.5);
     }
+}
+
+// Of 200 pieces of a path, few have to be examined until each change of stability lies at the end
+// of the piece where it happens. Two modes of ω² = 100 and 140 with the coupling c are a split pair
+// if c > (140 − 100)/2.
+TEST(Track, APathOfManyPiecesIsBisected) {
+  constexpr int pieces = 200;
+  const std::vector<int> changes{41, 90, 137};  // unstable from 41 to 90 and from 137 on
+  std::vector<Linear> families;
+  std::vector<tracking::Piece> path;
+  families.reserve(pieces);
+  for (int k = 0; k < pieces; ++k) {
+    const auto passed = std::ranges::count_if(changes, [&](int change) { return change <= k; });
+    Linear family = modal({100, 140, 400}, {});
+    family.base.stiffness(0, 1) = passed % 2 == 1 ? 25 : 10;
+    family.base.stiffness(1, 0) = -family.base.stiffness(0, 1);
+    families.push_back(std::move(family));
+    path.push_back({&families.back(), {1. * k / pieces, (k + 1.) / pieces}, {0, 0}});
+  }
+  for (const int swept : {0, 60, 120}) path[swept].needed[0] = 1;
+  const auto branches = track(path, {});
+  expectNoGaps(branches);
+  EXPECT_EQ(branches.count, 3);
+  std::vector<double> found;
+  for (const auto& event : branches.events) {
+    EXPECT_EQ(event.kind, tracking::Event::Kind::contact);
+    EXPECT_EQ(event.low, event.high);
+    if (found.empty() || found.back() != event.low) found.push_back(event.low);
+    EXPECT_EQ(event.piece, std::lround(event.low * pieces));
+  }
+  ASSERT_EQ(found.size(), changes.size());
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(found[k], 1. * changes[k] / pieces);
+  // Each change takes log2 of its 120 or 160 places, and one more.
+  EXPECT_LE(branches.stations.size(), 4U + 3 * 9);
+  EXPECT_GT(branches.omitted, pieces / 2);
 }
 
 }  // namespace

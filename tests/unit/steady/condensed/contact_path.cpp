@@ -76,10 +76,11 @@ TEST(ContactPath, NodesLiftOneByOne) {
     EXPECT_NEAR(event.at.friction, zeroNear(analysis, event.at.friction, open, event.node), 1e-9);
     EXPECT_GT(event.at.friction, before);
     EXPECT_EQ(event.at.speed, end.speed);  // to the last bit: it identifies the point
-    EXPECT_EQ(event.opens, !open[event.node]);
+    const bool opens = event.change == condensed::Change::opens;
+    EXPECT_EQ(opens, !open[event.node]);
     std::printf("friction %.12f: node %zu %s\n", event.at.friction, event.node,
-                event.opens ? "opens" : "closes");
-    open[event.node] = event.opens;
+                condensed::text(event.change).c_str());
+    open[event.node] = opens;
     before = event.at.friction;
   }
   const auto last = condensedProblem.solve(end);
@@ -237,7 +238,7 @@ TEST(ContactPath, EventsOfABrakeAreConfirmedBesideThem) {
       const bool changes = isMine && way.path.events[mine].node == i;
       EXPECT_EQ(below.closed[i] != above.closed[i], changes) << friction;
       if (changes) {
-        EXPECT_EQ(below.closed[i] != 0, way.path.events[mine].opens);
+        EXPECT_EQ(below.closed[i] != 0, way.path.events[mine].change == condensed::Change::opens);
       }
     }
     print("friction %.12f confirmed\n", friction);
