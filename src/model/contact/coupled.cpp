@@ -14,7 +14,6 @@ namespace squeal::contact {
 OwnedMat Projection::friction(Mat slipRows) const {
   OwnedMat result;
   check(MatTransposeMatMult(slipRows, reaction, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
-  check(MatProductClear(result));  // the workspace is larger than the result
   return result;
 }
 

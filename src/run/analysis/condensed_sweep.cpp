@@ -224,10 +224,12 @@ void CondensedSweep::addEvents(std::vector<condensed::ContactEvent> events, int 
 
 /// Collective. Replaces the solution at the end of a step by the one that the path leads to, if
 /// other nodes are open there. If only the holds of sticking nodes differ, the path ends with a
-/// change to those of the solution, which is computed with as many nodes held as possible.
+/// change to those of the solution, which is computed with as many nodes held as possible. Where
+/// nodes begin or cease to slide is not known.
 void CondensedSweep::takeSolutionOfPath(condensed::ContactPath& path, const Step& step) {
   steady::Solution& solution = states_.solutions[step.to];
   const contact::ActiveSet end{path.closed, path.sticking.free()};
+  const auto holds = path.sticking.holds;
   if (const PetscInt others = contact::countDifferent(comm_, path.closed, solution.closed);
       others > 0) {
     condensed_->startFrom(std::move(path.gaps), std::move(path.sticking));
@@ -242,6 +244,10 @@ void CondensedSweep::takeSolutionOfPath(condensed::ContactPath& path, const Step
                                       others, others == 1 ? "contact node" : "contact nodes"));
   }
   auto changes = condensed::changesBetween(end, steady::activeSet(solution), path.end, 0);
+  const auto slides = [](steady::Hold hold) { return hold == steady::Hold::released; };
+  std::erase_if(changes, [&](const auto& change) {
+    return slides(holds[change.node]) || slides(solution.sticking.holds[change.node]);
+  });
   const int count = mpi::sum(comm_, static_cast<int>(changes.size()));
   addEvents(std::move(changes), count, step);
 }

@@ -154,6 +154,15 @@ std::vector<sweep_solver::PathPiece> MeshSweep::piecesAfter(std::size_t point) {
     after.push_back(set);
   }
   const contact::ActiveSet last = steady::activeSet(steadyAt(point + 1));
+  // Whether a node of an interface with `_release` slides is known only at the points. A node that
+  // opens or closes takes the state of the next point with that event; where other nodes begin or
+  // cease to slide is not known.
+  const auto& interfaces = brake_.model.contact.interfaces;
+  const contact::Mask& closedBefore = steadyAt(point).closed;
+  for (std::size_t i = 0; i < set.released.size(); ++i)
+    if (interfaces.options[interfaces.nodes[i].interface].releases &&
+        (!closedBefore[i] || !last.closed[i]))
+      set.released[i] = last.released[i];
   const std::size_t range = *steps[point].back().range;
   const bool changes =
       !contact::sameOnAllRanks(brake_.comm(), steady::activeSet(steadyAt(point)), last);
