@@ -24,23 +24,27 @@ int ProjectedBasis::addSet(const pencil::Pencil& pencil, const std::vector<unsig
                                           .terms = {},
                                           .top = 0,
                                           .modesInBand = 0}));
-  if (!passed) set.terms.emplace(basis_, pencil, terms_.count(), pencil.affineCount());
+  if (!passed) projectTerms(set);
   return std::ssize(sets_) - 1;
 }
 
 void ProjectedBasis::load(int number) {
   auto& set = *sets_[number];
-  const auto known = std::ranges::find(loaded_, number);
-  if (known == loaded_.end() && set.terms) return;  // the set of a point
-  if (known != loaded_.end()) loaded_.erase(known);
-  if (!set.terms) {
+  if (const auto known = std::ranges::find(loaded_, number); known != loaded_.end()) {
+    loaded_.erase(known);
+  } else {
+    if (set.terms) return;  // the set of a point
     if (loaded_.size() == mostLoaded) {
       sets_[loaded_.front()]->terms.reset();
       loaded_.erase(loaded_.begin());
     }
-    set.terms.emplace(basis_, set.pencil, terms_.count(), set.pencil.affineCount());
+    projectTerms(set);
   }
   loaded_.push_back(number);
+}
+
+void ProjectedBasis::projectTerms(PointSet& set) const {
+  set.terms.emplace(basis_, set.pencil, terms_.count(), set.pencil.affineCount());
 }
 
 PointState ProjectedBasis::state(const PointProblem& point, const Norms& norms) const {

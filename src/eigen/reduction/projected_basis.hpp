@@ -41,7 +41,6 @@ class ProjectedBasis {
   /// Collective. Projects the terms of a passed set, unless this is done. The terms of all but the
   /// `mostLoaded` passed sets that were used last are dropped, since a path has hundreds of sets.
   void load(int set);
-  static constexpr std::size_t mostLoaded = 12;
   PointSet& set(int number) { return *sets_[number]; }
   const PointSet& set(int number) const { return *sets_[number]; }
 
@@ -82,6 +81,9 @@ class ProjectedBasis {
   void serialise(checkpoint::Archive& archive);
 
  private:
+  static constexpr std::size_t mostLoaded = 12;
+  void projectTerms(PointSet& set) const;
+
   Basis basis_;
   ProjectedTerms terms_;
   PetscInt unknowns_ = 0;

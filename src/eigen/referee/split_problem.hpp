@@ -13,8 +13,8 @@ namespace squeal::referee {
 /// matrix of zeros is null.
 class SplitProblem {
  public:
-  /// Collective. Splits the matrices of the point. Throws Error without mass or stiffness,
-  /// or if the symmetric part of the mass is not positive semi-definite.
+  /// Collective. Splits the matrices of the point. Throws Error without mass or stiffness, or
+  /// if the symmetric part of the mass is not positive semi-definite.
   SplitProblem(const pencil::Pencil& pencil, const sweep::Parameters& at);
   Mat symmetric(int power) const { return parts_[power][0]; }
   Mat skew(int power) const { return parts_[power][1]; }

@@ -125,15 +125,16 @@ std::vector<Critical> criticalFrictions(const std::vector<Piece>& path, const Br
   constexpr int rounds = 10;
   // Locate all events before the basis grows beyond the basis of their vectors.
   std::vector<std::vector<Event>> events(path.size());
-  std::vector<std::unique_ptr<Roots>> pieces;
+  std::vector<std::unique_ptr<Roots>> pieces(path.size());  // null without events
   for (const auto& event : branches.events) events[event.piece].push_back(event);
   for (std::size_t piece = 0; piece < path.size(); ++piece) {
-    if (!events[piece].empty()) path[piece].family->load();
-    pieces.push_back(std::make_unique<Roots>(*path[piece].family, events[piece], tolerance));
+    if (events[piece].empty()) continue;
+    path[piece].family->load();
+    pieces[piece] = std::make_unique<Roots>(*path[piece].family, events[piece], tolerance);
   }
   std::vector<Critical> list;
   for (std::size_t piece = 0; piece < path.size(); ++piece) {
-    if (events[piece].empty()) continue;
+    if (!pieces[piece]) continue;
     path[piece].family->load();
     Roots& roots = *pieces[piece];
     for (int round = 0; round < rounds; ++round) {

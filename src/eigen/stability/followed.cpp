@@ -77,8 +77,7 @@ std::string TrackedLine::statement() const {
   if (branches.omitted > 0)
     text += formatted(
         "; assumed: no eigenvalue changes its stability twice among the %d active sets that were "
-        "not "
-        "examined",
+        "not examined",
         branches.omitted);
   if (const auto open = std::ranges::count(criticals, false, &Critical::converged); open > 0)
     text += formatted("; %td of %zu changes of stability %s located only within their bounds", open,

@@ -56,8 +56,7 @@ class Tracker {
     std::list<SolvedStation> row;  // the last station already finished, and the next ones
     std::vector<Wanted> some;
     for (std::size_t k = 0; k < places_.size(); ++k) {
-      if (places_[k].needed)
-        some.push_back({places_[k].piece, places_[k].friction, k, smallestStep(k), true});
+      if (places_[k].needed) some.push_back(wantedAt(k));
       if (some.size() < together_ && k + 1 < places_.size()) continue;
       append(some, row);
       some.clear();
@@ -82,12 +81,14 @@ class Tracker {
     bool swept;
   };
 
-  double smallestStep(std::size_t place) const {
-    return place == 0 ? 0
-                      : limits_.smallest * (places_[place].friction - places_[place - 1].friction);
+  Wanted wantedAt(std::size_t place) const {
+    const auto& [piece, friction, needed] = places_[place];
+    const double step = place == 0 ? 0 : friction - places_[place - 1].friction;
+    return {piece, friction, place, limits_.smallest * step, true};
   }
-  Family& loaded(const SolvedStation& station) const {
-    Family& family = *path_[station.station.piece].family;
+  /// Collective. Returns the family of a piece, ready for use.
+  Family& loaded(std::size_t piece) const {
+    Family& family = *path_[piece].family;
     family.load();
     return family;
   }
@@ -101,15 +102,12 @@ class Tracker {
         result_.gaps.push_back({some[k].friction, some[k].friction, "no reduced problem"});
   }
 
-  /// Solves these problems together; none where there is no problem.
+  /// Solves these problems together; none where the family has no problem.
   std::vector<std::optional<SolvedStation>> solve(const std::vector<Wanted>& some) {
     std::vector<std::optional<linalg::DenseProblem>> problems;
     std::vector<ProblemAt> solvable;
     std::vector<std::size_t> which;
-    for (const auto& wanted : some) {
-      path_[wanted.piece].family->load();
-      problems.push_back(path_[wanted.piece].family->at(wanted.friction));
-    }
+    for (const auto& wanted : some) problems.push_back(loaded(wanted.piece).at(wanted.friction));
     for (std::size_t k = 0; k < some.size(); ++k)
       if (problems[k]) {
         solvable.push_back({path_[some[k].piece].family, some[k].friction, &*problems[k]});
@@ -149,13 +147,13 @@ class Tracker {
     if (a.station.piece == b.station.piece)
       return {a.station.piece, 0.5 * (a.station.friction + b.station.friction), a.place, b.smallest,
               false};
-    const std::size_t place = (a.place + b.place) / 2;
-    return {places_[place].piece, places_[place].friction, place, smallestStep(place), true};
+    return wantedAt((a.place + b.place) / 2);
   }
   void join(const SolvedStation& a, SolvedStation& b) const {
     if (b.step) return;
-    const StepJoiner joiner(loaded(b), result_.band);
-    b.step = a.station.piece == b.station.piece ? joiner.join(a, b) : joiner.jump(loaded(a), a, b);
+    const std::size_t from = a.station.piece, to = b.station.piece;
+    const StepJoiner joiner(loaded(to), result_.band);
+    b.step = from == to ? joiner.join(a, b) : joiner.jump(loaded(from), a, b);
   }
 
   /// Finishes all steps of the row. Inserts stations until all continuations are certain or cannot
@@ -205,8 +203,8 @@ class Tracker {
       // At a jump the problems at both ends have different unknowns, and there is no problem in
       // between.
       if (a->station.piece == b.station.piece)
-        screen(loaded(b), {a->station.friction, a->problem}, {b.station.friction, b.problem},
-               step.singles, step.events, step.gaps);
+        screen(loaded(b.station.piece), {a->station.friction, a->problem},
+               {b.station.friction, b.problem}, step.singles, step.events, step.gaps);
       const auto number = [&](int index) { return index < 0 ? index : a->station.branch[index]; };
       for (auto& event : step.events) {
         event.branch = number(event.branch);

@@ -248,20 +248,17 @@ class PathTracer {
     const contact::ActiveSet before = set();
     const Sticking heldBefore = sticking_;
     const double next = std::min(1.0, s + behind);
-    margins(s);
-    const std::vector<double> gapsBefore = gaps();
     sticking_.heldAgain.assign(closed_.size(), 0);
     for (int together = 0; together < mostTogether; ++together) {
       if (rank_ == place.rank) change(place.node);
       place = worstAt(next);
       if (place.margin >= -rounding && state_.found) return record(before, s, path);
     }
-    problem_.startFrom(gapsBefore, heldBefore);
+    closed_ = before.closed, sticking_ = heldBefore;
+    margins(s);
+    problem_.startFrom(gaps(), sticking_);
     const Solution found = problem_.solve(at(next));
-    if (!found.converged) {
-      closed_ = before.closed, sticking_ = heldBefore;
-      return false;
-    }
+    if (!found.converged) return false;
     closed_ = found.closed, sticking_ = found.sticking;
     return record(before, s, path);
   }
