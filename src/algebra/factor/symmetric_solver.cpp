@@ -18,8 +18,8 @@ namespace {
 
 const SolverPrefix factorisation(
     "modes", solverPrefix,
-    "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, "
-    "mat_mumps_*, …");
+    "options of SLEPc's ST and PETSc's KSP and PC for the factorisation of K (MUMPS LDLt): "
+    "st_type, ksp_*, pc_*, mat_mumps_*, …");
 
 /// The context of a PCSHELL: the factor and its state.
 struct Shell {

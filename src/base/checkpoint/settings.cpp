@@ -8,7 +8,7 @@ namespace {
 
 const FlagOption checkpointOption(
     "general", "checkpoint", true,
-    "write checkpoints to the subfolder interrupted of the results folder");
+    "write checkpoints to the subfolder 'interrupted' of the results folder");
 const RealOption intervalOption(
     "general", "checkpoint_interval", 60, "s", nonNegative,
     "minimum wall time between checkpoint entries; 0 = an entry for every result");

@@ -8,12 +8,12 @@ namespace {
 
 const FlagOption quietOption("general", "quiet", false, "no output except warnings and errors");
 const TextOption fileOption("general", "log_json", "",
-                            "event log to append to, one JSON object per line: stages, points, "
-                            "warnings, checkpoints, end of the run");
+                            "file to which events are appended, one JSON object per line: stages, "
+                            "points, warnings, checkpoints, end of the run");
 const ChoiceOption progressOption(
     "general", "progress", {"auto", "line", "plain"}, "auto",
-    "status line with stage, completed points and time (line) or without it (plain); auto = line "
-    "on a terminal, but not under mpirun, which hides the terminal");
+    "progress on the terminal; line: a status line with stage, completed points and time; plain: "
+    "no status line; auto: line on a terminal, but plain under mpirun, which hides the terminal");
 
 }  // namespace
 

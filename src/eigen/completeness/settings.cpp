@@ -6,14 +6,15 @@
 namespace squeal::completeness {
 namespace {
 
-const FlagOption proofOption("flutter", "flutter_proof", false,
-                             "proof at each point that the full problem has exactly the listed "
-                             "eigenvalues in the band, each "
-                             "in a disc of known radius; takes about four solves per contact node, "
-                             "and some seconds of dense "
-                             "work per point; without damping only");
+const FlagOption proofOption(
+    "flutter", "flutter_proof", false,
+    "proof, at each point of the sweep, that the full problem has exactly the listed eigenvalues "
+    "in the band, each in a disc of known radius; only without damping, friction damping and "
+    "convective terms; takes about four solves per contact node, and some seconds of dense algebra "
+    "per point");
 const IntegerOption discsOption("flutter", "flutter_proof_discs", 400, 1, 1'000'000,
-                                "largest number of discs on the boundary of the proof, per point");
+                                "largest number of discs in the complex plane that cover the "
+                                "boundary of the region of the proof, per point");
 
 }  // namespace
 

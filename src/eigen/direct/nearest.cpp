@@ -20,10 +20,11 @@ namespace squeal::direct {
 namespace {
 
 const SolverPrefix epsPrefix("flutter", "flutter_eps_",
-                             "SLEPc EPS of the direct method without damping");
+                             "options of SLEPc's EPS for the direct method without damping");
 const SolverPrefix pepPrefix("flutter", "flutter_pep_",
-                             "SLEPc PEP of the direct method with damping");
-const SolverPrefix stPrefix("flutter", "flutter_st_", "SLEPc ST, KSP and PC of the direct method");
+                             "options of SLEPc's PEP for the direct method with damping");
+const SolverPrefix stPrefix("flutter", "flutter_st_",
+                            "options of SLEPc's ST and PETSc's KSP and PC for the direct method");
 
 using OwnedPEP = Owned<PEP, PEPDestroy>;
 

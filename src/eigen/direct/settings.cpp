@@ -11,19 +11,19 @@ namespace squeal::direct {
 namespace {
 
 const IntegerOption countOption("flutter", "flutter_direct_count", 100, 1, 1'000'000,
-                                "number of eigenvalues nearest to zero for the direct method, with "
-                                "conjugate pairs counted once");
+                                "number of eigenvalues nearest to zero that the direct method "
+                                "computes; a conjugate pair counts once");
 const RealListOption bandOption(
     "flutter", "flutter_direct_band", "0,0", "Hz", nonNegative,
-    "low,high: band of the direct method, low <= Im s / 2 pi <= high and |s| <= 2 pi high, instead "
-    "of a number of eigenvalues; 0,0 = off");
+    "low,high: frequency band of the direct method, instead of a number of eigenvalues: low <= Im "
+    "s / 2 pi <= high and |s| <= 2 pi high; 0,0 = off");
 const IntegerOption limitOption(
     "flutter", "flutter_direct_limit", 2000, 1, 1'000'000,
-    "largest number of eigenvalues for -flutter_direct_band, direct method only");
+    "largest number of eigenvalues that the direct method computes for -flutter_direct_band");
 const FlagOption confirmOption(
     "flutter", "flutter_direct_confirm", true,
-    "repetition of the direct solve from other start vectors until no new eigenvalue is found: a "
-    "single solve may miss multiple eigenvalues");
+    "repetition of the direct solve from other start vectors until no new eigenvalue is found, "
+    "since a single solve may miss multiple eigenvalues");
 
 }  // namespace
 

@@ -20,8 +20,8 @@
 namespace squeal::modes {
 namespace {
 
-const SolverPrefix solverPrefix("modes", "modes_eps_",
-                                "SLEPc EPS of the free vibrations: tol, ncv, mpd, type, …");
+const SolverPrefix solverPrefix(
+    "modes", "modes_eps_", "options of SLEPc's EPS for the free modes: tol, ncv, mpd, type, …");
 
 PetscInt rowsOf(Mat matrix) {
   PetscInt rows = 0;

@@ -9,21 +9,23 @@
 namespace squeal::modes {
 namespace {
 
-const IntegerOption countOption(
-    "modes", "modes_count", 200, 1, 1'000'000,
-    "number of free-vibration modes, which start the basis of the reduced problem");
+const IntegerOption countOption("modes", "modes_count", 200, 1, 1'000'000,
+                                "number of free modes (vibration modes without friction), which "
+                                "start the basis of the reduced problem");
 const ChoiceOption solverOption(
     "modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
-    "block_lanczos: the EPS type blocklanczos of this program; eps: krylovschur or the type of "
-    "-modes_eps_type; auto: block_lanczos, or eps if a type is given or the problem is small");
-const IntegerOption blockOption("modes", "modes_block_size", 8, 1, 1000,
-                                "right-hand sides per block solve of block_lanczos");
+    "eigensolver for the free modes; block_lanczos: this program's EPS type blocklanczos; eps: "
+    "krylovschur, or the type in -modes_eps_type; auto: eps if a type is given or the problem is "
+    "small, otherwise block_lanczos");
+const IntegerOption blockOption(
+    "modes", "modes_block_size", 8, 1, 1000,
+    "number of right-hand sides for which block_lanczos solves together");
 const RealOption toleranceOption("modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false},
-                                 "relative error of the eigenvalues of S = inverse(K) M; eps also "
-                                 "reads -modes_eps_tol");
+                                 "tolerance of the relative errors of the eigenvalues of S = "
+                                 "inverse(K) M; for the solver eps, -modes_eps_tol overrides it");
 const FlagOption sturmOption("modes", "modes_sturm", true,
-                             "Sturm check that no mode is missing: inertia of K - sigma M, at the "
-                             "cost of one more factorisation");
+                             "check by a Sturm count (the inertia of K - sigma M) that no mode is "
+                             "missing, at the cost of one more factorisation");
 
 /// Returns true if the user names a type of SLEPc's EPS.
 bool isTypeGiven() {

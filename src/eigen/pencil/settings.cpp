@@ -11,32 +11,32 @@ namespace {
 
 const ChoiceOption methodOption(
     "flutter", "flutter_method", {"reduced", "direct"}, "reduced",
-    "reduced: dense problem in a basis of free modes and corrections; direct: all unknowns, for "
-    "verification");
-const RealListOption modalOption(
-    "flutter", "flutter_modal_damping", "0", "", nonNegative,
-    "modal damping ratios, one per free mode; the last value applies to all further modes (reduced "
-    "method only)");
+    "method for the complex modes; reduced: dense problem in a basis of free modes and "
+    "corrections; direct: problem in all unknowns, for verification");
+const RealListOption modalOption("flutter", "flutter_modal_damping", "0", "", nonNegative,
+                                 "modal damping ratios, one per free mode; the last value applies "
+                                 "to all further modes; reduced method only");
 const RealOption bandOption(
     "flutter", "flutter_band", 0, "Hz", nonNegative,
-    "upper limit of |s|/(2 pi) (the frequency, at low damping) for corrected and listed "
-    "eigenvalues, below the highest free mode of the active set; 0 = automatic (the mode at 55 % "
-    "of the list of free modes)");
+    "upper limit of |s|/(2 pi), which is the frequency at low damping, for corrected and listed "
+    "eigenvalues; a limit above the highest free mode of the active set is lowered to just below "
+    "this mode; 0 = automatic (just above the mode at 55 % of the list of free modes)");
 const RealOption bandDampingOption("flutter", "flutter_band_damping", 0.5, "", positive,
                                    "largest damping ratio of listed eigenvalues");
-const RealOption accuracyOption(
-    "flutter", "flutter_accuracy", 1e-9, "", positive,
-    "largest full-order backward error of a certified eigenvalue; target of the corrections");
-const RealOption toleranceOption(
-    "flutter", "flutter_unstable_tolerance", 0, "", nonNegative,
-    "minimum growth rate of unstable eigenvalues as a fraction of |s|, which they exceed by more "
-    "than their error estimates; critical frictions: always zero growth");
-const IntegerOption shapesOption(
-    "flutter", "flutter_shapes", 3, 0, 100'000,
-    "largest number of complex modes stored per point, in order of descending growth rate");
-const FlagOption stableShapesOption("flutter", "flutter_shapes_stable", false,
-                                    "storage of stable complex modes too, so that -flutter_shapes "
-                                    "can cover all modes of the band; off: only unstable ones");
+const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
+                                "largest backward error, in the full-order problem, that a "
+                                "certified eigenvalue may have; corrections aim at it");
+const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 0, "", nonNegative,
+                                 "threshold z of the growth rate, as a fraction of |s|: an "
+                                 "eigenvalue is unstable if Re s exceeds z |s| by more than its "
+                                 "error estimate; critical frictions are always those of Re s = 0");
+const IntegerOption shapesOption("flutter", "flutter_shapes", 3, 0, 100'000,
+                                 "largest number of complex modes stored per point; those with the "
+                                 "largest growth rates are stored");
+const FlagOption stableShapesOption(
+    "flutter", "flutter_shapes_stable", false,
+    "storage of all complex modes of the band, up to -flutter_shapes per point; off: only unstable "
+    "ones are stored");
 const RealOption shapesBelowOption("flutter", "flutter_shapes_below", 20000, "Hz", positive,
                                    "upper frequency limit of stored complex modes (audible range)");
 

@@ -8,11 +8,13 @@ namespace {
 
 const ChoiceOption basisOption(
     "flutter", "flutter_basis", {"corrected", "modal", "pod"}, "corrected",
-    "corrected: free modes, static responses to friction and to residuals; pod: principal "
-    "directions of the eigenvectors after each batch of points; modal: free modes only");
-const RealOption toleranceOption("flutter", "flutter_tolerance", 1e-8, "", positive,
-                                 "target of the estimated relative error |ds|/|s| of the "
-                                 "eigenvalues in the band");
+    "vectors of the basis; corrected: free modes, and static responses to friction and to "
+    "residuals; modal: only free modes; pod: as corrected, but after each batch of points the "
+    "basis is reduced to the principal directions of the eigenvectors");
+const RealOption toleranceOption(
+    "flutter", "flutter_tolerance", 1e-8, "", positive,
+    "largest estimated relative error |ds|/|s| that a certified eigenvalue may have; corrections "
+    "aim at it for all eigenvalues in the band");
 const IntegerOption roundsOption("flutter", "flutter_rounds", 15, 0, 10'000,
                                  "largest number of correction rounds per batch of points");
 const IntegerOption growthOption(

@@ -11,17 +11,19 @@ namespace {
 
 const RealOption topOption(
     "referee", "referee_top", 0, "Hz", nonNegative,
-    "top of the judged region |s| < 2 pi top, moved into a gap up to 8 % away; 0 = automatic (in "
-    "the first gap above the list)");
+    "top (in Hz) of the region |s| < 2 pi top that the referee judges, moved into a gap between "
+    "eigenvalues at most 8 % away; 0 = automatic (the first gap above the list)");
 const RealOption leftOption(
     "referee", "referee_left", 0, "", Range{0, 1},
-    "reach of the judged region of a damped problem left of the imaginary axis, as a fraction of "
-    "its top; 0 = automatic (to the most damped entry, from 0.02 to 0.2)");
+    "distance by which the judged region of a damped problem reaches to the left of the imaginary "
+    "axis, as a fraction of its top; 0 = automatic (as far as the most damped entry of the list, "
+    "between 0.02 and 0.2)");
 const RealOption toleranceOption("referee", "referee_tolerance", 1e-4, "", Range{1e-12, 0.1},
-                                 "distance |ds|/|s| from a proved eigenvalue up to which an entry "
-                                 "is right; farther ones are inexact");
-const IntegerOption discsOption("referee", "referee_discs", 400, 1, 100'000,
-                                "largest number of discs that cover the boundary of the region");
+                                 "largest distance |ds|/|s| from a proved eigenvalue at which an "
+                                 "entry of the list is right; an entry farther away is inexact");
+const IntegerOption discsOption(
+    "referee", "referee_discs", 400, 1, 100'000,
+    "largest number of discs in the complex plane that cover the boundary of the judged region");
 
 }  // namespace
 

@@ -8,9 +8,10 @@ namespace {
 
 const FlagOption wantedOption(
     "flutter", "flutter_sensitivities", false,
-    "derivatives with respect to friction, speed, pressure, moduli, densities, damping of bodies, "
-    "springs, bushings and masses; sensitivities.csv: of the eigenvalues of the stored complex "
-    "modes (-flutter_shapes); critical_sensitivities.csv: of the critical frictions");
+    "derivatives with respect to friction, speed, pressure, damping, moduli and densities of "
+    "bodies, stiffness of springs and bushings, and point masses; sensitivities.csv contains those "
+    "of the eigenvalues of stored complex modes (-flutter_shapes), critical_sensitivities.csv "
+    "those of critical frictions");
 
 }  // namespace
 

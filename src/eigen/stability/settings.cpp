@@ -11,19 +11,19 @@ namespace {
 
 const FlagOption trackOption(
     "flutter", "flutter_track", true,
-    "tracking of the eigenvalues in the band over the friction, through crossings and mergers: "
-    "branches.csv; reduced method only; a single friction (tracked from friction 0) and terms that "
-    "depend on the steady state (friction damping, prestress) need this option or "
-    "-flutter_critical explicitly");
+    "tracking of the eigenvalues in the band as the friction changes, through crossings and "
+    "mergers: branches.csv; reduced method only. A run with a single friction (tracked from "
+    "friction 0), or with terms that depend on the steady state (friction damping, prestress), "
+    "tracks only if this option or -flutter_critical is given as on");
 const FlagOption criticalOption(
     "flutter", "flutter_critical", true,
     "search for the frictions at which stability changes: critical.csv; needs -flutter_track");
-const RealOption toleranceOption(
-    "flutter", "flutter_critical_tolerance", 1e-8, "", positive,
-    "relative change of a critical friction below which its basis is no longer improved");
-const IntegerOption halvingsOption(
-    "flutter", "flutter_track_halvings", 10, 0, 50,
-    "largest number of halvings of a step of the sweep where a continuation is uncertain");
+const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,
+                                 "convergence tolerance of a critical friction: its basis is "
+                                 "improved until the friction changes by less than this fraction");
+const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0, 50,
+                                   "largest number of times that a step of the sweep is halved "
+                                   "where the tracking of an eigenvalue is uncertain");
 
 }  // namespace
 

@@ -16,13 +16,13 @@ const RealListOption speedOption(
     "swept factors on the velocities of all -motion_* options and of obstacles");
 const RealListOption pressureOption(
     "flutter", "flutter_pressure", "1", "", sequencesOf(positive),
-    "swept factors on surface pressures, forces and moments, except those with "
-    "-load_<group>_hydraulic off, and on the prescribed displacements of supports and obstacles, "
-    "but not on gravity and centrifugal forces");
+    "swept factors on surface pressures, forces and moments (except on groups with "
+    "-load_<group>_hydraulic off), and on prescribed displacements of supports and obstacles; "
+    "gravity and centrifugal forces are not scaled");
 const RealListOption dampingOption(
     "flutter", "flutter_damping", "1", "", sequencesOf(nonNegative),
-    "swept factors on the damping of materials, ground dashpots, springs, bushings and free modes, "
-    "but not on friction damping");
+    "swept factors on the damping of materials, ground dashpots, springs, bushings and free modes; "
+    "friction damping is not scaled");
 
 std::vector<double> ascending(const RealListOption& option) {
   auto list = option.get();

@@ -12,50 +12,52 @@ namespace {
 const TextOption springFromOption("spring", "spring_<name>_from", "",
                                   "first end of a spring: a group of one node, or a reference "
                                   "node");
-const TextOption springToOption("spring", "spring_<name>_to", "",
-                                "second end; the spring acts along the line of its ends");
+const TextOption springToOption(
+    "spring", "spring_<name>_to", "",
+    "second end of the spring, which acts along the line between its ends");
 const RealOption springStiffnessOption("spring", "spring_<name>_stiffness", 0.0, "N/m", nonNegative,
-                                       "stiffness along this line");
+                                       "stiffness of the spring along the line between its ends");
 const RealOption springDampingOption("spring", "spring_<name>_damping", 0.0, "N s/m", nonNegative,
-                                     "damping along this line");
+                                     "damping along the line between the ends of the spring");
 const TextOption bushingFromOption("bushing", "bushing_<name>_from", "",
                                    "first end of a bushing: a reference node, or a group of one "
                                    "node");
 const TextOption bushingToOption("bushing", "bushing_<name>_to", "",
-                                 "second end; default: the ground");
+                                 "second end of the bushing; default: the ground");
 const RealListOption bushingStiffnessOption(
     "bushing", "bushing_<name>_stiffness", "0,0,0", "N/m", nonNegative,
-    "stiffness along x, y, z and, with six numbers, about x, y, z (N m/rad); in the plane along "
-    "x, y and about z");
-const RealListOption bushingDampingOption("bushing", "bushing_<name>_damping", "0,0,0", "N s/m",
-                                          nonNegative,
-                                          "damping along the axes, and about them (N m s/rad)");
-const TextOption bushingFrameOption("bushing", "bushing_<name>_frame", "",
-                                    "name of the -frame whose axes are x, y, z; default: the "
-                                    "global axes");
-const RealOption massOption("mass", "mass_<group>_total", std::nullopt, "kg", positive,
-                            "point mass of a reference node, or total of a group, shared equally "
-                            "by its nodes");
-const RealListOption inertiaOption("mass", "mass_<group>_inertia", "0,0,0,0,0,0", "kg m2", anyReal,
-                                   "rotary inertia Jxx,Jyy,Jzz,Jxy,Jxz,Jyz of the mass of a "
-                                   "reference node about its centre, with Jxy = -sum(m x y); in "
-                                   "the plane one number, Jzz");
+    "stiffness along x, y, z and, if there are six numbers, about x, y, z (N m/rad); in plane "
+    "problems along x, y and about z");
+const RealListOption bushingDampingOption(
+    "bushing", "bushing_<name>_damping", "0,0,0", "N s/m", nonNegative,
+    "damping along x, y, z and, if there are six numbers, about x, y, z (N m s/rad); in plane "
+    "problems along x, y and about z");
+const TextOption bushingFrameOption(
+    "bushing", "bushing_<name>_frame", "",
+    "name of the -frame whose axes are x, y, z of the bushing; default: the global axes");
+const RealOption massOption(
+    "mass", "mass_<group>_total", std::nullopt, "kg", positive,
+    "mass of a reference node, or total mass of a group, which its nodes share equally");
+const RealListOption inertiaOption(
+    "mass", "mass_<group>_inertia", "0,0,0,0,0,0", "kg m2", anyReal,
+    "rotary inertia Jxx,Jyy,Jzz,Jxy,Jxz,Jyz of the mass of a reference node about its centre of "
+    "mass, with Jxy = -sum(m x y); in plane problems one number, Jzz");
 const RealListOption offsetOption("mass", "mass_<group>_offset", "0,0,0", "m", anyReal,
                                   "vector from the reference node to the centre of its mass");
 const TextOption massFrameOption("mass", "mass_<group>_frame", "",
                                  "name of the -frame whose axes are x, y, z of inertia and offset; "
                                  "default: the global axes");
 const RealListOption forceOption("load", "load_<group>_force", "0,0,0", "N", anyReal,
-                                 "force on a group, shared equally by its nodes, or on a reference "
-                                 "node (per m of depth in the plane)");
+                                 "total force on a group, shared equally by its nodes, or force on "
+                                 "a reference node (per m of depth in plane problems)");
 const RealListOption momentOption("load", "load_<group>_moment", "0,0,0", "N m", anyReal,
-                                  "moment on a reference node; in the plane 0,0,Mz");
+                                  "moment on a reference node; in plane problems 0,0,Mz");
 const TextOption forceFrameOption("load", "load_<group>_frame", "",
                                   "name of the -frame whose axes are x, y, z of force and moment; "
                                   "default: the global axes");
 const FlagOption hydraulicOption("load", "load_<group>_hydraulic", true,
-                                 "on: -flutter_pressure scales pressure, force and moment of this "
-                                 "group; off: they keep their values");
+                                 "scaling of pressure, force and moment of this group by "
+                                 "-flutter_pressure; off: they keep their values");
 
 std::vector<SpringSettings> springsGiven() {
   requireOption({&springToOption, &springStiffnessOption, &springDampingOption}, springFromOption);

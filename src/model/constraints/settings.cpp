@@ -20,49 +20,50 @@ const TextOption centreOption("reference", "reference_<name>_centre_of", "",
                               "group of nodes whose mean position is that of the reference node");
 const TextOption clampedOption(
     "constraint", "constraint_<group>_clamped", "",
-    "fixed components (some of xyz) of the displacement of the group's nodes");
+    "fixed components of the displacement of the nodes of a group: some of xyz");
 const RealListOption displacementOption("constraint", "constraint_<group>_displacement", "0,0,0",
                                         "m", anyReal,
                                         "prescribed values of the clamped components");
-const TextOption rotationOption("constraint", "constraint_<group>_clamped_rotation", "",
-                                "fixed components (some of xyz) of the rotation of a reference "
-                                "node; in the plane z");
+const TextOption rotationOption(
+    "constraint", "constraint_<group>_clamped_rotation", "",
+    "fixed components of the rotation of a reference node: some of xyz; in plane problems z");
 const RealListOption angleOption("constraint", "constraint_<group>_angle", "0,0,0", "rad", anyReal,
                                  "prescribed values of the clamped rotations");
 const TextOption frameOption("constraint", "constraint_<group>_frame", "",
                              "name of the -frame whose axes are x, y, z of the clamped "
                              "components; default: the global axes");
 const TextOption imageOption("constraint", "constraint_<group>_image_of", "",
-                             "group that a translation maps onto this group, its periodic image");
+                             "group whose periodic image this group is: a translation maps its "
+                             "nodes onto those of this group");
 const TextOption referenceOption("coupling", "coupling_<name>_reference", "",
                                  "reference node of a coupling");
 const TextOption nodesOption(
     "coupling", "coupling_<name>_nodes", "",
-    "groups of nodes, or reference nodes, that are coupled to this reference node");
-const ChoiceOption kindOption("coupling", "coupling_<name>_kind", {"rigid", "distributed"}, "rigid",
-                              "rigid: the nodes move with the reference node as one rigid body "
-                              "(RBE2); distributed: the reference node follows their weighted mean "
-                              "motion (RBE3)");
+    "groups of nodes, or reference nodes, that the coupling connects with its reference node");
+const ChoiceOption kindOption(
+    "coupling", "coupling_<name>_kind", {"rigid", "distributed"}, "rigid",
+    "kind of a coupling; rigid: the nodes move with the reference node as one rigid body (RBE2); "
+    "distributed: the reference node follows their weighted mean motion (RBE3)");
 const TextOption componentsOption("coupling", "coupling_<name>_components", "xyz",
-                                  "components of the displacement that a rigid coupling couples; "
-                                  "the nodes are free along the others");
+                                  "components of the displacement that a rigid coupling connects; "
+                                  "the nodes are free in the others");
 const TextOption couplingFrameOption("coupling", "coupling_<name>_frame", "",
                                      "name of the -frame whose axes are x, y, z of the coupled "
                                      "components; default: the global axes");
 const RealListOption weightsOption(
     "coupling", "coupling_<name>_weights", "1", "", positive,
-    "weights of a distributed coupling, one per group, which each node of the group has; the "
-    "weights of a node in several groups add up");
+    "weights of a distributed coupling, one per group; each node of the group has this weight, and "
+    "the weights of a node in several groups add up");
 const FlagOption pinnedOption("coupling", "coupling_<name>_pinned", false,
-                              "free rotations of reference nodes that a rigid coupling moves; off: "
-                              "their rotations follow the coupling too");
+                              "free rotations of the reference nodes among -coupling_<name>_nodes "
+                              "of a rigid coupling; off: their rotations follow the coupling too");
 const TextOption equationOption("equation", "equation_<name>", "",
                                 "linear equation of displacements, such as a:x - 2*b:y + c:rz = "
                                 "0.1; a, b: groups of one node or reference nodes; x, y, z: "
                                 "displacement, m; rx, ry, rz: rotation of a reference node, rad");
 
 const TextOption sectionOption("bolt", "bolt_<name>_section", "",
-                               "surface group inside a body that cuts the shank of a bolt");
+                               "surface group inside a body, at which the shank of a bolt is cut");
 const RealOption boltForceOption("bolt", "bolt_<name>_force", 0.0, "N", nonNegative,
                                  "bolt tension, applied in a first step without pressure and "
                                  "friction; the length of the bolt is constant afterwards");
@@ -71,13 +72,13 @@ const RealOption shorteningOption("bolt", "bolt_<name>_shortening", 0.0, "m", an
                                   "together, instead of -bolt_<name>_force");
 const RealListOption boltAxisOption(
     "bolt", "bolt_<name>_axis", "0,0,1", "", anyReal,
-    "direction of the bolt, which decides the sign of the section's normal; default: the normal of "
-    "a face of the section");
+    "direction of the bolt, which decides the sign of the normal of its section; if not given: the "
+    "normal of a face of the section");
 
 const FlagOption underPressureOption(
     "bolt", "bolt_under_pressure", false,
-    "pressures, and other loads that the sweep scales, in the first step too, for brakes with "
-    "parts that are loose without them");
+    "loads that -flutter_pressure scales, such as pressures, in the first step too; on: needed if "
+    "parts of the brake are loose without these loads");
 
 std::vector<mesh::ReferenceRequest> referencesGiven() {
   std::set<std::string> names;

@@ -7,10 +7,10 @@
 namespace squeal::contact {
 namespace {
 
-const ChoiceOption lawOption("friction", "friction_law", {"constant", "exponential", "table"},
-                             "constant",
-                             "factor on -flutter_friction at the sliding speed |w|; constant: 1; "
-                             "exponential: 1 + (r - 1) exp(-|w|/v); table: from a table");
+const ChoiceOption lawOption(
+    "friction", "friction_law", {"constant", "exponential", "table"}, "constant",
+    "factor on the coefficient of friction at the sliding speed |w|; constant: 1; exponential: 1 + "
+    "(r - 1) exp(-|w|/v); table: from a table");
 const RealOption ratioOption(
     "friction", "friction_static_ratio", 1, "", nonNegative,
     "ratio r of the exponential law: coefficient at rest divided by that at high speed");
@@ -20,7 +20,7 @@ const RealListOption tableSpeedOption("friction", "friction_table_speed", "0", "
                                       "ascending sliding speeds of the table");
 const RealListOption tableFactorOption(
     "friction", "friction_table_factor", "1", "", nonNegative,
-    "factors at the speeds of the table, linear between them and constant beyond");
+    "factors at the speeds of the table; linear between these speeds, constant beyond");
 
 /// Throws Error for a given option of another law.
 void rejectIdle(const std::string& law) {

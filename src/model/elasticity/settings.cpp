@@ -10,23 +10,24 @@
 namespace squeal::elasticity {
 namespace {
 
-const ChoiceOption massOption("elasticity", "elasticity_mass", {"consistent", "higher_order"},
-                              "consistent",
-                              "mass matrix; higher_order: mean of consistent and lumped, with "
-                              "fourth-order frequencies on linear elements");
+const ChoiceOption massOption(
+    "elasticity", "elasticity_mass", {"consistent", "higher_order"}, "consistent",
+    "mass matrix; higher_order: mean of the consistent and the lumped matrix, so that the "
+    "frequencies of linear elements converge with fourth order");
 const TextOption incompatibleOption(
     "elasticity", "elasticity_incompatible_modes", "hex8",
-    "element types (quad4, hex8) with incompatible bending modes, or none");
+    "element types (quad4, hex8) that have incompatible bending modes, or none");
 const FlagOption prestressOption(
     "elasticity", "elasticity_prestress", false,
     "geometric stiffness: the stress of steady sliding stiffens or softens the vibrations");
-const RealListOption stiffnessOption("ground", "ground_<group>_stiffness", "0,0,0", "N/m",
-                                     nonNegative,
-                                     "springs along x, y, z to the ground, total of the group, "
-                                     "shared equally by its nodes (per m of depth in the plane)");
-const RealListOption dampingOption("ground", "ground_<group>_damping", "0,0,0", "N s/m",
-                                   nonNegative,
-                                   "dashpots along x, y, z to the ground, shared like springs");
+const RealListOption stiffnessOption(
+    "ground", "ground_<group>_stiffness", "0,0,0", "N/m", nonNegative,
+    "total stiffness along x, y, z of the springs between a group and the ground, shared equally "
+    "by its nodes (per m of depth in plane problems)");
+const RealListOption dampingOption(
+    "ground", "ground_<group>_damping", "0,0,0", "N s/m", nonNegative,
+    "total damping along x, y, z of the dashpots between a group and the ground, shared equally by "
+    "its nodes (per m of depth in plane problems)");
 const TextOption groundFrameOption("ground", "ground_<group>_frame", "",
                                    "name of the -frame whose axes are x, y, z of the springs and "
                                    "dashpots; default: the global axes");
@@ -41,11 +42,11 @@ const RealListOption accelerationOption("load", "load_<body>_acceleration", "0,0
                                         "force per mass of a body, added to -load_gravity");
 const RealOption spinOption(
     "load", "load_<body>_spin", 0.0, "rad/s", anyReal,
-    "speed of rotation for the centrifugal forces on a body that has no other motion");
+    "speed of rotation that causes centrifugal forces on a body without any -motion option");
 const RealListOption spinAxisOption("load", "load_<body>_spin_axis", "0,0,1", "", anyReal,
                                     "direction of the axis of -load_<body>_spin");
 const RealListOption spinOriginOption("load", "load_<body>_spin_origin", "0,0,0", "m", anyReal,
-                                      "point on this axis");
+                                      "point on the axis of -load_<body>_spin");
 const RealListOption velocityOption("motion", "motion_<body>_velocity", "0,0,0", "m/s", anyReal,
                                     "velocity of translation of the body's matter");
 const RealOption speedOption("motion", "motion_<body>_speed", 0.0, "rad/s", anyReal,
@@ -56,10 +57,9 @@ const RealListOption axisOption("motion", "motion_<body>_axis", "0,0,1", "", any
                                 "direction of the rotation axis, right-handed");
 const RealListOption originOption("motion", "motion_<body>_origin", "0,0,0", "m", anyReal,
                                   "point on the rotation axis");
-const FlagOption convectiveOption(
-    "motion", "motion_convective", false,
-    "convective terms (gyroscopic and rotation stiffness) of the matter of moving bodies; off: "
-    "approximation A, without these terms");
+const FlagOption convectiveOption("motion", "motion_convective", false,
+                                  "convective terms (gyroscopic matrix and rotation stiffness) of "
+                                  "moving bodies; off: approximation A, which omits these terms");
 
 std::vector<std::string> incompatibleGiven() {
   auto names = incompatibleOption.list();

@@ -10,17 +10,20 @@
 namespace squeal::frame {
 namespace {
 
-const RealListOption originOption("frame", "frame_<name>_origin", "0,0,0", "m", anyReal,
-                                  "origin of local axes; cylindrical: a point on the axis");
+const RealListOption originOption(
+    "frame", "frame_<name>_origin", "0,0,0", "m", anyReal,
+    "origin of the local axes; for cylindrical axes, a point on the axis");
 const RealListOption xOption("frame", "frame_<name>_x", "", "", anyReal,
-                             "direction of the local x axis of rectangular axes");
-const RealListOption xyOption("frame", "frame_<name>_xy", "0,1,0", "", anyReal,
-                              "another direction in the local plane of x and y");
-const RealListOption axisOption("frame", "frame_<name>_axis", "", "", anyReal,
-                                "axis of cylindrical axes: x is radial, y tangential, z axial");
+                             "direction of the x axis of rectangular local axes");
+const RealListOption xyOption(
+    "frame", "frame_<name>_xy", "0,1,0", "", anyReal,
+    "second direction of rectangular local axes: it lies in their x-y plane, on the side of y");
+const RealListOption axisOption(
+    "frame", "frame_<name>_axis", "", "", anyReal,
+    "direction of the axis of cylindrical local axes; x is radial, y tangential, z axial");
 const RealOption turnOption("frame", "frame_<name>_turn", 0.0, "deg", anyReal,
-                            "angle by which the local axes are turned about one of them, "
-                            "right-handed: ply angle, cone angle");
+                            "angle, such as a ply or cone angle, by which the local axes are "
+                            "turned about one of them, right-handed");
 const ChoiceOption turnAxisOption("frame", "frame_<name>_turn_about", {"x", "y", "z"}, "z",
                                   "local axis about which -frame_<name>_turn turns the others");
 

@@ -36,45 +36,47 @@ const RealOption factorOption(
     "ratio of the coefficient of friction of a sliding interface to -flutter_friction");
 const RealOption frictionOption(
     "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
-    "sliding interface: fixed coefficient of friction; if not given, the swept friction applies. "
-    "Sticking interface: largest ratio of tangential to normal force of a node; if not given, the "
-    "ratio is not limited");
-const FlagOption releaseOption("contact", "contact_<interface>_release", false,
-                               "release of the nodes of a sticking interface that exceed the limit "
-                               "-contact_<interface>_friction; on: they slide, with this limit as "
-                               "coefficient of friction; off: they stick and are reported");
+    "fixed coefficient of friction of a sliding interface; if not given: the swept coefficient. On "
+    "a sticking interface: limit of the ratio of tangential to normal force at a node; if not "
+    "given: no limit");
+const FlagOption releaseOption(
+    "contact", "contact_<interface>_release", false,
+    "release of the nodes of a sticking interface whose ratio of tangential to normal force "
+    "exceeds the limit -contact_<interface>_friction; on: they slide, with this limit as "
+    "coefficient of friction; off: they stick and are reported");
 const WordOrRealOption gapOption(
     "contact", "contact_<interface>_gap", 0.0, "m", "measured",
     "initial gap, without load; measured: the distance between the two "
     "surfaces of the mesh; negative: interference fit");
 const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
-                               "slave side, whose nodes have the gaps as unknowns; finer: the pad "
+                               "slave side, at whose nodes the gaps are unknowns; finer: the pad "
                                "if the two meshes match, otherwise the side with the finer mesh");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
-                              "largest distance between two faces that the program pairs if the "
-                              "two meshes do not match; 0 = automatic (half the size of a face)");
+                              "largest distance at which the program pairs two faces if the two "
+                              "meshes do not match; 0 = automatic (half the size of a face)");
 const FlagOption separationOption(
     "contact", "contact_<interface>_separation", true,
-    "separation of the two sides; off: they stay in contact, also "
-    "under tension; a point with tension at a node with friction has no solution");
+    "separation of the two sides; off: they stay in contact, also under tension; a point of the "
+    "sweep fails if a node with friction is under tension");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
 const RealOption tangentialStiffnessOption(
     "contact", "contact_<interface>_stiffness_tangential", 0.0, "N/m3", nonNegative,
-    "tangential contact stiffness of a sticking interface with a soft layer: shear stress per "
-    "tangential displacement of the layer; required if the layer is on a sticking interface");
+    "tangential stiffness of a soft layer on a sticking interface: shear stress per tangential "
+    "displacement of the layer; required there if -contact_<interface>_stiffness is given");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
     "slave surface group of a tie, preferably the one with the finer mesh");
 const TextOption tieMasterOption("tie", "tie_<name>_master", "",
                                  "master surface group of a tie, to which the slave is bonded");
 const RealOption toleranceOption("tie", "tie_<name>_tolerance", 0.0, "m", nonNegative,
-                                 "largest distance at which faces of a tie are bonded; 0 = "
+                                 "largest distance at which two faces of a tie are bonded; 0 = "
                                  "automatic (half the size of a face)");
-const FlagOption adjustOption("tie", "tie_<name>_adjust", true,
-                              "strain-free initial shift of tied nodes onto the master, so that "
-                              "the two rotate together without strain; off: no shift");
+const FlagOption adjustOption(
+    "tie", "tie_<name>_adjust", true,
+    "initial shift of the slave nodes onto the master, without strain, so that the two bodies can "
+    "rotate together without strain; off: no shift");
 
 mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
   const std::string group = option.get(name);

@@ -45,33 +45,34 @@ const RealListOption anisotropicOption(
     "D3313, D1213, D1313, D1123, D2223, D3323, D1223, D1323, D2323; for engineering shear strains");
 const RealListOption orientationOption(
     "material", "material_<group>_orientation", "1,0,0,0,1,0", "", anyReal,
-    "axes of an orthotropic or anisotropic body: a1,a2,a3,b1,b2,b3 with axis 1 along a and b in "
-    "the plane 1-2");
+    "axes of an orthotropic or anisotropic body: a1,a2,a3,b1,b2,b3; axis 1 is along the vector a, "
+    "and the vector b lies in the plane 1-2");
 const RealListOption cylindricalOption(
     "material", "material_<group>_cylindrical", "", "m", anyReal,
-    "axis of a body with cylindrical axes, instead of _orientation: ox,oy,oz,kx,ky,kz, a "
-    "point and a direction; axis 1 radial, 2 tangential, 3 along k");
+    "axis of cylindrical material axes, instead of _orientation: ox,oy,oz,kx,ky,kz, with a point o "
+    "and a direction k; axis 1 is radial, 2 tangential, 3 along k");
 const TextOption frameOption("material", "material_<group>_frame", "",
-                             "name of the -frame whose axes x, y, z are 1, 2, 3, instead of "
-                             "_orientation and _cylindrical");
+                             "name of the -frame whose axes x, y, z are the material axes 1, 2, 3, "
+                             "instead of _orientation and _cylindrical");
 const RealOption densityOption("material", "material_<group>_density", std::nullopt, "kg/m3",
                                positive, "mass density of the body");
-const RealOption rayleighMassOption("material", "material_<group>_rayleigh_mass", 0.0, "1/s",
-                                    nonNegative,
-                                    "alpha of the damping matrix C = alpha M + beta K of the body");
+const RealOption rayleighMassOption(
+    "material", "material_<group>_rayleigh_mass", 0.0, "1/s", nonNegative,
+    "factor alpha in the damping matrix C = alpha M + beta K of the body");
 const RealOption rayleighStiffnessOption(
     "material", "material_<group>_rayleigh_stiffness", 0.0, "s", nonNegative,
-    "beta of the damping matrix C = alpha M + beta K of the body");
+    "factor beta in the damping matrix C = alpha M + beta K of the body");
 const RealOption lossFactorOption(
     "material", "material_<group>_loss_factor", 0.0, "", nonNegative,
-    "loss factor eta, as equivalent viscous damping C = eta / (2 pi f) K; exact only at the "
-    "frequency f = _loss_frequency, larger above it and smaller below");
-const RealOption lossFrequencyOption("material", "material_<group>_loss_frequency", std::nullopt,
-                                     "Hz", positive, "frequency at which _loss_factor applies");
+    "loss factor eta, represented by viscous damping C = eta / (2 pi f) K; the loss factor is eta "
+    "at the frequency f = _loss_frequency, larger above f and smaller below");
+const RealOption lossFrequencyOption(
+    "material", "material_<group>_loss_frequency", std::nullopt, "Hz", positive,
+    "frequency at which the loss factor has the value _loss_factor");
 const ChoiceOption integrationOption(
     "material", "material_<group>_integration", {"full", "reduced"}, "full",
-    "quadrature of the stiffness; reduced: 2x2x2 points (C3D20R), only for hex20 cells; mass and "
-    "loads always have full integration");
+    "quadrature of the stiffness; reduced: 2x2x2 points, as in C3D20R, only for hex20 cells; mass "
+    "and loads are always integrated fully");
 const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
                                "assumption of plane problems: plane strain or plane stress");
 

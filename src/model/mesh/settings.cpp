@@ -8,7 +8,7 @@ namespace {
 
 const ChoiceOption straightenOption(
     "mesh", "mesh_straighten", {"none", "bad", "all"}, "none",
-    "curved cells whose edges are straightened; bad: those whose Jacobian is not positive");
+    "curved cells whose edges the program straightens; bad: those whose Jacobian is not positive");
 
 }  // namespace
 

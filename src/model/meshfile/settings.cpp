@@ -13,21 +13,21 @@ namespace {
 
 const FileOption fileOption(
     "mesh", "mesh_file",
-    "mesh (.msh, .unv), shape (.step, .iges, .brep) or geometry (.geo); a shape is meshed in "
-    "memory; a .geo is code: gmsh executes it and meshes its geometry");
-const RealOption scaleOption("mesh", "mesh_scale", 1.0, "", positive,
-                             "factor on all coordinates: 0.001 for a mesh in mm and all other "
-                             "values in SI units");
+    "mesh (.msh, .unv), CAD shape (.step, .iges, .brep) or gmsh geometry (.geo); a shape is meshed "
+    "in memory; a .geo is code: gmsh executes it and meshes its geometry");
+const RealOption scaleOption(
+    "mesh", "mesh_scale", 1.0, "", positive,
+    "factor on all coordinates; 0.001 if the mesh is in mm and all other values are in SI units");
 const TextOption setOption(
     "mesh", "mesh_set", "",
-    "parameters of a .geo file by their DefineConstant names: name=number,…");
+    "values of parameters that a .geo file defines by DefineConstant: name=number,…");
 const RealOption sizeOption(
     "mesh", "mesh_size", 0.0, "", nonNegative,
-    "edge length of the mesh of a shape (.step, …), in its unit (mm), before -mesh_scale; 0 = "
-    "automatic (chosen by gmsh: a tenth of the diagonal)");
-const IntegerOption orderOption("mesh", "mesh_order", 2, 1, 2,
-                                "order of the tetrahedra in the mesh of a shape: 1 linear, 2 "
-                                "quadratic");
+    "edge length with which a CAD shape (.step, …) is meshed, in mm, before the factor "
+    "-mesh_scale; 0 = automatic (chosen by gmsh: a tenth of the diagonal of the bounding box)");
+const IntegerOption orderOption(
+    "mesh", "mesh_order", 2, 1, 2,
+    "order of the tetrahedra with which a CAD shape is meshed; 1: linear; 2: quadratic");
 
 /// Returns the number that a text is, if it is finite.
 bool readFinite(const std::string& text, double& value) {

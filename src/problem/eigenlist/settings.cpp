@@ -9,14 +9,13 @@ namespace {
 const FileOption listFile("referee", "referee_list",
                           "eigenvalues of another program for the matrices -matrices_<name>_file; "
                           "the run proves which of them are right and which are missing");
-const ChoiceOption formatOption("referee", "referee_format",
-                                {"auto", "columns", "abaqus", "calculix", "nastran", "ansys"},
-                                "auto",
-                                "layout of the list; auto = by its titles, without one columns");
-const ChoiceOption unitOption(
-    "referee", "referee_unit", {"auto", "rad", "Hz"}, "auto",
-    "unit of a list in columns: rad = s in 1/s and rad/s, Hz = s / (2 pi) in both columns; auto = "
-    "as its header states");
+const ChoiceOption formatOption(
+    "referee", "referee_format", {"auto", "columns", "abaqus", "calculix", "nastran", "ansys"},
+    "auto",
+    "layout of the list; auto: recognised by the titles in the file; without titles, columns");
+const ChoiceOption unitOption("referee", "referee_unit", {"auto", "rad", "Hz"}, "auto",
+                              "unit of a list in columns; rad: s in 1/s and rad/s; Hz: s / (2 pi) "
+                              "in both columns; auto: as its header states");
 
 Format formatOf(const std::string& word) {
   if (word == "columns") return Format::columns;

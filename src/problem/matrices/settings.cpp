@@ -10,32 +10,34 @@
 namespace squeal::matrices {
 namespace {
 
-const FileOption fileOption(
-    "matrices", "matrices_<name>_file",
-    "matrix of the problem, instead of a mesh: a Matrix Market, PETSc binary, HDF5 or MATLAB file");
+const FileOption fileOption("matrices", "matrices_<name>_file",
+                            "file of a matrix of the problem, which replaces the mesh; format: "
+                            "Matrix Market, PETSc binary, HDF5 or MATLAB");
 const ChoiceOption roleOption("matrices", "matrices_<name>_role", {"mass", "damping", "stiffness"},
-                              "", "role of the matrix, which multiplies s^2, s or 1");
-const TextOption datasetOption(
-    "matrices", "matrices_<name>_dataset", "",
-    "variable of a MATLAB file or object of an HDF5 file; none: the only matrix there");
+                              "",
+                              "role of the matrix in the eigenvalue problem; mass: it is "
+                              "multiplied by s^2; damping: by s; stiffness: by 1");
+const TextOption datasetOption("matrices", "matrices_<name>_dataset", "",
+                               "name of the matrix inside a MATLAB or HDF5 file; not needed if the "
+                               "file contains only one matrix");
 const RealOption factorOption("matrices", "matrices_<name>_factor", 1, "", anyReal,
-                              "factor on the matrix");
+                              "constant factor on the matrix");
 const IntegerOption frictionOption(
     "matrices", "matrices_<name>_friction_exponent", 0, 0, 10,
-    "power of the coefficient of friction that multiplies the matrix");
-const IntegerOption speedOption("matrices", "matrices_<name>_speed_exponent", 0, -4, 10,
-                                "power of the speed factor that multiplies the matrix");
-const IntegerOption dampingOption("matrices", "matrices_<name>_damping_exponent", 0, 0, 10,
-                                  "power of the damping factor that multiplies the matrix");
-const FlagOption ofFrictionOption(
-    "matrices", "matrices_<name>_of_friction", false,
-    "the matrix contains a fixed friction term: it is excluded from K0 and M0, whose free modes "
-    "start the basis");
+    "exponent a of the coefficient of friction f: the matrix is multiplied by f^a");
+const IntegerOption speedOption(
+    "matrices", "matrices_<name>_speed_exponent", 0, -4, 10,
+    "exponent b of the speed factor v: the matrix is multiplied by v^b");
+const IntegerOption dampingOption(
+    "matrices", "matrices_<name>_damping_exponent", 0, 0, 10,
+    "exponent d of the damping factor c: the matrix is multiplied by c^d");
+const FlagOption ofFrictionOption("matrices", "matrices_<name>_of_friction", false,
+                                  "friction with a fixed coefficient in the matrix; on: the matrix "
+                                  "is excluded from K0 and M0, whose free modes start the basis");
 
-const TextOption folderOption(
-    "report", "report_matrices", "",
-    "folder for the matrices of the problem and an options file that solves it from them; none: "
-    "no export");
+const TextOption folderOption("report", "report_matrices", "",
+                              "folder to which the run exports the matrices of the problem, with "
+                              "an options file that solves the problem from them; none: no export");
 const ChoiceOption formatOption("report", "report_matrices_format", {"petsc", "matrix_market"},
                                 "petsc", "format of the exported matrices");
 

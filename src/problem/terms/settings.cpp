@@ -8,8 +8,9 @@ namespace {
 
 const FlagOption dampingOption(
     "flutter", "flutter_friction_damping", true,
-    "friction-induced damping, and stiffness with convective terms: the friction force turns with "
-    "the relative velocity and follows the friction law");
+    "friction damping: during a vibration the friction force turns with the relative velocity and "
+    "follows the friction law, which with convective terms also changes the stiffness; off: the "
+    "friction force keeps the direction of steady sliding and follows only the normal force");
 
 }  // namespace
 

@@ -10,28 +10,28 @@ namespace {
 
 const RealListOption frictionOption(
     "regime", "regime_friction", "", "", sequencesOf(nonNegative),
-    "frictions at which the motion after flutter is followed with stick, slip and separation; "
-    "they are added to those of -flutter_friction");
+    "frictions at which the run computes the motion after flutter, with stick, slip and "
+    "separation; they are added to those of -flutter_friction");
 
-const RealOption timeOption("regime", "regime_time", 0, "s", nonNegative,
-                            "maximum simulated time, at least 32 cycles of the mode; 0 = automatic "
-                            "(the longer of 400 cycles "
-                            "and 10 e-folding times of the mode, at most 4000 cycles)");
+const RealOption timeOption(
+    "regime", "regime_time", 0, "s", nonNegative,
+    "maximum simulated time, at least 32 cycles of the flutter mode; 0 = automatic (the longer of "
+    "400 cycles and 10 e-folding times of the mode, at most 4000 cycles)");
 const RealOption stepOption(
     "regime", "regime_step", 0, "s", nonNegative,
-    "time step; at least 16 steps per period of the mode and at most 1e8 steps in total; 0 = "
-    "automatic (a 128th of the period, at most 0.8 of the stable step)");
+    "time step; at least 16 steps per period of the flutter mode and at most 1e8 steps in total; 0 "
+    "= automatic (a 128th of the period, at most 0.8 of the largest stable step)");
 const RealOption startOption(
     "regime", "regime_start_factor", 0.5, "", Range{0, 100, true, false},
     "initial amplitude relative to the one at which the first node separates or sticks");
 const ChoiceOption startsOption(
     "regime", "regime_starts", {"fastest", "each", "all"}, "fastest",
-    "start of the motion; fastest: on the fastest growing unstable mode; each: one motion per "
-    "unstable mode; all: also one on the sum of these modes");
+    "unstable modes from which a motion starts; fastest: only the fastest growing one; each: one "
+    "motion from each mode; all: also one motion from the sum of these modes");
 const ChoiceOption boundaryOption(
     "regime", "regime_boundary", {"massless", "mass"}, "massless",
-    "contact boundary of the reduced model; massless: without mass, by the leapfrog rule; mass: "
-    "with its mass, by the scheme of Moreau and Jean, as a check");
+    "mass of the contact degrees of freedom in the reduced model; massless: zero, with the "
+    "leapfrog scheme; mass: their own mass, with the scheme of Moreau and Jean, as a check");
 
 const FlagOption cycleOption(
     "regime", "regime_cycle", false,
@@ -45,9 +45,10 @@ const RealOption toleranceOption(
     "which a motion is periodic");
 const RealListOption rangeOption(
     "regime", "regime_cycle_range", "", "", nonNegative,
-    "two frictions between which the branch of periodic orbits is followed, folds included");
-const IntegerOption mostOption("regime", "regime_cycle_motions", 20, 1, 10'000,
-                               "largest number of orbits of the branch in each direction");
+    "two frictions between which the branch of periodic orbits is continued, also through folds");
+const IntegerOption mostOption(
+    "regime", "regime_cycle_motions", 20, 1, 10'000,
+    "largest number of periodic orbits computed along the branch in each direction");
 
 [[noreturn]] void rejectIdle(const Option& option) {
   throw Error("option -" + option.name +

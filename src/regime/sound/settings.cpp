@@ -10,18 +10,18 @@
 namespace squeal::sound {
 namespace {
 
-const IntegerOption keptOption(
-    "regime", "regime_cycles_kept", 2, 0, 1000,
-    "number of latest periods of the flutter mode whose displacements are stored for an animation");
+const IntegerOption keptOption("regime", "regime_cycles_kept", 2, 0, 1000,
+                               "number of periods of the flutter mode, at the end of the motion, "
+                               "whose displacements are stored for an animation");
 const IntegerOption framesOption("regime", "regime_frames", 16, 4, 1000,
-                                 "number of frames of each of these periods");
+                                 "number of stored frames per period (-regime_cycles_kept)");
 const RealOption airOption("regime", "regime_air_impedance", 415, "N s/m3", positive,
                            "characteristic impedance of the air, density times speed of sound, for "
                            "the estimate of the sound power");
 const TextOption pointsOption(
     "regime", "regime_spectrum_points", "",
-    "points x,y,z; x,y,z; … in m at which to report velocity spectra (nearest node of the visible "
-    "surface); none: the node with the largest motion");
+    "points x,y,z; x,y,z; … in m; velocity spectra are reported at the nodes of the visible "
+    "surface that are nearest to them; none: at the node with the largest motion");
 
 /// Returns the point that a text such as "1,2,3" gives.
 Point pointFrom(const std::string& text) {

@@ -12,25 +12,26 @@
 namespace squeal::analysis {
 namespace {
 
-const FlagOption dryRunOption("general", "dry_run", false,
-                              "check the input, estimate the memory of a run, and solve and write "
-                              "nothing");
+const FlagOption dryRunOption(
+    "general", "dry_run", false,
+    "check of the input and estimate of the memory of a run; nothing is solved or written");
 const FlagOption fullOption(
     "steady", "steady_full", false,
     "solution for steady sliding in all unknowns, as a check; off: in the unknowns of the contact");
 const IntegerOption pathOption(
     "steady", "steady_path", 20, 0, 1'000'000,
-    "largest number of contact nodes that differ between two points of a sweep for which the "
-    "program locates each opening and closing; 0 = no search");
-const IntegerOption releasedOption("flutter", "flutter_released", 150, 0, 100'000,
-                                   "largest number of contact nodes in which active sets with a "
-                                   "common factorisation and basis differ; 0 = no sharing");
+    "largest number of contact nodes that may differ between two neighbouring points of a sweep; "
+    "up to this number, the program locates each opening and closing between them; 0 = no search");
+const IntegerOption releasedOption(
+    "flutter", "flutter_released", 150, 0, 100'000,
+    "largest number of contact nodes whose state may differ among points that share a "
+    "factorisation and a basis; 0 = only points with the same active set share them");
 
 const IntegerOption componentModesOption(
     "report", "report_component_modes", 0, 0, 1000,
     "number of elastic modes of each body by itself, free in space; the run lists their "
-    "frequencies and names the motion of bodies by them (such as bending), except that of bodies "
-    "of revolution");
+    "frequencies and names the motions of bodies after them (such as bending), except those of "
+    "bodies of revolution");
 
 /// Adds frictions to those of the sweep.
 void addFrictions(sweep::Settings& sweep, const std::vector<double>& more) {

@@ -6,10 +6,10 @@
 namespace squeal::audit {
 namespace {
 
-const FlagOption auditOption("general", "audit", true,
-                             "audit of the model before the solution: masses, units, supports, "
-                             "cells and faces without an interface, written to audit.md or, by a "
-                             "dry run, to the terminal");
+const FlagOption auditOption(
+    "general", "audit", true,
+    "audit of the model before the solution: masses, units, supports, cells, and faces without an "
+    "interface; written to audit.md, or by a dry run to the terminal");
 
 }  // namespace
 

@@ -13,19 +13,21 @@ const TextOption directoryOption("report", "report_dir", "results",
                                  "folder for the results: a new or empty one, or one with earlier "
                                  "results, which are replaced when the new ones are complete");
 const TextOption noteOption("report", "report_note", "none",
-                            "remark that the log, the summary and the report repeat, such as what "
-                            "an import has left out");
-const FlagOption fieldsOption("report", "report_fields", true,
-                              "write fields: results.h5 and the VTK files");
+                            "remark that is repeated in the log, the summary and the report, such "
+                            "as a list of the parts of a model that an import has omitted");
+const FlagOption fieldsOption(
+    "report", "report_fields", true,
+    "fields in results.h5 and in VTK files; off: these files are not written");
 const IntegerOption modesOption("report", "report_modes", 10, 0, 100'000,
-                                "number of free modes written as fields");
-const IntegerOption animatedOption(
-    "report", "report_animated", 1, 0, 1000,
-    "number of fastest growing modes of the whole sweep written as a time series over one period");
-const IntegerOption piecesOption(
-    "report", "report_pieces", 8, 1, 1'000'000,
-    "largest number of VTK files per field; on more ranks, neighbouring ranks share a file");
-const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames of one period");
+                                "number of free modes whose fields are written");
+const IntegerOption animatedOption("report", "report_animated", 1, 0, 1000,
+                                   "number of complex modes, the fastest growing ones of the whole "
+                                   "sweep, that are stored as a time series over one period");
+const IntegerOption piecesOption("report", "report_pieces", 8, 1, 1'000'000,
+                                 "largest number of VTK files per field; if there are more ranks, "
+                                 "neighbouring ranks share a file");
+const IntegerOption framesOption("report", "report_frames", 16, 4, 1000,
+                                 "number of frames per period of an animated mode");
 
 /// Returns true if the folder belongs to the case: an options file names it, or it is results/NAME
 /// for the case NAME.yaml, as with scripts/run.

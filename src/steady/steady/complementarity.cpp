@@ -12,7 +12,8 @@ namespace squeal::steady {
 namespace {
 
 const SolverPrefix solverPrefix(
-    "steady", "steady_", "PETSc SNES VI, KSP and PC of steady sliding: snes_*, ksp_*, pc_*, …");
+    "steady", "steady_",
+    "options of PETSc's SNES VI, KSP and PC for steady sliding: snes_*, ksp_*, pc_*, …");
 
 bool isGiven(const std::string& option) {
   PetscBool given = PETSC_FALSE;

@@ -18,7 +18,8 @@ namespace {
 
 const SolverPrefix solverPrefix(
     "steady", "steady_uniqueness_",
-    "KSP and PC of the open contact's stiffness (MUMPS LDLt), SLEPc EPS: ksp_*, pc_*, eps_*, …");
+    "options for the uniqueness check: of PETSc's KSP and PC for the stiffness with open contact "
+    "(MUMPS LDLt), and of SLEPc's EPS: ksp_*, pc_*, eps_*, …");
 
 /// The number of columns of K_o⁻¹ in memory together.
 constexpr PetscInt blockColumns = 64;

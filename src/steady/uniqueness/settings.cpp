@@ -7,12 +7,12 @@ namespace squeal::uniqueness {
 namespace {
 
 const FlagOption wantedOption("steady", "steady_uniqueness", true,
-                              "examination of existence and uniqueness of the steady state, at "
-                              "the cost of one factorisation and a solve per contact node");
+                              "check whether a steady state exists and is unique; costs one "
+                              "factorisation in all, and one solve per contact node");
 const IntegerOption denseOption(
     "steady", "steady_uniqueness_dense", 1000, 0, 40'000,
-    "largest number of contact nodes for which the condensed matrix is formed; for more nodes, an "
-    "iteration finds the friction up to which this matrix is positive definite");
+    "largest number of contact nodes for which the condensed matrix of the contact is formed; for "
+    "more nodes, an iteration finds the friction up to which this matrix is positive definite");
 const IntegerOption pMatrixOption(
     "steady", "steady_uniqueness_pmatrix", 18, 0, 30,
     "largest number n of contact nodes for the P-matrix test, which takes 2^n pivots");
