@@ -310,7 +310,7 @@ def compare(base, changed, changes):
         "Unstable eigenvalues, summed over all points:"
         f" {int(base.eigenvalues['grows'].sum())} before,"
         f" {int(changed.eigenvalues['grows'].sum())} now"
-        + ("; modes that grow only now have no prediction" if more > 0 else "")
+        + ("; modes that are unstable only after the change have no prediction" if more > 0 else "")
     )
     if any(line.verdict() == "not linear" for line in [*criticals, *frequencies, *growths]):
         parts.append(

@@ -62,12 +62,14 @@ std::string TrackedLine::statement() const {
       : countExact ? "Sturm count, exact"
                    : "of the reduced problem, not confirmed by a Sturm count");
   if (complete()) {
-    text += formatted(
-        "all tracked to friction %g, where there are %d: %d entered and %d left across the edge",
-        last.friction, branches.inBandAt(last), branches.entered, branches.left);
+    text += formatted("all tracked to friction %g", last.friction);
     if (const auto changes = activeSet.size() - 1; activeSet.size() > 1)
       text +=
-          formatted(", through %zu change%s of the active set", changes, changes == 1 ? "" : "s");
+          formatted(", across %zu change%s of the active set", changes, changes == 1 ? "" : "s");
+    text += formatted(
+        "; the band contains %d eigenvalues at that friction: %d entered and %d left across its "
+        "edge",
+        branches.inBandAt(last), branches.entered, branches.left);
   } else {
     text += "not all tracked:";
     for (const auto& gap : branches.gaps)
