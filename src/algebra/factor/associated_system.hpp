@@ -9,23 +9,23 @@
 
 namespace squeal::factor {
 
-/// Collective. Returns the number of rows of a matrix without an entry other than zero.
+/// Collective. Returns the number of rows of a matrix that contain only zeros.
 PetscInt zeroRows(Mat matrix);
 
-/// The matrices K0 and M0, n×n, symmetric positive definite, except that M0 may have rows of zeros:
-/// unknowns without mass. The object also owns a direct solver of K0 (prefix -modes_st_), whose
+/// The matrices K0 and M0, n×n, symmetric positive definite. However, M0 has a row of zeros for
+/// each unknown without mass. The object also owns a direct solver of K0 (prefix -modes_st_), whose
 /// single factorisation serves all stages.
 class AssociatedSystem {
  public:
-  /// Collective. Takes both matrices; messages call K0 `name`.
+  /// Collective. Takes ownership of both matrices. Messages refer to K0 by `name`.
   AssociatedSystem(OwnedMat k0, OwnedMat m0, const std::string& name);
   Mat k0() const { return k0_; }
   Mat m0() const { return m0_; }
   PetscInt size() const { return size_; }  ///< n
   MPI_Comm comm() const;
-  /// Collective. Returns the direct solver of K0, factorised on first use and borrowed from this
-  /// object. An EPS that uses the solver discards its factor, so call this function before each
-  /// use. Throws Error if the factorisation fails.
+  /// Collective. Returns the direct solver of K0, borrowed. K0 is factorised on first use. An EPS
+  /// that uses the solver discards the factor, so call this function before each use. Throws Error
+  /// if the factorisation fails.
   KSP solver() const { return solver_->get(); }
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// LDLᵀ factorisation of distributed symmetric matrices by MUMPS. PETSc's own interface sets up the
-/// scatter of the solution at each call, a fifth of the time of a block of solves. It also cannot
-/// reuse an ordering.
+/// LDLᵀ factorisation of distributed symmetric matrices by MUMPS. It replaces PETSc's own interface
+/// to MUMPS, which cannot reuse an elimination order. PETSc's interface also sets up the scatter of
+/// the solution at each call, which takes a fifth of the time of a block of solves.
 #include <dmumps_c.h>
 #include <petscsf.h>
 
@@ -31,31 +31,33 @@ class MumpsFactor {
   MumpsFactor(const MumpsFactor&) = delete;
   MumpsFactor& operator=(const MumpsFactor&) = delete;
 
-  /// Makes MUMPS report the signs of all pivots, for inertia(). Pivots below `zero` times the norm
-  /// of the scaled matrix count as zero; with 0, MUMPS decides (about 1e-21).
+  /// Makes MUMPS report the signs of all pivots, for inertia(). Pivots smaller than `zero` times
+  /// the norm of the scaled matrix are treated as zero; if `zero` is 0, MUMPS chooses the factor
+  /// (about 1e-21).
   void enableInertia(double zero = 0);
-  /// Makes the next analyse() and factorise() eliminate all rows except these, which are 0-based
-  /// and given on rank 0. schurComplement() then returns their Schur complement on rank 0. solve()
-  /// must not be called.
+  /// Makes the next analyse() and factorise() eliminate all rows except `rows`, which are 0-based
+  /// and given on rank 0. schurComplement() then returns the Schur complement of `rows` on rank 0;
+  /// solve() must not be called.
   void keep(const std::vector<PetscInt>& rows);
-  /// Not collective. Returns the Schur complement of the rows of keep(), in their order, on rank 0:
-  /// the entries (i, j) with j ≤ i at [i · size + j]; others are undefined.
+  /// Not collective. Returns, on rank 0, the Schur complement of the rows given to keep(), in the
+  /// same order. The entry (i, j) with j ≤ i is at [i · size + j]; all other entries are undefined.
   const std::vector<double>& schurComplement() const { return schur_; }
-  /// Collective. Analyses the pattern. With `like`, the factor of a matrix of the same pattern and
-  /// distribution, it reuses the elimination order of `like`. Throws Error if it fails.
+  /// Collective. Analyses the pattern. If `like` is given, reuses the elimination order of `like`,
+  /// which must be the factor of a matrix with the same pattern and distribution. Throws Error if
+  /// the analysis fails.
   void analyse(Mat matrix, const MumpsFactor* like = nullptr);
   /// Collective. Returns the memory estimate of the analysis in bytes, summed over all ranks.
   double memory() const { return 1e6 * id_.infog[16]; }
-  /// Collective. Factorises the matrix; without an argument, that of the preceding analyse(). If
-  /// necessary, it enlarges the workspace for pivoting and stores the factor on disk. Throws Error
-  /// if the memory is still not sufficient. Returns the reason for any other failure; empty on
-  /// success.
+  /// Collective. Factorises the matrix or, without an argument, the matrix of the preceding
+  /// analyse(). If necessary, enlarges the workspace for pivoting and stores the factor on disk.
+  /// Throws Error if even then MUMPS estimates more than twice the free memory. Returns the reason
+  /// for any other failure, or an empty text on success.
   std::string factorise(Mat matrix = nullptr);
-  /// Collective. Computes X = A⁻¹ B, each by this rank's rows, column after column.
+  /// Collective. Computes X = A⁻¹ B. `b` and `x` contain this rank's rows, column by column.
   void solve(const double* b, double* x, PetscInt columns);
   /// Returns the inertia, after enableInertia() and factorise().
   Inertia inertia() const { return {id_.infog[11], id_.infog[27]}; }
-  /// Returns INFOG(i) of MUMPS's manual.
+  /// Returns INFOG(i), in the notation of MUMPS's manual.
   PetscInt infog(int i) const { return id_.infog[i - 1]; }
 
  private:
@@ -74,10 +76,10 @@ class MumpsFactor {
   std::vector<MUMPS_INT> rows_, columns_, ownRows_, solutionRows_, order_;
   std::vector<MUMPS_INT> kept_;  // 1-based rows of the Schur complement, on rank 0
   std::vector<double> entries_, solution_, byRows_, schur_;
-  PetscSF toOwners_ = nullptr;  // from the rows of the solution that MUMPS leaves here
+  PetscSF toOwners_ = nullptr;  // from the rows of the solution that MUMPS stores on this rank
 };
 
-/// Collective. Computes X = A⁻¹ B of dense matrices of PETSc.
+/// Collective. Computes X = A⁻¹ B for dense PETSc matrices.
 void solve(MumpsFactor& factor, Mat b, Mat x);
 
 }  // namespace squeal::factor

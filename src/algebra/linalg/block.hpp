@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Operations on tall matrices distributed by rows: the basis V and its products A V. A product of
-/// two of them is one BLAS call on the local rows and one reduction.
+/// Operations on tall matrices that are distributed by rows, such as the basis V and the products A
+/// V. The product of two such matrices takes one BLAS call on the local rows and one reduction.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
@@ -9,37 +9,37 @@
 
 namespace squeal::linalg {
 
-/// This rank's rows of a tall matrix with n rows over all ranks.
+/// This rank's rows of a tall matrix, which has n rows on all ranks together.
 using Block = DenseMatrix;
 
-/// Collective. Appends A X to the columns of `result`. X and the result are given by this rank's
-/// rows. The number of rows of `result` must be set even if it has no columns, and X must not be
-/// part of it.
+/// Collective. Appends A X to the columns of `result`. X and `result` contain this rank's rows.
+/// `result` must have its number of rows even if it has no columns, and X must not be part of
+/// `result`.
 void appendProduct(Mat matrix, const DenseView& x, Block& result);
 
-/// Collective. Returns a dense matrix of PETSc with `rows` rows over all ranks. It borrows the
-/// entries of the block, this rank's rows: writing to the matrix changes the block.
+/// Collective. Returns a dense PETSc matrix with `rows` rows on all ranks together. It borrows the
+/// entries of the block, which are this rank's rows, so writing to the matrix changes the block.
 OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block);
 
-/// Collective. Returns Xᵀ Y, the same on all ranks. X and Y are given by this rank's rows.
+/// Collective. Returns Xᵀ Y, the same on all ranks. X and Y contain this rank's rows.
 DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView& y);
 
-/// Collective. Returns the 2-norm of a column, the same on all ranks. It is given by this rank's
+/// Collective. Returns the 2-norm of a column, the same on all ranks. `column` contains this rank's
 /// rows.
 double length(MPI_Comm comm, std::span<const double> column);
 
-/// Collective. Returns A⁻¹ times the columns, with A of the solver. It solves in blocks, large
-/// enough for fast dense kernels and small enough for memory.
+/// Collective. Returns A⁻¹ times the columns, where A is the matrix of the solver. The columns are
+/// solved in blocks that are large enough for fast dense kernels and small enough for the memory.
 Block solved(KSP solver, const DenseView& columns);
 
-/// Collective. Returns orthogonal combinations of the columns, their principal directions, by
-/// ascending length. Directions of length `small` or less are dropped.
+/// Collective. Returns the principal directions of the columns, which are orthogonal combinations
+/// of them, in ascending order of length. Directions of length `small` or less are dropped.
 Block principal(MPI_Comm comm, const Block& columns, double small);
 /// Collective. Returns the columns scaled to the 2-norm 1. Columns of zeros are dropped.
 Block unitColumns(MPI_Comm comm, const Block& columns);
 
 /// The rows of a matrix on this rank that have nonzero entries. A friction operator has such rows
-/// only at the contact nodes, and products omit the others.
+/// only at the contact nodes, and products skip all other rows.
 class RowSet {
  public:
   /// Collective. Finds the rows. Borrows the matrix only during this call.
@@ -49,25 +49,25 @@ class RowSet {
   bool all() const { return all_; }
   PetscInt localRows() const { return localRows_; }
   PetscInt operator[](PetscInt i) const { return all_ ? i : rows_[i]; }
-  /// Returns these rows of X, which is given by all local rows.
+  /// Returns these rows of X, which contains all local rows.
   Block of(const DenseView& x) const;
   /// Collective. Returns these rows of the matrix, with all columns. If the set contains all rows,
-  /// it shares the matrix itself.
+  /// the result shares the matrix itself.
   OwnedMat of(Mat matrix) const;
 
  private:
   PetscInt localRows_ = 0, firstRow_ = 0;
   bool all_ = true;
-  std::vector<PetscInt> rows_;  // local numbers, ascending; empty if all
+  std::vector<PetscInt> rows_;  // local numbers, ascending; empty if all_
 };
 
-/// Collective. Returns Xᵀ Y, the same on all ranks. X is given by all local rows, and Y by `rows`;
-/// its other rows are zero.
+/// Collective. Returns Xᵀ Y, the same on all ranks. X contains all local rows. Y contains only
+/// `rows`; its other rows are zero.
 DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const DenseView& x,
                               const DenseView& y);
 /// Not collective. Computes
 ///   Y += X · C
-/// with X given by `rows` (its other rows are zero) and Y by all local rows.
+/// where X contains only `rows` (its other rows are zero), and Y contains all local rows.
 void multiplyAdd(const RowSet& rows, const DenseView& x, const DenseView& coefficients, Block& y);
 
 }  // namespace squeal::linalg

@@ -22,8 +22,8 @@ class ReadColumns {
   const PetscScalar* values_ = nullptr;
 };
 
-/// Collective. Returns a BV of type svec with a copy of the columns, given by this rank's rows, in
-/// the layout of the columns of `like`.
+/// Collective. Returns a BV of type svec with a copy of `columns`, which contain this rank's rows.
+/// The BV is laid out like the columns of `like`.
 OwnedBV copiedColumns(Mat like, const DenseView& columns);
 
 }  // namespace squeal::linalg

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The complex number of all rooms: PETSc is built with real scalars.
+/// The complex type of the whole program: PETSc is built with real scalars.
 #include <cmath>
 #include <complex>
 #include <span>
@@ -11,8 +11,9 @@ namespace squeal {
 
 using Complex = std::complex<double>;
 
-/// Returns xᴴ y, over the entries of x; y may be longer. It multiplies the parts itself: the
-/// product of the library is slower because it tests each factor for infinities.
+/// Returns xᴴ y, summed over the entries of x; y may be longer. It multiplies real and imaginary
+/// parts explicitly, because the product in the standard library tests each factor for infinities
+/// and is slower.
 inline Complex innerProduct(std::span<const Complex> x, std::span<const Complex> y) {
   ensure(x.size() <= y.size(), "the second vector is as long as the first");
   double real = 0, imaginary = 0;

@@ -6,18 +6,20 @@
 
 namespace squeal::linalg {
 
-/// Returns A X, or Aᵀ X if `transposed`, of a real square matrix A; zero for an empty A.
+/// Returns A X, or Aᵀ X if `transposed`, for a real square matrix A; zero if A is empty.
 ComplexMatrix product(const DenseMatrix& a, const ComplexMatrix& x, bool transposed = false);
 /// Returns X C.
 ComplexMatrix product(const ComplexMatrix& x, const ComplexMatrix& c);
 /// Returns Xᴴ Y.
 ComplexMatrix adjointProduct(const ComplexMatrix& x, const ComplexMatrix& y);
 
-/// Replaces the columns, at most as many as rows, by orthonormal ones whose span contains theirs
-/// (Householder). No column may be zero or have infinite entries. Throws Error if LAPACK fails.
+/// Replaces the columns of X by orthonormal columns, whose span contains that of the old ones
+/// (Householder). X must have at most as many columns as rows. No column may be zero or have
+/// infinite entries. Throws Error if LAPACK fails.
 void orthonormalise(ComplexMatrix& x);
 
-/// All eigenvalues of a matrix with their vectors, A X = X diag(value), Yᴴ A = diag(value) Yᴴ.
+/// All eigenvalues of a matrix A, with the right vectors X and the left vectors Y: A X = X
+/// diag(value), Yᴴ A = diag(value) Yᴴ.
 struct ComplexEigen {
   std::vector<Complex> value;
   ComplexMatrix right, left;  ///< columns of 2-norm 1

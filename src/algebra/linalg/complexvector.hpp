@@ -6,7 +6,7 @@
 
 namespace squeal::linalg {
 
-/// A complex vector as two real ones of the same layout, both owned.
+/// A complex vector, stored as two real vectors of the same layout, which it owns.
 struct ComplexVector {
   OwnedVec real, imaginary;
 

@@ -90,8 +90,8 @@ class Dense {
     columns_ = columnCount;
     entries_.resize(offset(columnCount));
   }
-  /// Appends columns with the same number of rows, which must not belong to this matrix. A matrix
-  /// without columns adopts their number of rows.
+  /// Appends the columns of `more`, which must have the same number of rows and must not be part of
+  /// this matrix. A matrix without columns adopts the number of rows of `more`.
   void append(const DenseView& more) {
     if (more.columns() == 0) return;
     if (columns_ == 0) rows_ = more.rows();
@@ -119,7 +119,7 @@ using ComplexMatrix = Dense<Complex>;
 
 /// Computes
 ///   result += factor · X · C
-/// with X rows × k, C k × columns and the result rows × columns.
+/// where X is rows × k, C is k × columns and the result is rows × columns.
 void multiplyAdd(const DenseView& x, const DenseView& coefficients, DenseMatrix& result,
                  double factor = 1);
 /// Returns X · C.
@@ -136,15 +136,16 @@ DenseMatrix congruent(const DenseView& a, const DenseView& c);
 DenseMatrix transposed(const DenseView& x);
 /// Returns the rows [first, last).
 DenseMatrix rowRange(const DenseView& matrix, PetscInt first, PetscInt last);
-/// Returns the square matrix A extended by the new columns `right`, at full height, and the new
-/// rows `below` under the columns of A. If `below` is empty, the new rows mirror the new columns.
+/// Returns the square matrix A with new columns and rows. `right` contains the new columns, with
+/// all rows of the result, and `below` the new rows, only in the columns of A. If `below` is empty,
+/// the new rows mirror the new columns.
 DenseMatrix bordered(const DenseView& a, const DenseView& right, const DenseView& below);
 /// Computes
 ///   sum += factor · A
-/// for matrices of the same size. A `sum` or an A without entries counts as zero.
+/// for matrices of the same size. An empty `sum` and an empty A are treated as zero.
 void addScaled(DenseMatrix& sum, double factor, const DenseView& a);
-/// Computes the same for an A of an earlier, smaller basis, extended by zero rows and columns. Both
-/// bases must begin with the same vectors.
+/// Computes the same for a matrix A that belongs to an earlier, smaller basis: A is extended by
+/// rows and columns of zeros. Both bases must begin with the same vectors.
 void addExtended(DenseMatrix& sum, double factor, const DenseView& a);
 
 }  // namespace squeal::linalg

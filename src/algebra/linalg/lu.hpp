@@ -16,8 +16,9 @@ class Lu {
   /// Returns the smallest pivot divided by the largest, in magnitude; 0 if the matrix is singular
   /// or has an entry that is not a number.
   double pivotRatio() const { return pivotRatio_; }
-  /// Replaces pivots of zero by the machine precision times the largest pivot, or times 1 if all
-  /// are zero. Solutions then point along the null vector, as inverse iteration requires.
+  /// Replaces each pivot of zero by the machine precision times the largest pivot, or by the
+  /// machine precision itself if all pivots are zero. Solutions then point along the null vector,
+  /// as inverse iteration requires.
   void raiseZeroPivots();
   /// Replaces B by A⁻¹ B, or by A⁻ᴴ B if `adjoint`. A zero pivot gives infinite entries.
   void solve(Dense<Scalar>& b, bool adjoint = false) const;
@@ -27,7 +28,7 @@ class Lu {
  private:
   void solve(Scalar* b, PetscBLASInt columns, bool adjoint) const;
   Dense<Scalar> factors_;
-  std::vector<PetscBLASInt> rows_;  // exchanged
+  std::vector<PetscBLASInt> rows_;  // row exchanges
   double largest_ = 0, pivotRatio_ = 0;
 };
 

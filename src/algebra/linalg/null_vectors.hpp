@@ -8,16 +8,16 @@
 
 namespace squeal::linalg {
 
-/// Vectors of 2-norm 1.
+/// A right and a left null vector of H(s), of 2-norm 1.
 struct NullVectors {
   std::vector<Complex> right;  ///< q, H(s) q = 0
   std::vector<Complex> left;   ///< c, cᴴ H(s) = 0
 };
 
-/// Returns the null vectors of H(s) = s² M + s Z + K at an eigenvalue s: those of the smallest
-/// singular value, by inverse iteration, so that they are well defined where two eigenvalues and
-/// their vectors meet. If s is `simple`, it may have only a few exact digits, and the two-sided
-/// Rayleigh quotient corrects it:
+/// Returns the null vectors of H(s) = s² M + s Z + K at an eigenvalue s, by inverse iteration. They
+/// are the singular vectors of the smallest singular value, so they are well defined even where two
+/// eigenvalues and their vectors meet. If s is a `simple` eigenvalue, it need not be exact to the
+/// last digits: the two-sided Rayleigh quotient corrects it by
 ///   δs = −cᴴ H q / cᴴ H′ q.
 NullVectors nullVectors(const DenseProblem& problem, Complex s, bool simple);
 

@@ -12,19 +12,19 @@ class Qr {
   /// Factorises A, m × n with m ≥ n. Throws Error if LAPACK fails.
   explicit Qr(const DenseView& a);
   const DenseMatrix& q() const { return q_; }  ///< m × m
-  /// Replaces B, with n columns, by B R⁻¹. R must be regular.
+  /// Replaces B, with n columns, by B R⁻¹. R must be nonsingular.
   void divideByR(DenseMatrix& b) const;
 
  private:
   DenseMatrix q_, r_;  // R in the upper triangle
 };
 
-/// Replaces the columns, at most as many as rows, by orthonormal ones whose span contains theirs
-/// (Householder). Throws Error if LAPACK fails.
+/// Replaces the columns of X by orthonormal columns, whose span contains that of the old ones
+/// (Householder). X must have at most as many columns as rows. Throws Error if LAPACK fails.
 void orthonormalise(DenseMatrix& x);
 
-/// Returns the upper triangle R of A = Q R, min(m, n) × n, with orthonormal columns of Q. Throws
-/// Error if LAPACK fails.
+/// Returns the upper triangular factor R, min(m, n) × n, of A = Q R, where Q has orthonormal
+/// columns. Throws Error if LAPACK fails.
 DenseMatrix triangularFactor(DenseMatrix a);
 
 }  // namespace squeal::linalg

@@ -10,15 +10,15 @@ namespace squeal::linalg {
 
 /// The quadratic eigenproblem
 ///   (s² M + s Z + K) q = 0
-/// with real matrices of order m. An empty Z counts as zero.
+/// with real matrices of order m. An empty Z is treated as zero.
 struct DenseProblem {
   DenseMatrix mass, damping, stiffness;
   PetscInt order() const { return stiffness.rows(); }  ///< m
 };
 
 /// Returns true if, within round-off, M and K are symmetric positive definite and Z is
-/// antisymmetric. Gyroscopic forces do no work, and all eigenvalues are imaginary: with q of length
-/// 1,
+/// antisymmetric. Then the only velocity-dependent forces are gyroscopic and do no work, and all
+/// eigenvalues are imaginary: for a vector q of length 1, the equation
 ///   s² m + i s g + k = 0,   m = qᴴ M q > 0,   k = qᴴ K q > 0,   i g = qᴴ Z q,
 /// has only imaginary roots.
 bool conservative(const DenseProblem& problem);
@@ -34,32 +34,34 @@ struct DensePair {
 /// The eigenvectors that a solve returns: the right ones, or both the right and the left ones.
 enum class Vectors { right, both };
 
-/// Returns true for the eigenvalues s to return. An empty function selects all.
+/// Returns true if the solve shall return the eigenvalue s. An empty function selects all.
 using EigenvalueFilter = std::function<bool(Complex)>;
 
 /// Returns the root of s² = −μ with Im s ≥ 0.
 Complex rootOf(Complex mu);
 
-/// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that `wanted` selects, by ascending
-/// Im s, then by ascending Re s. If Z is empty, s = 0 is double for each vector and is listed once.
+/// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that `wanted` selects, in ascending
+/// order of Im s, then of Re s. If Z is empty, an eigenvalue s = 0 is a double root for each of its
+/// vectors, but is listed only once per vector.
 ///
-/// If Z is empty, the problem is linear in s² and is solved at size m, as a symmetric one if both
-/// matrices are symmetric within round-off and one is positive definite. Otherwise its companion
-/// form of size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The QR algorithm uses the
-/// inverse of K if K is well conditioned, otherwise that of M or K, whichever is better
-/// conditioned. If neither can be inverted safely, the QZ algorithm is used, which takes ten times
-/// as long.
+/// If Z is empty, the problem is linear in s² and has the size m. Otherwise the companion form of
+/// size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The leading matrix is K if K is
+/// well conditioned, otherwise M or K, whichever is better conditioned. A problem without Z is
+/// solved as a symmetric one if K and M are symmetric within round-off and the leading matrix is
+/// positive definite. All other problems are solved by the QR algorithm with the inverse of the
+/// leading matrix. If this matrix cannot be inverted safely, the QZ algorithm is used, which takes
+/// ten times as long.
 ///
 /// Throws Error if an entry is not finite, if LAPACK fails, or if M and K have a common null
 /// vector.
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right,
                                       const EigenvalueFilter& wanted = {});
 
-/// Not collective. Returns A times the right vectors of the pairs, m × pairs. An empty A counts as
-/// zero.
+/// Not collective. Returns A times the right vectors of the pairs, m × pairs. An empty A is treated
+/// as zero.
 ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pairs);
-/// Not collective. Returns Aᵀ times the left vectors of the pairs, m × pairs. An empty A counts as
-/// zero.
+/// Not collective. Returns Aᵀ times the left vectors of the pairs, m × pairs. An empty A is treated
+/// as zero.
 ComplexMatrix transposedTimesLeft(const DenseView& a, const std::vector<DensePair>& pairs);
 
 }  // namespace squeal::linalg

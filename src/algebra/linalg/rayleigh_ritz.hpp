@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Continuation of one or two eigenvalues of a dense quadratic problem, with their invariant
-/// subspace, from a neighbouring problem. It takes one to three factorisations; all eigenvalues
-/// would take a hundred times as long as one factorisation.
+/// subspace, from a neighbouring problem. It takes one to three factorisations; computing all
+/// eigenvalues would take as long as a hundred factorisations.
 #include "algebra/linalg/quadratic.hpp"
 
 namespace squeal::linalg {
 
 /// One or two eigenvalues of one invariant subspace.
 struct Cluster {
-  Complex mean;                  ///< mean of the eigenvalues, 1/s
-  std::vector<DensePair> pairs;  ///< with left vectors; nearly parallel where eigenvalues meet
+  Complex mean;  ///< mean of the eigenvalues, 1/s
+  /// With left vectors. The vectors of two eigenvalues that meet are nearly parallel.
+  std::vector<DensePair> pairs;
   bool converged = false;
 };
 
-/// Not collective. Finds the one or two eigenvalues that continue `start`, pairs of a neighbouring
-/// problem with both vectors, by two-sided inverse iteration on the companion form
+/// Not collective. Finds the one or two eigenvalues that continue those of `start`, which are pairs
+/// of a neighbouring problem with right and left vectors. The method is two-sided inverse iteration
+/// on the companion form
 ///   A z = s B z,   A = [0 I; −K −Z],   B = [I 0; 0 M].
-/// The shift is fixed within a factorisation, near `guess`, the expected mean. `isolation` is the
-/// distance of the mean from the next eigenvalue, in 1/s, within a factor of ten. Vectors of a
-/// smaller basis are extended by zeros. The result has converged = false if the iteration does not
-/// converge or P(shift) is singular.
+/// The shift is fixed for each factorisation; the first one is near `guess`, the expected mean.
+/// `isolation` is an estimate, within a factor of ten, of the distance from the mean to the next
+/// eigenvalue, in 1/s. If `start` belongs to a smaller basis, its vectors are extended by zeros.
+/// The result has converged = false if the iteration does not converge or P(shift) is singular.
 Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess,
                     double isolation);
 
@@ -28,7 +30,7 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
 /// neighbouring problem. Not collective.
 class Spectrum {
  public:
-  /// Reads the problem only during this call, and takes the pairs, with their left vectors.
+  /// Borrows the problem only during this call. Takes the pairs, which must have left vectors.
   Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs);
   const std::vector<DensePair>& pairs() const { return pairs_; }
   /// Returns yᴴ P′(s) x of pair i, with P′ = 2 s M + Z.
@@ -36,10 +38,11 @@ class Spectrum {
     return linear_ ? 2.0 * pairs_[i].s * own_[i] : own_[i];
   }
   bool damped() const { return !linear_; }  ///< the problem has a term in s
-  /// Returns the trace of the product of two spectral projectors, tr(Π_i Π_j) [M.41], of pair i of
-  /// this problem and pair j of the other. It does not depend on the scaling of the vectors. It is
-  /// 1 for the same pair and 0 for different ones. Its sum over all j is 1. Its sum over two groups
-  /// of pairs is the dimension of their common subspace.
+  /// Returns tr(Π_i Π_j) [M.41], the trace of the product of two spectral projectors: that of pair
+  /// i of this problem and that of pair j of the other. It does not depend on the scaling of the
+  /// vectors. It is 1 for the same pair and 0 for different ones. Its sum over all j is 1. Its sum
+  /// over all i of one group and all j of another is the dimension of the subspace that the two
+  /// groups share.
   Complex overlap(std::size_t i, const Spectrum& other, std::size_t j) const;
 
  private:

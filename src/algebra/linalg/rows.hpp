@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Some rows of dense matrices, and matrices whose rows are distributed.
+/// Selected rows of dense matrices, and all rows of a matrix whose rows are distributed.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
@@ -12,7 +12,7 @@ namespace squeal::linalg {
 DenseMatrix rowsOf(const std::vector<PetscInt>& rows, const DenseView& matrix);
 /// Not collective. Returns the entries in these rows and columns of a square matrix.
 DenseMatrix principalPart(const std::vector<PetscInt>& rows, const DenseView& matrix);
-/// Collective. Returns the rows of all ranks, on every rank, given those of this one.
+/// Collective. Returns the rows of all ranks on every rank. `own` contains the rows of this rank.
 DenseMatrix gatheredRows(const Concatenation& ranks, const DenseView& own);
 
 }  // namespace squeal::linalg

@@ -22,11 +22,11 @@ void fields(Stream& stream, Dense<Scalar>& matrix) {
 /// Not collective. Writes or reads a pair.
 void fields(Stream& stream, DensePair& pair);
 
-/// Not collective. Writes a matrix without a copy of its entries, which the stream borrows while it
-/// shares `owner`. Reading returns a DenseMatrix.
+/// Not collective. Writes a matrix without copying its entries: the stream borrows them, and shares
+/// `owner` so that they stay valid. The matrix is read back as a DenseMatrix.
 void borrow(Stream& stream, const DenseView& matrix, std::shared_ptr<const void> owner = {});
 
-/// Collective. Writes both parts, or creates them with their original layout.
+/// Collective. Writes both parts of the vector, or reads them back with their original layout.
 void serialise(checkpoint::Archive& archive, ComplexVector& vector);
 
 }  // namespace squeal::linalg

@@ -17,23 +17,23 @@ std::vector<double> symmetricEigen(DenseMatrix& a);
 
 /// Returns the eigenvalues λ of
 ///   A x = λ B x,
-/// ascending, for A symmetric and B symmetric positive definite, both stored as above.
-/// B-orthonormal eigenvectors replace A, and a Cholesky factor replaces B. Throws Error as above,
-/// and if B is not positive definite.
+/// ascending, for a symmetric A and a symmetric positive definite B. Reads only the lower
+/// triangles. Replaces A by B-orthonormal eigenvectors, and B by its Cholesky factor. Throws Error
+/// as above, and if B is not positive definite.
 std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b);
 
-/// Returns L of A = L Lᵀ, lower triangular, for a symmetric positive definite A. Reads only its
-/// lower triangle. Throws Error if A is not positive definite.
+/// Returns the lower triangular L of A = L Lᵀ for a symmetric positive definite A. Reads only the
+/// lower triangle of A. Throws Error if A is not positive definite.
 DenseMatrix choleskyFactor(DenseMatrix a);
-/// Returns L⁻ᵀ.
+/// Returns L⁻ᵀ for a lower triangular L.
 DenseMatrix inverseTransposed(const DenseMatrix& factor);
 
 /// Returns the number of negative eigenvalues of a matrix that is symmetric within round-off, by an
 /// LDLᵀ factorisation. Throws Error if LAPACK fails.
 int negativeEigenvalues(const DenseView& a);
 
-/// Return only the eigenvalues of the same problems, which takes a fraction of the time. They read
-/// the lower triangles.
+/// Return the same eigenvalues as symmetricEigen() without eigenvectors, which takes a fraction of
+/// the time. They also read only the lower triangles.
 std::vector<double> symmetricEigenvalues(DenseMatrix a);
 std::vector<double> symmetricEigenvalues(DenseMatrix a, DenseMatrix b);
 

@@ -15,13 +15,13 @@ struct EigenPair {
   std::vector<Complex> left;  ///< empty unless requested
 };
 
-/// Returns the finite wanted eigenvalues, with eigenvectors, of A x = μ B x, by QZ. Throws Error if
-/// A and B have a common null vector, or if LAPACK fails.
+/// Returns the finite eigenvalues of A x = μ B x that `wanted` selects, with eigenvectors, by QZ.
+/// Throws Error if A and B have a common null vector, or if LAPACK fails.
 std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, Vectors sides,
                                    const EigenvalueFilter& wanted);
-/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ x, from its Schur form. It
-/// computes only the wanted eigenvectors, since all eigenvectors would take most of the time.
-/// Throws Error if LAPACK fails.
+/// Returns the eigenvalues of A x = μ x that `wanted` selects, with eigenvectors, from the Schur
+/// form of A. It computes only these eigenvectors, since computing all of them would take most of
+/// the time. Throws Error if LAPACK fails.
 std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const EigenvalueFilter& wanted);
 
 /// Returns the conjugate of a vector.

@@ -15,8 +15,8 @@ namespace squeal::checkpoint {
 inline constexpr const char* damaged =
     "an entry of the checkpoint is damaged; without -resume the run starts from scratch";
 
-/// The values that all ranks share, stored once, and those of each rank. The same calls in the same
-/// order write an archive and read it.
+/// The values that all ranks share, which are stored once, and the values of each rank. An archive
+/// is read by the same calls in the same order as those that wrote it.
 class Archive {
  public:
   /// Makes an empty archive to write to.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Reads and writes the file of a checkpoint entry, by MPI, each rank its own part.
+/// Reads and writes the file of a checkpoint entry by MPI; each rank accesses its own part.
 #include <mpi.h>
 
 #include <array>
@@ -42,7 +42,8 @@ Layout layoutOf(MPI_Comm comm, const Archive& archive);
 bool writeEntry(MPI_Comm comm, const std::filesystem::path& path, const Layout& layout,
                 const Archive& archive);
 
-/// Collective. Reads an archive; none on all ranks if the file cannot be read or is damaged.
+/// Collective. Returns the archive in the file; none on all ranks if the file cannot be read or is
+/// damaged.
 std::optional<Archive> readEntry(MPI_Comm comm, const std::filesystem::path& path);
 
 }  // namespace squeal::checkpoint

@@ -8,17 +8,19 @@
 
 namespace squeal::checkpoint {
 
-/// Properties that a checkpoint and the run that resumes it must share, by names for messages.
+/// Properties that a checkpoint and the run that resumes it must share, [name of the property for
+/// messages].
 using Identity = std::map<std::string, std::string>;
 
 /// Collective. Returns the identity of this run: the number of ranks, the program, and the options
-/// except those of the report. Files count by content, not by name.
+/// except those of the report. A file is identified by its content, not by its name.
 Identity identityOfRun(MPI_Comm comm);
 
-/// Returns a sentence on the first three differences; empty if there are none.
+/// Returns a text on the first three differences; empty if there are none.
 std::string difference(const Identity& then, const Identity& now);
 
-/// Not collective. Returns the CRC-32 of bytes, continued from the CRC-32 of preceding bytes.
+/// Not collective. Returns the CRC-32 of bytes, continued from `before`, the CRC-32 of the
+/// preceding bytes.
 unsigned long checksum(const void* data, std::size_t size, unsigned long before = 0);
 
 }  // namespace squeal::checkpoint

@@ -6,7 +6,7 @@ namespace squeal::checkpoint {
 
 struct Settings {
   bool enabled = true;   ///< `-checkpoint`
-  double interval = 60;  ///< `-checkpoint_interval`: least wall time between entries, s
+  double interval = 60;  ///< `-checkpoint_interval`: minimum wall time between entries, s
   bool resume = false;   ///< `-resume`
 
   /// Not collective. Reads the options.

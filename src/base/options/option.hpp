@@ -14,7 +14,7 @@
 
 namespace squeal {
 
-/// Returns the stages in the order of the method, in which the manual lists them.
+/// Returns the stages in the order of the method, which is also that of the manual.
 const std::vector<std::string>& stages();
 /// Returns the index of a stage in this order.
 std::size_t stageRank(const std::string& stage);
@@ -23,7 +23,7 @@ std::size_t stageRank(const std::string& stage);
 class Option {
  public:
   const std::string stage, name, defaultText, unit, meaning, rule;
-  const bool required;  ///< true without a default: reading it throws Error unless it is given
+  const bool required;  ///< it has no default: reading it throws Error unless it is given
 
   /// Returns the full name, without dash, with `subject` in place of the placeholder.
   std::string fullName(const std::string& subject = {}) const;
@@ -38,8 +38,8 @@ class Option {
   bool matches(const std::string& fullName) const;
   /// Throws Error if the value given for this subject violates the rule.
   virtual void validate(const std::string& subject) const = 0;
-  /// Returns the JSON Schema (draft 2020-12) of the values in an options file. A value that it
-  /// admits may still violate the rule.
+  /// Returns the JSON Schema (draft 2020-12) of the values in an options file. A value that
+  /// conforms to this schema may still violate the rule.
   virtual nlohmann::json valueSchema() const = 0;
   /// Returns all declared options in order of stage, then of declaration; borrowed.
   static std::vector<const Option*> all();
@@ -70,7 +70,7 @@ inline constexpr double smallestMagnitude = 1e-50, largestMagnitude = 1e50;
 /// The largest number of values in one list.
 inline constexpr int longestList = 100'000;
 
-/// Throws Error for an option of this list that is given for a subject without the `needed` one.
+/// Throws Error if an option of this list is given for a subject, but `needed` is not.
 void requireOption(const std::vector<const Option*>& options, const Option& needed);
 
 /// Returns name and value of every declared option that has been read so far, defaults included.

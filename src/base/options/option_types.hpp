@@ -11,13 +11,13 @@
 
 namespace squeal {
 
-/// An interval of the reals, with or without its ends.
+/// An interval of real numbers; an open end does not belong to it.
 struct Range {
   double low = -std::numeric_limits<double>::infinity(),
          high = std::numeric_limits<double>::infinity();
   bool openLow = false, openHigh = false;
   bool contains(double x) const;
-  /// Returns the ends, such as " >= 0"; empty without ends.
+  /// Returns the bounds as text, such as " >= 0"; empty if there are none.
   std::string bounds() const;
   std::string text() const;
 };
@@ -77,8 +77,8 @@ class IntegerOption : public Option {
 class VectorValue {
  public:
   VectorValue() = default;
-  /// Returns the components; in the plane the third one is zero if it is not given. Throws Error
-  /// unless there are three; two are enough for a mesh in the plane.
+  /// Returns the components. Throws Error unless three are given; in plane problems two are enough,
+  /// and the third one is then zero.
   std::array<double, 3> in(int dimension) const;
 
  private:
@@ -89,8 +89,9 @@ class VectorValue {
   std::string text_;  // option and meaning, for the message
 };
 
-/// The entries of a list. With `sequences`, the list may be `first:last:step`, the arithmetic
-/// sequence up to `last`, which is included if it is a whole number of steps away.
+/// The rule for the entries of a list. If `sequences` is true, the list may also have the form
+/// `first:last:step`: the arithmetic sequence from `first` in steps of `step`, up to and including
+/// `last` if the steps reach it.
 struct ListRule {
   ListRule(Range all) : range(all) {}  // NOLINT: a range is a rule
   Range range;
@@ -166,9 +167,9 @@ class TextOption : public Option {
   std::string parsed(const std::string& subject, const std::string& text) const;
 };
 
-/// The path of a file to read. If an options file gives it, it is relative to that file or, if
-/// there is no such file, to the working folder; if the command line gives it, to the working
-/// folder.
+/// The path of a file to read. A path in an options file is relative to the folder of the options
+/// file or, if it leads to no file there, to the working folder. A path on the command line is
+/// relative to the working folder.
 class FileOption : public Option {
  public:
   /// Declares an option without default: it is required wherever it is read.

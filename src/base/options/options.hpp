@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Functions on all options: those of PETSc's solvers, unknown and unused ones, and the manual.
-/// Includes the types of declared options.
+/// Functions for all options: the options of PETSc's solvers, unknown and unused options, and the
+/// manual. This header also includes the types of declared options.
 #include <petscsys.h>
 
 #include <functional>
@@ -31,14 +31,14 @@ class SolverPrefix {
 };
 
 /// Collective. Runs `configure()`, which calls PETSc and SLEPc to set up a solver from its options
-/// and returns their code. Throws Error, which lists the options given to solvers, if they reject
-/// one, such as an unknown type or a text in place of a number. If no such option is given, or for
-/// another kind of failure, it passes the code to check().
+/// and returns their error code. If they reject an option, such as an unknown type or a text in
+/// place of a number, throws Error with a list of the options given to solvers. If no such option
+/// is given, or if the failure is of another kind, passes the code to check().
 void applySolverOptions(const std::function<PetscErrorCode()>& configure);
 
-/// Collective. Call it before any work is done. Throws Error for an option that is unknown to this
-/// program and to PETSc, with the nearest known name, and for a value of a declared option that
-/// violates its rule.
+/// Collective. Call it before any work is done. Throws Error, with the nearest known name, for an
+/// option that neither this program nor PETSc knows. Also throws Error for a value of a declared
+/// option that violates its rule.
 void rejectUnknownOptions();
 
 /// Not collective. Call it at the end of a run. Returns a line for each given option that was never

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Reads the options given on the command line, in options files and in the environment. Rank 0
-/// reads all of them and inserts them into PETSc's options database in the given order: of two
-/// settings of an option, the later one wins.
+/// reads all options. They are inserted into PETSc's options database in the order in which they
+/// are given, so the last setting of an option takes effect.
 ///
-/// The names and the meaning of options and files are those of PETSc. PETSc's own readers skip
-/// words that belong to no option, stop at a NUL byte, and end the run with a traceback on a syntax
-/// error.
+/// Options and options files have the names and the meaning that they have in PETSc. PETSc's own
+/// readers are not used because they skip words that belong to no option, stop at a NUL byte, and
+/// end the run with a traceback on a syntax error.
 #include <mpi.h>
 
 #include <map>
@@ -17,7 +17,7 @@ namespace squeal {
 
 /// A value of an option, as given in one place.
 struct Setting {
-  std::string name, value;  ///< name without the dash; the value is empty for a bare option
+  std::string name, value;  ///< name without the dash; the value is empty if only the name is given
   std::string file;         ///< options file that contains it; empty outside of files
   int line = 0;             ///< line in the file, from 1; 0 outside of files
 
@@ -35,19 +35,22 @@ std::vector<Setting> settingsOfCall(const std::vector<std::string>& words);
 /// blanks. Throws Error for text that cannot be parsed.
 std::vector<Setting> settingsOfText(const std::string& text);
 
-/// Returns the options of one file. It is YAML by its name (.yaml, .yml, .json, or the suffix
-/// `:yaml`) or first line (--- or %YAML); otherwise it has lines `-name value`. Throws Error, with
-/// file and line, for text that cannot be parsed, and for a file without options.
+/// Returns the options of one file. The file is read as YAML if its name (.yaml, .yml, .json, or
+/// the suffix `:yaml`) or its first line (--- or %YAML) indicates this; otherwise it must consist
+/// of lines `-name value`. Throws Error, with file and line, for text that cannot be parsed, and
+/// for a file without options.
 std::vector<Setting> settingsOfFile(const std::string& file);
 
-/// Returns the path of a file that the options file `namedIn` names: next to that file or, if it is
-/// not there, in the working folder. `namedIn` is empty if the command line names the file.
+/// Returns where to find a file whose path is given in the options file `namedIn`: relative to the
+/// folder of `namedIn` or, if the file is not there, to the working folder. `namedIn` is empty if
+/// the path is given on the command line.
 std::string located(const std::string& path, const std::string& namedIn);
 
 /// Collective. Returns the settings of rank 0 on all ranks.
 std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRankZero);
 
-/// Not collective. Inserts options into PETSc's database on this rank and records their places.
+/// Not collective. Inserts options into PETSc's database on this rank and records where they were
+/// given.
 void insert(const std::vector<Setting>& settings);
 
 /// Not collective. Removes all options on this rank.
@@ -62,19 +65,19 @@ const std::map<std::string, std::string>& givenOptions();
 /// Collective. Reads an options file on rank 0 and inserts its settings on all ranks.
 void insertFile(MPI_Comm comm, const std::string& file);
 
-/// Returns the place where this value of an option was set; a setting without a file if the option
-/// does not have this value.
+/// Returns the setting that gave the option this value; a setting without a file if the option does
+/// not have this value.
 Setting origin(const std::string& name, const std::string& value);
 
-/// Returns "option -a 2 (case.yaml, line 3)", with the place of the value `given` if it is in a
-/// file; an empty `value` is omitted.
+/// Returns a text such as "option -a 2 (case.yaml, line 3)". An empty `value` is omitted. The place
+/// in parentheses is that of the value `given`, if it was given in a file.
 std::string optionText(const std::string& name, const std::string& value, const std::string& given);
 
 /// Returns a line for each setting of a file that a later setting has overridden: "option -a 2
 /// replaces 1 (case.yaml, line 3)".
 std::vector<std::string> replacedSettings();
 
-/// Returns a line of an options file, with quotes if the value needs them.
+/// Returns the line of an options file that sets this option, with quotes if the value needs them.
 std::string optionLine(const std::string& name, const std::string& value);
 
 }  // namespace squeal

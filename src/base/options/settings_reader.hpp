@@ -19,11 +19,13 @@ struct Word {
 /// Returns true if PETSc takes the word, with its dash, for the name of an option.
 bool isName(const std::string& word);
 
-/// Returns the words of a text without comments, all in one line: line breaks are blanks. Throws
-/// Error, with `name` and the line, for an open quote and for a control character.
+/// Returns the words of a text that has no comments, as if it were one line: line breaks separate
+/// words like blanks. Throws Error, with `name` and the line, for a quote that is not closed and
+/// for a control character.
 std::vector<Word> wordsOfText(const std::string& text, const std::string& name);
 
-/// Removes `-skip_petscrc [flag]` from the words. Returns the flag; the last one counts.
+/// Removes `-skip_petscrc [flag]` from the words. Returns the flag, the last one if there are
+/// several.
 bool takeSkip(std::vector<Word>& words);
 
 /// Collects the settings of several sources in order. Throws Error, with file and line, for text
@@ -33,10 +35,11 @@ class SettingsReader {
   /// Reads the words of a command line, or of a file.
   void readWords(const std::vector<Word>& words, const std::string& file);
   void readYaml(const std::string& text, const std::string& name);
-  /// Reads a file that PETSc reads by default, if it exists. Throws Error if it cannot be read.
+  /// Reads a file that PETSc reads by default, if it exists. Throws Error if it exists but cannot
+  /// be read.
   void readIfThere(const std::string& file);
   /// Returns the settings. Throws Error if there are more than PETSc's database can store, or if
-  /// their names differ only in capital letters.
+  /// two names differ only in upper and lower case.
   std::vector<Setting> all() const;
 
  private:

@@ -7,17 +7,19 @@
 
 namespace squeal::output {
 
-/// Not collective. Throws WriteError if the path or a parent exists and is not a folder, or is a
-/// broken link. A folder `inside` one of ours must not be a link.
+/// Not collective. Throws WriteError if the path or one of its parents exists but is not a folder,
+/// or is a broken link. If `inside`, the folder is in a folder of this program and must not be a
+/// link either.
 void requireReachable(const std::filesystem::path& folder, bool inside);
 
-/// Not collective. Throws WriteError unless a run may write into this folder, which exists:
+/// Not collective. Throws WriteError unless a run may write into this folder, which must exist. A
+/// run may do so if:
 /// - it is empty, except for files that this run has opened and the remains of a killed run
 ///   (.partial, .complete and the lock file), or
 /// - it contains results: files of a manifest (`hasFiles`) or one of the marks, which are the lock
-///   file, the manifest in .complete and those of the naming, or
+///   file, the manifest in .complete and Naming::marks, or
 /// - a case names it, and it is neither the working folder nor the home folder.
-/// It always rejects the root of the file system.
+/// A run must never write into the root of the file system.
 void requireTakable(const std::filesystem::path& folder, const Naming& naming, bool hasFiles);
 
 }  // namespace squeal::output

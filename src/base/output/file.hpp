@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Writes files on one rank. Once termination from outside has started, no write starts
-/// (SignalsBlocked), so no file appears after the removal.
+/// Writes files on one rank. Once termination from outside has begun, no new write begins (see
+/// SignalsBlocked), so no file appears after the termination handlers have removed the files.
 #include <fcntl.h>
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace squeal::output {
 
-/// A failure of only this rank, such as "cannot write PATH: reason". The caller must share it by
-/// onFirstRank() or failTogether().
+/// A failure on only this rank, such as "cannot write PATH: reason". The caller must share it with
+/// the other ranks by onFirstRank() or failTogether().
 class WriteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -20,17 +20,18 @@ class WriteError : public std::runtime_error {
 /// Returns "cannot write PATH: reason" with the reason of an errno value, or no reason for 0.
 std::string cannotWrite(const std::filesystem::path& path, int error);
 
-/// Not collective. Opens an empty file to write to and returns its descriptor. Truncates an
-/// existing file. Throws WriteError, also if the path is a link, has a second name or is not a
-/// regular file, since its content may belong to another user.
+/// Not collective. Creates a file, or empties an existing one, and returns the descriptor for
+/// writing. Throws WriteError if this fails. Also throws it if the path is a link, has a second
+/// name or is not a regular file, since the content may then belong to another user.
 int openToWrite(const std::filesystem::path& path, int flags = O_WRONLY);
 
-/// Not collective. Writes the whole file, as openToWrite() opens it. Throws WriteError.
+/// Not collective. Writes the text as the whole content of a file, opened by openToWrite(). Throws
+/// WriteError.
 void writeFile(const std::filesystem::path& path, const std::string& text);
 
-/// Not collective. Creates an empty file and reserves `bytes` on the disk, for a library that
-/// follows links and handles a full disk badly. A file system that cannot reserve space is not an
-/// error. Throws WriteError.
+/// Not collective. Creates an empty file and reserves `bytes` on the disk. Use it for a file that
+/// is written by a library that follows links and handles a full disk badly. It is not an error if
+/// the file system cannot reserve space. Throws WriteError.
 void reserve(const std::filesystem::path& path, unsigned long long bytes);
 
 /// Not collective. Waits until the content of a file, or the entries of a folder, are on the disk.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Replaces the results in a folder as a whole: it always contains one complete run, or nothing
-/// that could be mistaken for one.
+/// Replaces the results in a folder as a whole: the folder always contains the results of one
+/// complete run, or nothing that could be mistaken for them.
 #include <mpi.h>
 
 #include <filesystem>
@@ -16,48 +16,50 @@
 
 namespace squeal::output {
 
-/// The names of the files in a folder.
+/// The folder of the results, and the names of its files.
 struct Naming {
   std::string option;  ///< the option that names the folder, with its dash, for messages
   std::string last;    ///< the file whose presence shows that the others are complete
   /// Returns true if a run may write this path, relative to the folder: a file or a subfolder.
   std::function<bool(const std::filesystem::path&)> mayWrite;
-  /// Files whose presence marks a folder as one of ours, in addition to the manifest and the
-  /// remains of a killed run; relative to the folder.
+  /// Files, relative to the folder, whose presence marks the folder as one of this program. The
+  /// manifest and the remains of a killed run are marks too.
   std::vector<std::filesystem::path> marks = {};
   /// Files that this run has already opened, and that may be in the folder.
   std::vector<std::filesystem::path> opened = {};
   bool ofCase = false;  ///< a case names the folder, so it may contain anything
-  bool inside = false;  ///< it is a subfolder of one of ours, and must not be a link
+  bool inside = false;  ///< it is in a folder of this program, and must not be a link
 };
 
 /// A run writes its files to staging(); once all are complete, they replace those of the earlier
 /// run, which the manifest lists. Without commit() the folder stays as it was, also after errors,
 /// signals and MPI_Abort; after SIGKILL the next run restores it.
 ///
-/// commit() takes effect when it renames .partial to .complete. Until then the earlier results
-/// stay; afterwards, if the run is killed, the next run completes the replacement. It removes the
-/// earlier run's `last` first, then its other files, and its manifest at the end. Then it renames
-/// the new files into the folder, then the manifest, and `last` at the very end.
+/// commit() takes effect when it renames .partial to .complete. If the run is killed before this,
+/// the earlier results stay; if it is killed later, the next run completes the replacement. The
+/// replacement first removes the file `last` of the earlier run, then its other files, then its
+/// manifest. After that it moves the new files into the folder, then the new manifest, and finally
+/// the new file `last`.
 class Folder {
  public:
-  /// Collective. Creates the folder if necessary and locks it; completes the interrupted commit of
-  /// a killed run, and removes its remains. Throws Error if the run may not write to the folder
-  /// (claim.hpp) or cannot, if another run is writing to it, or if a file that belongs to no run
-  /// has a name that this run may write.
+  /// Collective. Creates the folder if necessary and locks it. Completes the interrupted commit of
+  /// a killed run and removes the remains of that run. Throws Error if the run may not (claim.hpp)
+  /// or cannot write to the folder, if another run is writing to it, or if a file that belongs to
+  /// no run has a name that this run may write.
   Folder(MPI_Comm comm, Naming naming, std::filesystem::path path);
   ~Folder();
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Returns the folder in which files are written until commit(), borrowed.
+  /// Returns the folder to which the run writes its files until commit(); borrowed.
   const std::filesystem::path& staging() const { return staging_; }
   /// Collective. Creates the staging folder. Throws Error if it cannot be created.
   void stage();
   /// Collective. Replaces the earlier files by the new ones. Call it after all ranks have written.
-  /// Throws Error if a file of the user is in the way, or if the disk is full. Before the renaming
-  /// the earlier results then stay; after it, the next run moves the new ones into place.
+  /// Throws Error if a file of the user is in the way, or if the disk is full. If .partial was not
+  /// yet renamed, the earlier results then stay; otherwise the next run moves the new ones into
+  /// place.
   void commit();
   /// Collective. Removes the files of the earlier run, and the folder if it is then empty.
   void discard();
@@ -78,10 +80,10 @@ class Folder {
   Naming naming_;
   std::string head_;
   std::filesystem::path path_, staging_, complete_;
-  /// Number of trailing folders of the path that were created: this one and its parents
+  /// Number of folders at the end of the path that this run has created
   int made_ = 0;
   Lock lock_;
-  std::unique_ptr<AtTermination> removal_;  // of the remains, on termination
+  std::unique_ptr<AtTermination> removal_;  // removes the remains on termination
 };
 
 }  // namespace squeal::output

@@ -10,8 +10,9 @@
 
 namespace squeal::output {
 
-/// An advisory lock (flock) on a file in a folder. Every rank of a run shares it, so it lasts until
-/// the last of them has ended in any way. A lock file left behind by a killed process is ignored.
+/// An advisory lock (flock) on a file in a folder. All ranks of a run share the lock, so it lasts
+/// until the last rank has ended, in whatever way. A lock file left behind by a killed process is
+/// ignored.
 class Lock {
  public:
   /// The name of the file.
@@ -27,7 +28,8 @@ class Lock {
   /// cannot lock.
   void acquire(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head);
   /// Not collective. Releases the lock. The last rank first calls `asLast` and removes the file.
-  /// The others wait for it up to `patience`, and replace it if it dies meanwhile.
+  /// Each of the other ranks waits up to `patience` for the last rank to finish, and acts in its
+  /// place if it dies meanwhile.
   void release(
       const std::function<void()>& asLast = [] {}, std::chrono::milliseconds patience = {});
 
@@ -35,7 +37,8 @@ class Lock {
   enum class State {
     none,
     held,
-    unlockable  ///< the file system cannot lock; only on rank 0, which is then the last one
+    unlockable  ///< the file system cannot lock; only rank 0 has this state, and it acts as the
+                ///< last rank
   };
   void lockExclusively(const std::filesystem::path& folder, std::string& warning);
   void join();

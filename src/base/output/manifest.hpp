@@ -10,13 +10,13 @@ namespace squeal::output {
 
 class Manifest {
  public:
-  /// The name of the file, itself in the list.
+  /// The name of the manifest's own file, which is in the list too.
   static constexpr const char* name = "manifest.txt";
 
   Manifest() = default;
-  /// Lists these files, given by relative paths, and the manifest itself.
+  /// Makes a list of these files, given by relative paths, and of the manifest itself.
   explicit Manifest(const std::set<std::filesystem::path>& files);
-  /// Returns the list of all files below `folder`, and of the manifest. Throws
+  /// Returns the list of all files below `folder` and of the manifest. Throws
   /// std::filesystem::filesystem_error if the folder cannot be read.
   static Manifest of(const std::filesystem::path& folder);
   /// Returns the manifest in `folder`; none if the file does not exist or is not a manifest of this
@@ -25,12 +25,12 @@ class Manifest {
 
   const std::set<std::filesystem::path>& files() const { return files_; }
   const std::set<std::filesystem::path>& folders() const { return folders_; }
-  /// Returns true if the file, or the folder, is one of these.
+  /// Returns true if this file or folder is in the list.
   bool lists(const std::filesystem::path& path) const {
     return files_.contains(path) || folders_.contains(path);
   }
-  /// Adds a folder of ours that stays because it contains files of the user. In the text its path
-  /// ends with a slash.
+  /// Adds a folder of an earlier run that stays because it contains files of the user. In text(),
+  /// its path ends with a slash.
   void retain(const std::filesystem::path& folder);
   /// Returns the content of the file.
   std::string text() const;
@@ -38,7 +38,7 @@ class Manifest {
  private:
   void add(const std::filesystem::path& file);
   std::set<std::filesystem::path> files_;
-  std::set<std::filesystem::path> folders_;  // those of files, and retained_
+  std::set<std::filesystem::path> folders_;  // the folders of files_, and retained_
   std::set<std::filesystem::path> retained_;
 };
 

@@ -8,9 +8,9 @@
 namespace squeal {
 
 /// The entries of a vector on this rank. The object borrows the vector, and must be destroyed
-/// before the vector is used otherwise or destroyed. A rank may read independently of the others.
-/// All ranks must construct a WriteArray together: PETSc caches norms of a vector, and discards
-/// them only on the ranks that wrote.
+/// before the vector is destroyed or used in any other way. A rank may construct a ReadArray
+/// independently of the other ranks. All ranks must construct a WriteArray together, because PETSc
+/// caches the norms of a vector and discards them only on ranks that have written.
 template <class Value, PetscErrorCode (*take)(Vec, Value**),
           PetscErrorCode (*giveBack)(Vec, Value**)>
 class BorrowedArray {

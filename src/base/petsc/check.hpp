@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Checks PETSc calls, and turns its errors into one-line messages.
+/// Checks PETSc calls, and turns PETSc's errors into one-line messages.
 #include <petscsys.h>
 
 #include <source_location>
@@ -10,9 +10,9 @@
 
 namespace squeal {
 
-/// Not collective. Checks the return code of a PETSc, SLEPc or MPI call. A failure is a defect or a
-/// lack of memory, perhaps only on this rank: the function prints one line on memory or the PETSc
-/// traceback, and MPI_Abort ends all ranks.
+/// Not collective. Checks the return code of a PETSc, SLEPc or MPI call. A failure is a defect of
+/// the program or a lack of memory, perhaps only on this rank. The function then prints one line
+/// (lack of memory) or the PETSc traceback, and ends all ranks by MPI_Abort.
 void check(PetscErrorCode code, std::source_location where = std::source_location::current());
 
 /// Stores the first PETSc error during the object's lifetime as text, and suppresses its traceback.
@@ -26,8 +26,8 @@ class CapturedError {
   PetscErrorCode code() const { return code_; }
   /// Returns PETSc's message, such as "Unknown EPS type given: foo".
   const std::string& message() const { return message_; }
-  /// Stores the first error in the existing object; the error handler calls this. Returns false if
-  /// no object exists.
+  /// Stores the first error in the existing object. The error handler calls this function. Returns
+  /// false if no object exists.
   static bool record(PetscErrorCode code, const char* message);
 
  private:

@@ -16,11 +16,11 @@ enum class Work {
   sketch             ///< products with random signs, for norm estimates
 };
 
-/// Collective. Registers all kinds of work with PETSc. -log_view requires the same order on all
-/// ranks, even if a rank does no work of some kind.
+/// Collective. Registers all kinds of work with PETSc. -log_view requires that all ranks register
+/// them in the same order, even kinds of work that a rank does not do.
 void registerWork();
 
-/// A PETSc event from construction to destruction. Not collective.
+/// A PETSc event that lasts from construction to destruction. Not collective.
 class LoggedWork {
  public:
   explicit LoggedWork(Work work);
@@ -33,9 +33,9 @@ class LoggedWork {
   PetscLogEvent event_;
 };
 
-/// A stage of PETSc's log from construction to destruction. Objects of the same name share one
-/// stage. The time of a nested stage does not count for the outer one. All ranks must construct the
-/// same stages in the same order.
+/// A stage of PETSc's log that lasts from construction to destruction. Objects of the same name
+/// share one stage. The time of a nested stage is not included in that of the outer one. All ranks
+/// must construct the same stages in the same order.
 class LoggedStage {
  public:
   explicit LoggedStage(const std::string& name);
@@ -44,7 +44,8 @@ class LoggedStage {
   LoggedStage& operator=(const LoggedStage&) = delete;
 };
 
-/// Messages that PETSc and this program have sent so far from this rank, without those of MUMPS.
+/// The messages that PETSc and this program have sent so far from this rank, not counting those of
+/// MUMPS.
 struct Traffic {
   double messages = 0;
   double bytes = 0;
@@ -53,13 +54,13 @@ struct Traffic {
 /// Not collective.
 Traffic trafficSoFar();
 
-/// Work with sparse matrices so far that determines the cost of a run; the same on all ranks.
+/// The work with sparse matrices so far, which determines the cost of a run; the same on all ranks.
 struct SparseWork {
   long factorisations = 0;  ///< by MUMPS
-  long rightHandSides = 0;  ///< solved for with a factor of MUMPS
+  long rightHandSides = 0;  ///< right-hand sides solved with MUMPS factors
   long projections = 0;     ///< products Tᵀ X T with the transformation T of the contact
 };
-/// Not collective. Returns the record, to which the author of such work adds it.
+/// Not collective. Returns the record. Code that does such work must add the work to it.
 SparseWork& sparseWork();
 
 }  // namespace squeal

@@ -7,7 +7,7 @@ namespace squeal {
 
 /// Not collective. Returns true if the matrix is marked as symmetric.
 bool isSymmetric(Mat matrix);
-/// Collective. Returns this rank's rows of a matrix.
+/// Collective. Returns the index set of this rank's rows of a matrix.
 OwnedIS ownRows(Mat matrix);
 
 }  // namespace squeal

@@ -10,23 +10,24 @@
 
 namespace squeal {
 
-/// Collective. Opens the file of -log_json, if given, to append to it, and starts the status line
-/// if the run has a terminal (-progress). The first event is `start`. Throws Error if the file
-/// cannot be opened, or is neither an event log, nor empty, nor a device.
+/// Collective. Opens the file of -log_json, if given, for appending, and starts the status line if
+/// the run has a terminal (-progress). The first event is `start`. Throws Error if the file cannot
+/// be opened, or is neither an event log, nor empty, nor a device.
 void beginEvents(MPI_Comm comm, const OutputSettings& settings);
 /// Not collective. Erases the status line, and writes the event `end` with the exit code.
 void endEvents(int exitCode);
 
-/// Not collective. On rank 0, if there is a file, appends an event with the time, the seconds since
-/// the start and these members, as an object on its own line. If a write fails, the log ends with a
-/// warning, and the run continues.
+/// Not collective. On rank 0, if there is a file, appends an event as a JSON object on its own
+/// line, with the time, the seconds since the start and these members. If a write fails, the log
+/// ends with a warning, and the run continues.
 void logEvent(const std::string& event, nlohmann::ordered_json members);
 
-/// Not collective. Sets the total number of points of the sweep, and adds completed ones.
+/// Not collective. Set the total number of points of the sweep, and add completed points.
 void expectPoints(std::size_t count);
 void pointsDone(std::size_t count);
 
-/// Not collective. Shows this stage in the status line from here on; none for an empty name.
+/// Not collective. Shows this stage in the status line from here on, or no stage if the name is
+/// empty.
 void showStage(const std::string& stage);
 /// Clears the status line during the object's lifetime, so that other lines can be printed.
 class ClearedLine {

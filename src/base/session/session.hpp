@@ -9,10 +9,10 @@ namespace squeal {
 
 class Session {
  public:
-  /// Collective. Starts MPI, PETSc and SLEPc. The options database then contains
-  /// the options of the command line, of options files and of the environment, or none with `-help`
-  /// and `-version`. If they cannot be read, the constructor prints one line and ends the program
-  /// with exit code 1.
+  /// Collective. Starts MPI, PETSc and SLEPc. The options database then contains the options of the
+  /// command line, of options files and of the environment, or none with `-help` and `-version`. If
+  /// these options cannot be read, the constructor prints one line and ends the program with exit
+  /// code 1.
   Session(int argc, char** argv);
   /// Collective. Ends SLEPc, PETSc and MPI.
   ~Session();
@@ -22,7 +22,7 @@ class Session {
   MPI_Comm comm() const;
   int rank() const;
   int size() const;
-  /// Returns true if `-help` was given: the program prints the manual instead of a run.
+  /// Returns true if `-help` was given: the program then prints the manual and ends.
   bool helpWanted() const { return helpWanted_; }
   bool helpJsonWanted() const { return helpJsonWanted_; }
   /// Returns the stage given after -help; empty for the whole manual.

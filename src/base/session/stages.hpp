@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Writes the log of a run: one line per stage with its wall time, and progress within long stages.
-/// Records them for the summary.
+/// Also records the stages for the summary.
 #include <mpi.h>
 
 #include <optional>
@@ -19,13 +19,13 @@ struct StageRecord {
   /// Peak resident memory at the end of the stage, bytes, summed over the ranks.
   double peakMemoryBytes = 0;
   /// Messages sent by PETSc and this program, and their bytes, summed over the ranks; reductions
-  /// and broadcasts, maximum over the ranks. Those of MUMPS do not count.
+  /// and broadcasts, maximum over the ranks. Messages of MUMPS are not included.
   Traffic traffic;
   SparseWork work;
 };
 
-/// A stage of the method, from construction to finish(), and of PETSc's log. Only finish() is
-/// collective.
+/// A stage of the method, from construction to finish(). It is also a stage in PETSc's log. Only
+/// finish() is collective.
 class Stage {
  public:
   Stage(MPI_Comm comm, std::string name);
@@ -48,22 +48,24 @@ class Stage {
   std::optional<LoggedStage> logged_;
 };
 
-/// Not collective. Prints no more than warnings and errors from here on, or everything again.
+/// Not collective. If `quiet`, prints only warnings and errors from here on; otherwise prints
+/// everything again.
 void setQuiet(bool quiet);
 /// Returns true if only warnings and errors are printed.
 bool isQuiet();
 /// Not collective. Prints text on rank 0, unless -quiet is given.
 void printLine(MPI_Comm comm, const std::string& text);
 /// Not collective. Immediately prints text on the standard output. A failure to write does not end
-/// the run; outputError() returns it.
+/// the run; outputError() returns the reason.
 void print(const std::string& text);
 /// Returns errno of the first output that could not be written; 0 if there is none, or if the
 /// reader has closed the pipe, as `head` does.
 int outputError();
 /// Not collective. Prints a warning on the standard error output of rank 0, also with -quiet.
 void printWarning(MPI_Comm comm, const std::string& text);
-/// Not collective. Returns all finished stages in order; borrowed. A stage that finishes several
-/// times, such as once per friction, has the sum of the times and the last memory value.
+/// Not collective. Returns all finished stages in order; borrowed. If a stage finishes several
+/// times, for example once per friction, its record contains the sum of the times and the last
+/// memory value.
 const std::vector<StageRecord>& stageRecords();
 
 }  // namespace squeal

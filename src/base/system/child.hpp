@@ -3,9 +3,9 @@
 /// Runs, in a child process, work that may crash or exhaust the memory. The work is either a
 /// function, which runs in a copy of this process, or a separate program.
 ///
-/// A separate program has a clean process: none of the libraries, memory, files and signal handlers
-/// of an MPI process. Only that program loads the libraries that the work needs, so the calling
-/// program starts faster. The price is the time to start the separate program.
+/// A separate program runs in a clean process, without the libraries, memory, files and signal
+/// handlers of an MPI process. Only that program loads the libraries that the work needs, so the
+/// calling program starts faster. The price is the time to start the separate program.
 #include <functional>
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Limits of a child process, see child.hpp.
+/// The limits of a child process (see child.hpp).
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,9 +10,9 @@ namespace squeal {
 /// Prints a warning at once, on the standard error output.
 using Warn = std::function<void(const std::string&)>;
 
-/// The limits of a child process, and words for the messages about it.
+/// The limits of a child process, and texts for the messages about it.
 struct ChildLimits {
-  std::string subject;  ///< start of the messages, except those that the work throws
+  std::string subject;  ///< beginning of all messages except those that the work throws
   std::optional<double> processorSeconds;  ///< limit of processor time, s; none = no limit
   double memoryBytes = 0;                  ///< address space that the work may allocate, bytes
   std::string noMemory;                    ///< message if `memoryBytes` is too little

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The side of the child process in child.hpp. It calls neither MPI nor PETSc.
+/// The part of child.hpp that runs in the child process. It calls neither MPI nor PETSc.
 #include <functional>
 #include <vector>
 
@@ -9,12 +9,12 @@
 
 namespace squeal {
 
-/// The first byte of an answer. The length of a text or result follows, and its bytes.
+/// The first byte of an answer. The length of the content follows, and then the content itself.
 enum class Outcome : char {
   result,
-  failure,    ///< message of an exception
+  failure,    ///< the content is the message of an exception
   noMemory,   ///< empty
-  notStarted  ///< number of the system's error, an int
+  notStarted  ///< the content is errno, an int
 };
 
 void fields(Stream& stream, ChildLimits& limits);
@@ -22,12 +22,13 @@ void fields(Stream& stream, ChildLimits& limits);
 /// Writes an answer to a pipe.
 void answer(int pipe, Outcome outcome, const char* bytes, std::size_t count);
 
-/// Gives all signals their default action, except SIGTERM and SIGUSR1, which it ignores: mpirun
-/// signals the whole process group, and the parent decides how the run stops.
+/// Gives all signals their default action, except SIGTERM and SIGUSR1, which are ignored from here
+/// on: mpirun sends them to the whole process group, but the parent decides how the run stops.
 void resetSignals();
 
-/// Moves the standard input and both outputs of this process to /dev/null: the parent reports a
-/// crash itself, without the lines of the C library. Warnings still reach the former error output.
+/// Redirects the standard input and both outputs of this process to /dev/null. This hides the lines
+/// that the C library prints on a crash, which the parent reports itself. Warnings still reach the
+/// former error output.
 void closeOutputs();
 
 /// Does the work under the limits, writes its outcome to the pipe, and exits. It does not flush or
@@ -35,11 +36,11 @@ void closeOutputs();
 [[noreturn]] void workAndExit(int pipe, const ChildLimits& limits,
                               const std::function<std::vector<char>(const Warn&)>& work);
 
-/// The job of a program that inProgram() has started, from its standard input. The answer goes to
-/// its standard output.
+/// The job of a program that inProgram() has started. The program receives the job on its standard
+/// input and sends the answer to its standard output.
 class Assignment {
  public:
-  /// Work with the bytes of a job.
+  /// The work, a function of the bytes of a job.
   using Work = std::function<std::vector<char>(std::vector<char> job, const Warn&)>;
 
   /// Reads the job, and closes the standard input and outputs. Prints a line and exits unless

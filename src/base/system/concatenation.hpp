@@ -11,7 +11,8 @@
 
 namespace squeal {
 
-/// The position of each rank's part in the list of all ranks, which is in the order of the ranks.
+/// The position of each rank's part in the concatenated list, in which the parts are ordered by
+/// rank.
 class Concatenation {
  public:
   /// Collective. `own` is the number of entries of this rank.
@@ -34,7 +35,7 @@ class Concatenation {
     return all;
   }
 
-  /// Collective. The same of entries of `count` doubles each, in one message.
+  /// Collective. Does the same for entries of `count` doubles each, in one message.
   void gather(const double* own, double* all, int count) const {
     gatherBytes(own, all, count * static_cast<int>(sizeof(double)));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Sets of numbers that are joined one after another (union-find).
+/// Disjoint sets of numbers, which are merged step by step (union-find).
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -15,7 +15,8 @@ class DisjointSets {
   explicit DisjointSets(Number count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), Number(0));
   }
-  /// Returns the smallest number in the set of this one. Shortens the way to it for later calls.
+  /// Returns the smallest number in the set that contains `one`. Shortens the path to that number
+  /// for later calls.
   Number smallest(Number one) {
     while (parent_[one] != one) one = std::exchange(parent_[one], parent_[parent_[one]]);
     return one;

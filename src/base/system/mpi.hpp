@@ -109,7 +109,8 @@ void broadcast(MPI_Comm comm, std::vector<Value>& values, int root = 0) {
   values.resize(count);
   broadcastBytes(comm, values.data(), count * sizeof(Value), root);
 }
-/// Collective. Copies entries from rank `root` to all ranks, which have equally many.
+/// Collective. Copies entries from rank `root` to all ranks. All ranks must have the same number of
+/// entries.
 template <class Entry>
 void broadcastEntries(MPI_Comm comm, std::span<Entry> entries, int root = 0) {
   static_assert(std::is_trivially_copyable_v<Entry> && !std::is_pointer_v<Entry>);

@@ -12,7 +12,8 @@ double availableMemory();
 double addressSpace();
 
 /// Makes the C library retain some of the freed memory. The program allocates and frees many blocks
-/// of columns, and the kernel would clear their pages each time (1/40 of the time of a run).
+/// of columns. Otherwise the kernel would clear their pages each time, which takes 1/40 of the time
+/// of a run.
 void retainFreedMemory();
 
 }  // namespace squeal

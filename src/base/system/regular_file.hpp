@@ -19,8 +19,8 @@ std::string whyNoFolder(const std::filesystem::path& path);
 /// Not collective. Opens a file as open(2) does with these flags and returns its descriptor. It
 /// follows no link, opens only a regular file, and does not wait for the other end of a pipe. With
 /// O_TRUNC it also rejects a file with a second name (a hard link), which may belong to another
-/// user. Throws Error: `failure` and the reason ("cannot write PATH: reason"), or the kind of the
-/// path.
+/// user. Throws Error if it does not open the file. The message is `failure` with the reason
+/// ("cannot write PATH: reason"), or that of whyNotRegular().
 int openRegular(const std::filesystem::path& path, int flags, const std::string& failure);
 
 /// Not collective. Returns the content of a regular file; none if the path does not exist. Throws

@@ -26,8 +26,8 @@ class Stream {
  public:
   /// Makes an empty stream to write to.
   Stream() = default;
-  /// Takes bytes that another stream has written, to read from. `damage` is the message of the
-  /// Error that a read throws if the bytes do not contain the value.
+  /// Takes bytes that another stream has written, in order to read them. `damage` is the message of
+  /// the Error that a read throws if the bytes do not contain the value.
   explicit Stream(std::vector<char> bytes, std::string damage = "serialised values are damaged")
       : bytes_(std::move(bytes)), damage_(std::move(damage)), reads_(true) {}
   bool reads() const { return reads_; }
@@ -49,7 +49,7 @@ class Stream {
     for (const auto& piece : pieces()) all.insert(all.end(), piece.begin(), piece.end());
     return all;
   }
-  /// Returns the bytes written; the stream is then used up.
+  /// Returns the bytes written; the stream must not be used afterwards.
   std::vector<char> bytes() && {
     return written_.empty() ? std::move(bytes_) : std::as_const(*this).bytes();
   }
@@ -59,8 +59,8 @@ class Stream {
     written_.push_back({std::move(bytes_), bytes, std::move(owner)});
     bytes_.clear();
   }
-  /// Not collective. Writes `size` bytes from `data`, or reads them to it. Throws Error if fewer
-  /// are left.
+  /// Not collective. Writes `size` bytes from `data`, or reads `size` bytes into `data`. Throws
+  /// Error if fewer are left.
   void raw(void* data, std::size_t size) {
     if (!reads_) {
       const auto* from = static_cast<const char*>(data);
@@ -87,7 +87,8 @@ class Stream {
       raw(&value, sizeof value);
     }
   }
-  /// Writes or reads a number of elements. Throws Error for more than there are bytes.
+  /// Writes or reads a number of elements. Throws Error if a number that was read exceeds the
+  /// number of bytes.
   void serialiseCount(std::size_t& count) {
     serialise(count);
     if (reads_ && count > bytes_.size()) throw Error(damage_);
@@ -137,7 +138,7 @@ class Stream {
     std::shared_ptr<const void> owner;
   };
   std::vector<Written> written_;
-  std::vector<char> bytes_;  // the last ones written, or those to read
+  std::vector<char> bytes_;  // the bytes written last, or the bytes to read
   std::string damage_;
   std::size_t read_ = 0;
   bool reads_ = false;

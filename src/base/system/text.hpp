@@ -15,8 +15,8 @@ std::vector<std::string> split(const std::string& text, char separator);
 /// Returns the text without leading and trailing blanks, tabs and line breaks.
 std::string trimmed(const std::string& text);
 /// Returns the text with escapes, as in JSON (\u and four hexadecimal digits), for characters that
-/// a terminal would obey or not show: control characters except line breaks and tabs, direction
-/// marks and characters of zero width. Bytes that are not UTF-8 become \x and two digits.
+/// a terminal would interpret or not show: control characters except line breaks and tabs,
+/// direction marks and characters of zero width. Bytes that are not UTF-8 become \x and two digits.
 std::string escaped(const std::string& text);
 /// Returns the shortest decimal text that reads back as the same double.
 std::string shortest(double value);

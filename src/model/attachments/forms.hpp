@@ -13,14 +13,16 @@ namespace squeal::attachments {
 
 using mesh::Point;
 
-/// A vector times the components of a node.
+/// A term of a linear form: a vector times the components of a node.
 struct FormTerm {
   PetscInt node;      ///< global node
-  Point direction;    ///< in the plane, on the rotation of a reference node, the first component
-  bool isTo = false;  ///< it belongs to the end `to` of a spring or bushing
+  Point direction;    ///< in plane problems, its first component applies to the rotation of a
+                      ///< reference node
+  bool isTo = false;  ///< the node is the end `to` of a spring or bushing
 };
 
-/// A linear form δ = Σ direction · u of the components of nodes, with
+/// A linear form δ = Σ direction · u of the components of nodes. Its vector of coefficients, also
+/// called δ, contributes
 ///   K = stiffness δδᵀ,   C = damping δδᵀ,   M = mass δδᵀ.
 struct Form {
   std::string kind;      ///< "spring", "bushing" or "mass"
@@ -28,44 +30,46 @@ struct Form {
   double stiffness = 0;  ///< N/m, or N·m/rad
   double damping = 0;    ///< N·s/m, or N·m·s/rad
   double mass = 0;       ///< kg, or kg·m²
-  Point accelerated{};  ///< of a mass: ∂δ/∂u of a translation of all nodes; zero for rotations
+  Point accelerated{};   ///< for a mass: derivative of δ for a translation of all nodes; zero for
+                         ///< rotary inertia
   std::vector<FormTerm> terms = {};
 };
 
-/// Collective. Returns the springs and bushings. A bushing acts at the middle of its ends or, if
-/// one has no rotation, at that end; rigid arms lead from there to the other one, so that rigid
-/// motions cost no energy. Throws Error, naming the option, for ends of a spring that coincide,
-/// for a bushing whose ends lie apart and have no rotation, for a stiffness about an axis of a node
+/// Collective. Returns the springs and bushings. A bushing acts at the midpoint of its two ends or,
+/// if one end has no rotation, at that end. Rigid arms join the ends to this point, so that rigid
+/// motions cost no energy. Throws Error, naming the option, for a spring whose ends coincide, for a
+/// bushing whose ends lie apart and both have no rotation, for a rotational stiffness at a node
 /// without rotation, and for a wrong number of components.
 std::vector<Form> linksOf(const mesh::Mesh& mesh, const Settings& settings);
 
-/// Not collective. Returns the symmetric matrix of Jxx, Jyy, Jzz, Jxy, Jxz, Jyz in global axes;
-/// `axes` are those of the six numbers, by rows.
+/// Not collective. Returns, in global axes, the symmetric matrix of Jxx, Jyy, Jzz, Jxy, Jxz, Jyz.
+/// These six numbers `j` refer to `axes`, given by rows.
 mesh::Matrix3 inertiaTensor(const std::vector<double>& j, const mesh::Matrix3& axes);
 
 /// A mass at a node.
 struct PointMass {
-  std::string group;      ///< of the option
-  mesh::PointNode node;   ///< without rotation if it is a node of a group
-  double mass;            ///< kg
-  Point arm;              ///< from the node to the centre of mass, m
-  mesh::Matrix3 inertia;  ///< about the centre, in global axes, kg·m²; in the plane only [2][2]
+  std::string group;     ///< the group in the name of the option
+  mesh::PointNode node;  ///< without rotation if it is a node of a group
+  double mass;           ///< kg
+  Point arm;             ///< from the node to the centre of mass, m
+  /// About the centre of mass, in global axes, kg·m²; in plane problems only [2][2].
+  mesh::Matrix3 inertia;
   bool hasInertia;
   Point centre() const { return mesh::plus(node.position, arm); }
 };
 
 /// Collective. Returns the masses, the same on all ranks. Throws Error for an inertia or an offset
-/// at a group of nodes, and for an inertia of a wrong length.
+/// of a group of nodes, and for an inertia with a wrong number of values.
 std::vector<PointMass> pointMasses(const mesh::Mesh& mesh, const Settings& settings);
 
 /// Collective. Returns the point masses as forms, the same on all ranks. Throws Error for an
-/// inertia or an offset at a group of nodes, and for an inertia that no mass has.
+/// inertia or an offset of a group of nodes, and for an inertia that is physically impossible.
 std::vector<Form> massesOf(const mesh::Mesh& mesh, const Settings& settings);
 
 /// A force or a moment on an owned node.
 struct NodalForce {
   PetscInt node;  ///< global node
-  Point value;    ///< N, or N·m; in the plane a moment is the first component
+  Point value;    ///< N, or N·m; in plane problems a moment is the first component
   bool hydraulic;
 };
 

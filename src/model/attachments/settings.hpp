@@ -12,7 +12,7 @@
 
 namespace squeal::attachments {
 
-/// A spring and a dashpot along the line of two nodes.
+/// A spring and a dashpot along the line between two nodes.
 struct SpringSettings {
   std::string name, from, to;  ///< groups with one node, or reference nodes
   double stiffness = 0;        ///< N/m
@@ -21,7 +21,8 @@ struct SpringSettings {
 
 /// Springs and dashpots along and about three axes.
 struct BushingSettings {
-  std::string name, from, to;     ///< groups with one node, or reference nodes; to empty: ground
+  /// Groups with one node, or reference nodes; an empty `to` means the ground.
+  std::string name, from, to;
   std::vector<double> stiffness;  ///< along the axes, N/m, then about them, N·m/rad
   std::vector<double> damping;    ///< along the axes, N·s/m, then about them, N·m·s/rad
   std::string frame;              ///< empty: the global axes
@@ -32,7 +33,7 @@ struct MassSettings {
   std::string group;
   double total = 0;             ///< kg, shared equally by the nodes of the group
   std::vector<double> inertia;  ///< Jxx, Jyy, Jzz, Jxy, Jxz, Jyz about the centre of mass, kg·m²
-  VectorValue offset;           ///< of the centre of mass from the reference node, m
+  VectorValue offset;           ///< from the reference node to the centre of mass, m
   std::string frame;            ///< axes of inertia and offset; empty: the global ones
   bool hasInertia = false, hasOffset = false;  ///< true if given
 };
@@ -49,13 +50,13 @@ struct ForceSettings {
 
 struct Settings {
   std::map<std::string, frame::FrameSettings> frames;  ///< [name]
-  std::vector<SpringSettings> springs;                 ///< these are sorted by name
+  std::vector<SpringSettings> springs;                 ///< sorted by name, like the lists below
   std::vector<BushingSettings> bushings;
   std::vector<MassSettings> masses;
   std::vector<ForceSettings> forces;
 
-  /// Reads the options. Throws Error for a spring without one of its ends, a mass that is not
-  /// positive and an inertia of a wrong length.
+  /// Reads the options. Throws Error for a spring without one of its ends, for a mass that is not
+  /// positive, and for an inertia with a wrong number of values.
   static Settings given();
 };
 
@@ -64,8 +65,8 @@ std::vector<mesh::GroupRequest> attachedGroups(const Settings& settings);
 
 /// Returns true if the loads of a group scale with the pressure of the sweep.
 bool isHydraulic(const std::string& group);
-/// Throws Error for -load_<group>_hydraulic without a load: a force, a moment, or a pressure in
-/// these options.
+/// Throws Error if -load_<group>_hydraulic is given for a group without a load, that is, without a
+/// force, a moment or a value of `pressure`.
 void rejectIdleHydraulic(const RealOption& pressure);
 
 /// Return names of options with their dash, for messages.

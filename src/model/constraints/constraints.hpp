@@ -15,14 +15,14 @@ namespace squeal::constraints {
 using mesh::Matrix3;
 using mesh::Point;
 
-/// A factor times a component of a node: the row of the component in nodal vectors of all ranks,
-/// dimension · global node + component.
+/// A factor times a component of a node. The component is given by its row in the distributed nodal
+/// vectors, dimension · global node + component.
 struct Term {
   PetscInt row;
   double factor;
 };
 
-/// A component of a node that depends on others by an equation:
+/// A component of a node that depends on other components by an equation:
 ///   u = constant + Σ factor · others.
 struct DependentComponent {
   PetscInt row;  ///< owned node · dimension + component
@@ -41,19 +41,20 @@ struct EquationOrigin {
   int group = -1;      ///< of the support, index into Constraints::groups; −1: an option
   int option = -1;     ///< index into Constraints::equations; −1: a support
   PetscInt node = -1;  ///< global node that the support holds
-  Point direction{};   ///< in which it holds the node
+  Point direction{};   ///< direction in which the support holds the node
 };
 
-/// A component whose force determines the forces of its equations. An equation Σ w u = value exerts
-/// the forces λ w. Here λ is the sum of factor · force over the pivots of the equation.
+/// A component for which the equations were solved (a pivot). An equation Σ w u = value exerts the
+/// forces λ w. Here λ is the sum of factor · force over all pivots that have the equation among
+/// their origins; force is the force at the pivot.
 struct EquationPivot {
   PetscInt row;                                 ///< owned node · dimension + component
   std::vector<std::pair<int, double>> origins;  ///< index into Constraints::origins, and factor
 };
 
 /// The components that are held at the nodes owned by this rank. They refer to the axes of the
-/// node: x, y, z or, where a support is in other directions, turned axes. In turned axes, the held
-/// components come first.
+/// node. These are x, y, z or, if a support acts in other directions, turned axes, of which the
+/// held ones come first.
 struct Constraints {
   std::vector<unsigned char> held;  ///< [owned node · dimension + component] 1 if held
   std::vector<int> heldBy;  ///< [owned node · dimension + component] index into groups, or −1
@@ -61,16 +62,16 @@ struct Constraints {
   /// [owned node · dimension + component] prescribed value where held, m, or rad
   std::vector<double> displacement;
   std::map<PetscInt, Matrix3> axes;  ///< [owned node] turned axes, by rows
-  /// [owned node with turned axes] the directions as given, which may be oblique, without those
-  /// that follow from others
+  /// [owned node with turned axes] the held directions as given, which need not be orthogonal.
+  /// Directions that depend linearly on earlier ones are omitted
   std::map<PetscInt, std::vector<HeldDirection>> given;
   bool anyTurned = false;                     ///< any rank has turned axes
   std::vector<DependentComponent> dependent;  ///< owned by this rank
   bool anyDependent = false;                  ///< on any rank
   std::vector<EquationOrigin> origins;        ///< of all equations, the same on all ranks
   std::vector<EquationPivot> pivots;          ///< owned by this rank
-  /// [owned node · dimension + component] 1 if supports act on the Cartesian component directly, or
-  /// on nodes that follow it
+  /// [owned node · dimension + component] 1 if supports act on the Cartesian component, directly or
+  /// through nodes that follow it
   std::vector<unsigned char> supported;
   std::vector<EquationSettings> equations;
   /// [owned node · dimension + component] Values of held components that no sweep scales: the
@@ -87,13 +88,13 @@ struct Constraints {
 /// the others.
 PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term);
 
-/// Not collective. Fixes the length of the bolt with this section, an index into Mesh::sections.
-/// `opening` is the displacement of its reference node along the normal, m.
+/// Not collective. Fixes the length of a bolt, given by its section, an index into Mesh::sections.
+/// `opening` is the displacement of the section's reference node along the normal, m.
 void lockBolt(const mesh::Mesh& mesh, int section, double opening, Constraints& constraints);
 
 /// Collective. Returns the supports. Throws Error for a component that is given twice or does not
-/// exist in the dimension, and for two groups that disagree. Warns of displacements of components
-/// that are not held.
+/// exist in the dimension, and for two groups that displace a node differently. Warns of
+/// displacements given for components that are not held.
 Constraints constraintsOf(const mesh::Mesh& mesh, const Settings& settings);
 
 }  // namespace squeal::constraints

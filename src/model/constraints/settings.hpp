@@ -32,7 +32,7 @@ struct CouplingSettings {
   std::string name, reference;
   CouplingKind kind = CouplingKind::rigid;
   std::vector<std::string> groups;  ///< groups of nodes, or reference nodes
-  std::vector<double> weights;      ///< [group] of each of its nodes, if distributed
+  std::vector<double> weights;      ///< [group] weight of each of its nodes, if distributed
   std::string components;           ///< coupled components of the nodes, some of xyz, if rigid
   std::string frame;                ///< the axes of these components; empty: the global ones
   bool pinned = false;              ///< rotations of reference nodes in the groups stay free
@@ -56,8 +56,9 @@ struct EquationSettings {
 /// A bolt: a section of a body whose two sides are drawn together.
 struct BoltSettings {
   std::string name;
-  std::string section;               ///< surface group inside a body
-  std::optional<double> force = {};  ///< tension of the first step, N; then the length is fixed
+  std::string section;  ///< surface group inside a body
+  /// Tension in the first step, N; the length is fixed afterwards.
+  std::optional<double> force = {};
   std::optional<double> shortening = {};  ///< fixed shortening, m, instead of a force
   std::optional<VectorValue> axis = {};   ///< of the bolt
 };
@@ -69,17 +70,18 @@ struct Settings {
   std::vector<CouplingSettings> couplings;             ///< sorted by name
   std::vector<EquationSettings> equations;             ///< sorted by name
   std::vector<BoltSettings> bolts;                     ///< sorted by name
-  bool boltsUnderPressure = false;  ///< the loads that the sweep scales act in the first step
+  /// The loads that the sweep scales already act in the first step.
+  bool boltsUnderPressure = false;
   std::map<std::string, std::string> imageOf;  ///< [group] the group whose image it is
 
-  /// Reads the options. Throws Error for options that need others, for a reference node that
-  /// nothing uses or that does not exist, for weights that do not fit the groups, and for an
-  /// equation that cannot be read.
+  /// Reads the options. Throws Error for an option without another one that it requires, for a
+  /// reference node that nothing uses or that does not exist, for weights that do not fit the
+  /// groups, and for an equation that cannot be read.
   static Settings given();
 };
 
-/// Return groups for the mesh reader: those with supports, couplings or equations, and periodic
-/// pairs of groups.
+/// Return what the mesh reader needs: the groups with supports, couplings or equations, and the
+/// periodic pairs of groups.
 std::vector<mesh::GroupRequest> constrainedGroups(const Settings& settings);
 std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings);
 /// Returns the sections of the bolts, for the mesh reader.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The state of each contact node, and whether the ranks agree on it.
+/// The states of the contact nodes, and their comparison over all ranks.
 #include <petscsys.h>
 
 #include <cstddef>

@@ -3,28 +3,29 @@
 /// Contact as a change of variables, with trial functions T and test functions L(f):
 ///   u = T x + p u0 + u_g,   L(f) = T + f Nᵀ S   [3.6].
 /// Here u are the nodal displacements, x the unknowns, and f the coefficient of friction. u0 are
-/// the prescribed displacements, scaled by the pressure factor p, and u_g closes the initial gaps.
-/// src/README.md lists all symbols, and docs/method.md has the equations in brackets. Lists marked
-/// [contact node] have one entry per contact node of this rank.
+/// the prescribed displacements, which the pressure factor p scales, and u_g closes the initial
+/// gaps. N and S are explained below. src/README.md lists all symbols, and docs/method.md has the
+/// equations in brackets. Lists marked [contact node] have one entry per contact node of this rank.
 ///
-/// At each contact node, here of the pad (the slave side), the variables z are the tangential
-/// displacements and the gap g. At all other nodes they are the Cartesian displacement. With the
-/// matrix A of this change and the unit normal n from disc (D) to pad (P):
+/// At each contact node, here a node of the pad (the slave side), the variables z are the
+/// tangential displacements and the gap g. At all other nodes they are the Cartesian components of
+/// the displacement. A is the matrix of this change of variables, and n the unit normal from disc
+/// (D) to pad (P):
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
-/// A selection B removes held components and periodic images from z, so that T = A B.
+/// A selection B removes held components, periodic images and closed gaps from z: T = A B.
 ///
 /// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
-/// nodal gaps g = E h [M.12]. With h, a uniform pressure has positive forces at all nodes.
-/// gap_basis.hpp defines E.
+/// nodal gaps g = E h [M.12]. The forces that belong to h are positive at all nodes for a uniform
+/// pressure. gap_basis.hpp defines E.
 ///
-/// Friction enters through two matrices; their only rows that are not empty belong to the gaps of
-/// contact nodes. N extracts the normal forces from the nodal forces r. S computes the slip from
-/// the displacement jump [u] = u_P − u_D between pad and disc, along the sliding direction τ,
-/// weighted by the friction law φ:
+/// Friction enters through two matrices, N and S. Only their rows that belong to the gaps of
+/// contact nodes are nonempty. N extracts the normal forces from the nodal forces r. S computes the
+/// slip from the displacement jump [u] = u_P − u_D between pad and disc, along the sliding
+/// direction τ, weighted by the friction law φ:
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u],   u = T x.
 /// The test functions add the friction force due to R_N to the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.
-/// This force is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc. If interfaces
+/// This force is R_T = −f φ R_N τ on the pad [3.4], and the opposite one on the disc. If interfaces
 /// have their own coefficients, S_0 + f S_1 replaces f S [M.56]. S_0 has the rows of interfaces
 /// with a fixed coefficient, multiplied by it. S_1 has the rows of the other interfaces, multiplied
 /// by their factor on the swept friction f.
@@ -52,8 +53,8 @@ struct Slip {
   double slope = 0;   ///< dφ/d|w|, s/m
   interfaces::Coefficient coefficient;  ///< factor of φ; zero without sliding
 
-  /// Return the coefficient of friction of the node for the value `swept` of the sweep, and its
-  /// derivative with respect to |w|, s/m.
+  /// Return the coefficient of friction of the node for the value `swept` of the swept friction,
+  /// and its derivative with respect to |w|, s/m.
   double friction(double swept) const { return coefficient.at(swept) * law; }
   double frictionSlope(double swept) const { return coefficient.at(swept) * slope; }
 };
@@ -74,16 +75,17 @@ struct Contact {
   /// Returns true if the slip is the same at all points of a sweep, that is, without convective
   /// terms and with a constant friction law.
   bool slipIsConstant() const { return !sliding.convected && law.constant(); }
-  /// Collective. Returns the slip, [contact node], at the speed factor v. The relative velocity is
+  /// Collective. Returns the slip, [contact node], at the speed factor v (`speed`). With V the base
+  /// velocity of the disc or obstacle, the relative velocity is
   ///   w = −v (V + D u_D)   [2.15],
-  /// projected on the tangent plane. Without convective terms, or if `displacement` u is null, it
+  /// projected on the tangent plane. Without convective terms, or if u (`displacement`) is null, it
   /// is w = −v V.
   std::vector<Slip> slip(double speed, Vec displacement) const;
-  /// Collective. Returns the normal components E⁻ᵀ R_N of the forces at the nodes, given the
-  /// forces R_N that belong to the gap coefficients h. Both lists are [contact node], in newtons.
-  /// They are equal on faces whose E is the identity.
+  /// Collective. Returns the normal components E⁻ᵀ R_N of the forces at the nodes, given the forces
+  /// R_N that belong to the gap coefficients h. Both lists are [contact node], in newtons. The two
+  /// lists are equal on faces whose E is the identity.
   std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
-  /// Collective. Returns the same, with R_N = 0 at the nodes that are not closed.
+  /// Collective. Does the same with R_N set to 0 at the nodes that are not closed.
   std::vector<double> nodalForce(std::vector<double> normalForce, const Mask& closed) const;
   /// Collective. Returns the gaps E h at the nodes, given the gap coefficients h. Both lists are
   /// [contact node], in metres.
@@ -92,9 +94,10 @@ struct Contact {
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
   /// Collective. Returns E⁻¹ v for gaps v at the nodes; both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
-  /// Collective. Adds the force on each node of a soft layer to the node of the face below it, sets
-  /// it to zero at the layer node, and returns the result. Tangentially, the two nodes move
-  /// together. The two normal forces by which a layer acts on its own ends then cancel.
+  /// Collective. Returns the nodal forces after adding the force on each layer node to the force on
+  /// the node of the face below it. At the layer node the force is then zero. Tangentially, the two
+  /// nodes move together. Along the normal, the two forces by which a layer acts on its own ends
+  /// cancel in the sum.
   OwnedVec movedFromLayers(Vec forces) const;
   /// Returns the exponents of the swept friction that occur in the coefficients of the interfaces:
   /// the list contains 0 if any coefficient is fixed, and 1 if any is swept. The same on all ranks.

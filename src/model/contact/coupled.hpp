@@ -31,12 +31,12 @@ struct Projections {
   Projection stiffness;          ///< projections of K, prestress included
   Projection mass;               ///< projections of M
   Projection damping;            ///< projections of C
-  Projection gyroscopic;         ///< projections of G for the base motions
-  Projection rotationStiffness;  ///< projections of K^R for the base motions
+  Projection gyroscopic;         ///< projections of G, at the speed factor 1
+  Projection rotationStiffness;  ///< projections of K^R, at the speed factor 1
 };
 
-/// The projections with all contact open and all sticking nodes released. The projections of every
-/// active set are submatrices of these, since its T consists of columns of this T.
+/// The projections with all contact open and all sticking nodes released. The projections for every
+/// active set are submatrices of these, since the T of an active set consists of columns of this T.
 class OpenProjections {
  public:
   /// Collective. Projects the matrices of the bodies.
@@ -58,19 +58,19 @@ class OpenProjections {
 class CoupledSystem : public factor::AssociatedSystem {
  public:
   /// Collective. Projects the matrices of the bodies. Sticking nodes can move along the surface if
-  /// they are open, or released in `set`. `prestress`, which may be null, is added to K and has its
-  /// pattern; it is borrowed during this call.
+  /// they are open, or released in `set`. `prestress`, which may be null, is added to K and must
+  /// have the pattern of K; it is borrowed during this call.
   CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact, ActiveSet set,
                 Mat prestress = nullptr);
-  /// Collective. Takes these matrices from known projections instead of computing them, without
-  /// prestress.
+  /// Collective. Takes the projected matrices from known projections, without prestress, instead of
+  /// computing them.
   CoupledSystem(const OpenProjections& open, const Contact& contact, ActiveSet set);
   const Transformation& transformation() const { return projections_.transformation; }
   const Projections& projections() const { return projections_; }
   /// Returns the active set; borrowed.
   const ActiveSet& activeSet() const { return activeSet_; }
   const Mask& closed() const { return activeSet_.closed; }
-  /// Returns the number of contact nodes that are not active, over all ranks.
+  /// Returns the number of contact nodes that are open, over all ranks.
   PetscInt openNodes() const { return openNodes_; }
 
  private:

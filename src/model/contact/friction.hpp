@@ -13,14 +13,14 @@ class FrictionLaw {
   FrictionLaw() = default;
   /// Returns 1 + (r − 1) exp(−|w|/v) for the static ratio r and the decay speed v, m/s.
   static FrictionLaw exponential(double staticRatio, double decaySpeed);
-  /// Returns the law that interpolates linearly between these factors at ascending speeds, m/s. It
-  /// is constant beyond the table.
+  /// Returns the law that interpolates linearly between these factors at ascending speeds, m/s.
+  /// Beyond both ends of the table it is constant.
   static FrictionLaw table(std::vector<double> speeds, std::vector<double> factors);
   bool constant() const { return kind_ == Kind::constant; }
   /// Returns φ at the sliding speed |w|, m/s.
   double value(double speed) const;
-  /// Returns dφ/d|w|, s/m. At a knot of a table it is the slope of the interval that begins there,
-  /// and zero at the last one.
+  /// Returns dφ/d|w|, s/m. At a point of a table it is the slope of the interval that begins there,
+  /// and zero at the last point.
   double slope(double speed) const;
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Hourglass modes of reduced integration that neither neighbours nor supports hold.
+/// Hourglass modes of cells with reduced integration that neither neighbouring cells nor supports
+/// prevent.
 #include <string>
 
 #include "model/contact/contact.hpp"
@@ -10,16 +11,16 @@
 
 namespace squeal::contact {
 
-/// Collective. Describes the hourglass modes without strain energy that neighbours, supports and
-/// this contact do not prevent: their body, their number and one of their cells. Returns an empty
-/// text if there are none. No body may have a rigid-body mode with this contact. Only the cells in
-/// Bodies::exposed can have such modes. The first 2000 of them are examined, and the others are
-/// treated as rigid.
+/// Collective. Describes the hourglass modes without strain energy that neighbouring cells,
+/// supports and this contact do not prevent: their body, their number and one of their cells.
+/// Returns an empty text if there are none. With this contact, no body may have a rigid-body mode.
+/// Only the cells in Bodies::exposed can have such modes. The first 2000 of them are examined, and
+/// the others are treated as rigid.
 std::string hourglassModes(const mesh::Mesh& mesh, const Contact& contact,
                            const elasticity::Bodies& bodies, const SupportingContact& holding);
 
-/// Collective. Throws Error if there are such modes with closed frictionless contact. Warns if not
-/// all exposed cells are examined.
+/// Collective. Throws Error if closed frictionless contact does not prevent all hourglass modes.
+/// Warns if not all exposed cells are examined.
 void rejectHourglassModes(const mesh::Mesh& mesh, const Contact& contact,
                           const elasticity::Bodies& bodies);
 

@@ -15,17 +15,17 @@ using mesh::Point;
 struct Kinematics {
   OwnedMat matrix;     ///< A, N×N
   OwnedVec offset;     ///< u0, N entries, m: held displacements and displacements of obstacles
-  OwnedVec gapOffset;  ///< u_g, N entries, m: closes the gaps without load, and shortens bolts
-  /// [owned node · dimension + component of z] 1 if it is an unknown; all gaps count as unknowns
+  OwnedVec gapOffset;  ///< u_g, N entries, m: closes the initial gaps, and shortens bolts
+  /// [owned node · dimension + component of z] 1 if it is an unknown; 1 for all gaps
   std::vector<unsigned char> free;
 };
 
 /// Returns the row of z and of N that belongs to the gap of a contact node.
 PetscInt gapRow(const mesh::Mesh& mesh, const interfaces::ContactNode& node);
 
-/// Returns the number of blocks per row of blocks, [owned node], at least one, of a matrix that
-/// connects the slaves of this level with themselves and their masters. Level 0 means the contact
-/// nodes of all levels.
+/// Returns the number of blocks in each row of blocks, [owned node], at least one, of a matrix that
+/// connects the slaves of this level with themselves and with their masters. Level 0 stands for the
+/// contact nodes of all levels.
 std::vector<PetscInt> blocksOfRows(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
                                    int level);
 

@@ -15,12 +15,12 @@ namespace squeal::contact {
 /// A connected part of the mesh that can move without strain.
 struct RigidBodyMode {
   std::string body, motion;        ///< names of its bodies, and the rigid motion in words
-  std::vector<std::string> bolts;  ///< those whose sections open with it
+  std::vector<std::string> bolts;  ///< bolts whose sections open in this motion
   bool isReference = false;        ///< the part is a reference node
 };
 
 /// Collective. Returns the rigid-body mode that constraints, springs, bushings and this contact
-/// support least. Returns none if all parts are supported.
+/// resist least; none if all parts are supported.
 std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact& contact,
                                            const elasticity::Bodies& bodies,
                                            const SupportingContact& holding);

@@ -9,7 +9,7 @@ struct Settings {
   FrictionLaw law;
 
   /// Reads the options `-friction_*`. Throws Error for a table whose lists differ in length or
-  /// whose speeds do not ascend, and for options of another law.
+  /// whose speeds do not ascend, and for options of a law that is not selected.
   static Settings given();
 };
 

@@ -12,7 +12,7 @@
 
 namespace squeal::contact {
 
-/// The frictionless contact that supports bodies.
+/// The frictionless contact that supports the bodies.
 struct SupportingContact {
   bool any = true;     ///< false: contact supports nothing
   Mask closed = {};    ///< [contact node] 0 if it is open; empty: all are closed
@@ -22,27 +22,30 @@ struct SupportingContact {
 
 /// A condition on the displacement of an owned node,
 ///   d·u(x) − Σ_l w_l d·u_l = 0,
-/// with the masters l of contact, a tie or periodicity, or those of a coupling with their blocks.
+/// where l are the masters of contact, a tie or periodicity. A coupling has other masters, with
+/// blocks in place of the weights w_l.
 struct Support {
   PetscInt node;  ///< local node
   Point position, direction;
-  Point masterPosition{};  ///< of the masters as points of their parts, see forEachSupport()
+  Point masterPosition{};  ///< position of the masters, as a point of their parts, see
+                           ///< forEachSupport()
   std::span<const coupling::PartShare> masterParts{};
   std::span<const coupling::Weight> masters{};
   std::span<const constraints::CoupledMaster> coupled{};  ///< masters of a coupling
   int component = 0;                                      ///< row of their blocks
 };
 
-/// Not collective. Calls `visit` for each condition of constraints, springs (Bodies::springs, may
-/// be null), periodicity, ties, couplings and this contact on nodes of this rank. Springs count as
-/// supports, however soft. Both sides of contact have the position of the slave's node: the facets
-/// of a curved master would otherwise seem to restrain a free rotation.
+/// Not collective. Calls `visit` for each condition that constraints, springs, periodicity, ties,
+/// couplings and this contact impose on nodes of this rank. `springs` is Bodies::springs, which may
+/// be null; even the softest springs are treated as supports. The masters of a contact node are
+/// assigned the position of that node. Otherwise the facets of a curved master would seem to
+/// restrain a rotation that is free.
 void forEachSupport(const mesh::Mesh& mesh, const Contact& contact, Mat springs,
                     const SupportingContact& holding,
                     const std::function<void(const Support&)>& visit);
 
 /// Numbers the rigid motions of all parts: for each part 3 translations and 3 rotations (2 and 1 in
-/// the plane), with rotations in units of 1/length.
+/// plane problems), with rotations in units of 1/length.
 class RigidMotions {
  public:
   RigidMotions(const mesh::Mesh& mesh, Point centre, double length)
@@ -53,16 +56,17 @@ class RigidMotions {
         length_(length) {}
   int size() const { return size_; }
   int perPart() const { return perPart_; }
-  /// Adds the coefficients of factor · direction·u(x), for a point x of part `part`, to the row.
+  /// Adds to the row the coefficients of factor · direction·u(x) for a point x of part `part`.
   void add(std::vector<double>& row, int part, const Point& x, const Point& direction,
            double factor) const;
-  /// Adds the coefficients of factor · direction·θ of part `part`, in the components of a reference
-  /// node, to the row.
+  /// Adds to the row the coefficients of factor · direction·θ for part `part`. `direction` is in
+  /// the components of a reference node.
   void addRotation(std::vector<double>& row, int part, const Point& direction, double factor) const;
-  /// Adds the coefficients of factor · direction·u of a node of this rank to the row.
+  /// Adds to the row the coefficients of factor · direction·u for a node of this rank.
   void addNode(const mesh::Mesh& mesh, PetscInt node, const Point& direction, double factor,
                std::vector<double>& row) const;
-  /// Subtracts the coefficients of a component that follows a master of a coupling from the row.
+  /// Subtracts from the row the coefficients of a master of a coupling, for one component of the
+  /// node that follows it.
   void addMaster(const constraints::CoupledMaster& master, int component,
                  std::vector<double>& row) const;
 
@@ -72,8 +76,8 @@ class RigidMotions {
   double length_;
 };
 
-/// Collective. Returns the rigid motions about the centre of the mesh, with its largest extent as
-/// length.
+/// Collective. Returns the rigid motions about the centre of the mesh. The largest extent of the
+/// mesh is the length.
 RigidMotions rigidMotions(const mesh::Mesh& mesh);
 
 /// The Gram matrix Σ cᵀc of rows c of coefficients.
@@ -82,12 +86,12 @@ class GramMatrix {
   explicit GramMatrix(int size) : row(size), sum(size, size) {}
   std::vector<double> row;  ///< the row to add
   linalg::DenseMatrix sum;
-  /// Not collective. Adds the row, and clears it.
+  /// Not collective. Adds cᵀc of the row to the sum, and clears the row.
   void keep();
 };
 
-/// Collective. Adds the rows of equations of the options, and of springs and bushings between
-/// nodes. Rank 0 adds them all.
+/// Collective. Adds the rows of the equations that options give, and of springs and bushings
+/// between nodes. Rank 0 adds all of them.
 void addEquations(const mesh::Mesh& mesh, const Contact& contact, const elasticity::Bodies& bodies,
                   const RigidMotions& motions, GramMatrix& gram);
 

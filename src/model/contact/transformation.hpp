@@ -11,20 +11,19 @@
 
 namespace squeal::contact {
 
-/// The trial functions T for one selection of gaps as unknowns.
+/// The trial functions T for one choice of the gaps that are unknowns.
 struct Transformation {
   OwnedMat selection;  ///< B, N×n
   OwnedMat trial;      ///< T = A B, N×n
   /// [contact node] global column of its gap; −1 if the gap is not an unknown
   std::vector<PetscInt> gapColumn;
   PetscInt ownedColumns = 0, columns = 0;  ///< columns of this rank, and of all ranks (n)
-  /// [unknown of this rank] its row of B on this rank, ascending: dimension times the owned node,
-  /// plus the component of z
+  /// [unknown of this rank] its local row of B, ascending: dimension · owned node + component of z
   std::vector<PetscInt> rows;
 };
 
-/// The unknowns of this rank of a system with open contact: those shared with the system with
-/// closed contact, and the others. Both lists ascend and count from 0 on each rank.
+/// This rank's unknowns of a system with open contact: those that it shares with the system with
+/// closed contact, and the others. Both lists ascend, and their numbers begin with 0 on each rank.
 struct ReleasedUnknowns {
   std::vector<PetscInt> shared, released;
 };
@@ -33,8 +32,8 @@ struct ReleasedUnknowns {
 ReleasedUnknowns compared(const Transformation& open, const Transformation& closed);
 
 /// Collective. Returns T, which excludes the gaps of closed contact nodes from the unknowns. A node
-/// of a sticking interface does not move along its master unless it is released; an empty mask
-/// releases none.
+/// of a sticking interface does not move along its master unless it is released; if the mask of
+/// released nodes is empty, none is.
 Transformation transformationOf(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
                                 const Kinematics& kinematics, const ActiveSet& set);
 

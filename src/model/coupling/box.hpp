@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Boxes that bound faces in space: a cheap test that excludes most pairs of faces.
+/// Bounding boxes of faces, for a cheap test that excludes most pairs of faces.
 #include "model/mortar/face.hpp"
 
 namespace squeal::coupling {
@@ -14,7 +14,7 @@ struct Box {
 };
 
 /// Returns a box that contains all points of a face of first or second order, not only its nodes,
-/// within round-off. A straight face has the box of its nodes. Not collective.
+/// within round-off. For a face with straight edges, this is the box of its nodes. Not collective.
 Box boxOf(const Face& face);
 
 /// Returns the box moved outwards on all sides by this distance, m.

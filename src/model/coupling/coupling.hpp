@@ -2,9 +2,9 @@
 #pragma once
 /// Coupling of the nodes of a slave surface to a master surface whose mesh does not match:
 ///   u_i = Σ_l P_il u_l + (G J)_i,
-/// where l are nodes of the master, and also nodes of the slave without a condition. J_j is the
-/// mean jump at the pivot j, and G combines mean jumps to jumps at nodes. Primaries replace the
-/// images of periodic nodes.
+/// where l are nodes of the master, and also nodes of the slave without a condition. The other
+/// nodes of the slave are called pivots. J_j is the mean jump at the pivot j, and G maps mean jumps
+/// to jumps at nodes. Periodic images are replaced by their primaries.
 #include <functional>
 #include <string>
 #include <vector>
@@ -34,14 +34,14 @@ struct PartShare {
 struct SlaveNode {
   PetscInt node = 0;                   ///< local node
   std::vector<Weight> masters;         ///< row of P
-  std::vector<Weight> jumps;           ///< row of G, on pivots
-  std::vector<Weight> jumpsOf;         ///< row of G⁻¹, on pivots
+  std::vector<Weight> jumps;           ///< row of G; its nodes are pivots
+  std::vector<Weight> jumpsOf;         ///< row of G⁻¹; its nodes are pivots
   std::vector<Weight> convected;       ///< (V·∇) u_D at the node, 1/s; empty without a velocity
   std::vector<PartShare> masterParts;  ///< shares of the master's parts, none zero, sum 1
-  int masterBody = -1;                 ///< index into Mesh::bodies of the largest share
-  double area = 0;                     ///< W: ∫ ψ dA over the covered part, m² (m in the plane)
-  double wholeArea = 0;                ///< ∫ φ̃ dA over all faces, covered or not, m² (m)
-  double gap = 0;  ///< mean distance of the master from the slave along the slave's normal, m
+  int masterBody = -1;                 ///< body with the largest share, index into Mesh::bodies
+  double area = 0;       ///< W: ∫ ψ dA over the covered part, m² (m in plane problems)
+  double wholeArea = 0;  ///< ∫ φ̃ dA over all faces, covered or not, m² (m)
+  double gap = 0;        ///< mean distance of the master from the slave along the slave's normal, m
   /// Σ P_il x_l − x_i, m: the vector from the node to its position on the master. For a periodic
   /// image l, x_l is the position of the image.
   Point offset{};
@@ -51,7 +51,7 @@ struct SlaveNode {
 struct SideReport {
   PetscInt faces = 0;      ///< faces of the group
   PetscInt nearFaces = 0;  ///< faces near the other side
-  double area = 0;         ///< area of all faces, m² (m in the plane)
+  double area = 0;         ///< area of all faces, m² (m in plane problems)
   double nearArea = 0;     ///< area of the faces near the other side, m² (m)
 };
 
@@ -59,13 +59,14 @@ struct Coupling {
   std::vector<SlaveNode> nodes;  ///< pivots owned by this rank, in the order of local nodes
   SideReport slave, master;
   double coveredArea = 0;  ///< of the slave, m² (m)
-  /// Nodes of partly covered slave faces without a condition: they are excluded, or less than a
-  /// hundredth of their area is covered.
+  /// Nodes without a condition at slave faces that are at least partly covered. These nodes are
+  /// excluded, or less than a hundredth of their area is covered.
   PetscInt droppedNodes = 0;
-  /// The excluded nodes of this rank, local nodes.
+  /// The excluded ones of these nodes, local nodes of this rank.
   std::vector<PetscInt> excluded;
-  PetscInt sliverFaces = 0;  ///< faces with too little cover for dual functions: lumped
-  double largestGap = 0;     ///< largest |gap| of an integration point, m
+  /// Faces with too little cover for dual functions; their terms are lumped.
+  PetscInt sliverFaces = 0;
+  double largestGap = 0;  ///< largest |gap| of an integration point, m
 };
 
 /// The surfaces of an interface and their largest distance.
@@ -80,14 +81,15 @@ struct Interface {
 using BodyVelocity = std::function<Point(int body, const Point& x)>;
 
 /// Collective. Couples the surfaces of an interface. `velocity`, which may be empty, is for the
-/// convective terms. Nodes of the slave with excluded[local node] set, the same on all ranks that
-/// have the node, get no condition. Within round-off, the result does not depend on the number of
-/// ranks. Throws Error for a slave face whose normal turns by more than 84°.
+/// convective terms. Nodes of the slave with excluded[local node] set get no condition; the flag
+/// must be the same on all ranks that have the node. Within round-off, the result does not depend
+/// on the number of ranks. Throws Error for a slave face whose normal turns by more than 84°.
 Coupling couple(const mesh::Mesh& mesh, const NodeExchange& exchange, const Interface& interface,
                 const BodyVelocity& velocity, const std::vector<unsigned char>& excluded);
 
-/// Collective. Returns true if the master is the finer side, by the mean area of the faces near the
-/// other side. Slaves should be the finer side.
+/// Collective. Returns true if the master is clearly finer than the slave: if the mean area of its
+/// faces near the other side is less than 0.8 of that of the slave. The slave should be the finer
+/// side.
 bool masterIsFiner(const mesh::Mesh& mesh, const Interface& interface);
 
 }  // namespace squeal::coupling

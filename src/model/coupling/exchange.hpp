@@ -8,20 +8,20 @@
 
 namespace squeal::coupling {
 
-/// The values of a node are those of its periodic primary: images and their primaries count as one
-/// node.
+/// Combines values at nodes. A periodic image and its primary are treated as one node.
 class NodeExchange {
  public:
   /// Collective.
   explicit NodeExchange(const mesh::Mesh& mesh);
   /// Returns the local number of a global node of this rank's cells.
   PetscInt local(PetscInt globalNode) const;
-  /// Returns the global number of the primary of a local node, its own if it is not an image.
+  /// Returns the global number of the primary of a local node, or of the node itself if it is not
+  /// an image.
   PetscInt primary(PetscInt localNode) const { return primary_[localNode]; }
   /// Collective. Replaces the values, [local node], by the sums over all ranks and images.
   void sum(std::vector<double>& values) const { combine(values, ADD_VALUES); }
-  /// Collective. Replaces the nonnegative values, [local node], by the largest over all ranks and
-  /// images.
+  /// Collective. Replaces the values, [local node], which must not be negative, by the largest ones
+  /// over all ranks and images.
   void largest(std::vector<double>& values) const { combine(values, MAX_VALUES); }
 
  private:

@@ -7,25 +7,26 @@
 
 namespace squeal::coupling {
 
-/// The pivots of this rank and, on all local nodes, the factors W/D of their jumps, which are zero
-/// at nodes that are not pivots.
+/// The pivots of this rank, and the factors W/D of the jumps at all local nodes. The factors are
+/// zero at nodes that are not pivots.
 struct Pivoting {
   std::vector<PetscInt> owned;  ///< local nodes, ascending
   std::vector<double> ratio;    ///< [local node]
 };
 
-/// Returns the nodes with a condition. Not collective.
+/// Returns the pivots, that is, the slave nodes with a condition. Not collective.
 Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const SlaveBasis& basis,
                   const Sums& sums);
 
-/// The matrices of one coupling, with a row per node, empty unless the node is a pivot.
+/// The matrices of one coupling. They have a row for each node, which is empty unless the node is a
+/// pivot.
 struct Matrices {
   OwnedMat masters, jumps, jumpsOf, convected;  ///< P, G, G⁻¹, rows of SlaveNode::convected
   OwnedMat parts, bodies;                       ///< shares, a column per part or body
   std::vector<Point> offsets;                   ///< SlaveNode::offset, [pivot of this rank]
 };
 
-/// Collective. Returns the matrices. It consumes the triples of the sums.
+/// Collective. Returns the matrices, and consumes the triples of the sums.
 Matrices matricesOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
                     const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
                     const Pivoting& pivoting, Sums& sums);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Repetition of surfaces on a periodic mesh, where a surface continues beyond its end at the other
-/// end.
+/// Repetition of surfaces on a periodic mesh: a surface that ends at one end of the mesh continues
+/// at the other end.
 #include <vector>
 
 #include "model/mesh/mesh.hpp"
@@ -9,9 +9,10 @@
 
 namespace squeal::coupling {
 
-/// Collective. Returns the translations, m, by which faces of these surfaces repeat: from primaries
-/// to their images on the connected parts of the mesh with these faces, the opposite ones, and
-/// their differences. Empty without images.
+/// Collective. Returns the translations, m, by which faces of these surfaces repeat. These are the
+/// shifts from primaries to their images on the connected parts of the mesh that have such faces,
+/// the opposite shifts, and the differences of two shifts. The list is empty if there are no
+/// images.
 std::vector<mesh::Point> translations(const mesh::Mesh& mesh,
                                       const std::vector<mortar::Face>& first,
                                       const std::vector<mortar::Face>& second);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Sums of the couplings of single slave faces over the nodes of the mesh.
+/// Sums, at the nodes of the mesh, of the terms of single slave faces.
 #include <array>
 #include <vector>
 
@@ -17,17 +17,17 @@ using elasticity::Triples;
 /// are added.
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples triples, PetscInt columns = PETSC_DETERMINE);
 
-/// The sums over the faces of this rank. Rows and columns are primaries.
+/// The sums over the faces of this rank. Rows and columns are numbers of primaries.
 struct Sums {
   Triples masters;                         ///< M − B, [pivot][node of the master or dropped node]
   Triples convected;                       ///< C
   Triples parts;                           ///< M by connected parts of the master
   Triples bodies;                          ///< M by bodies of the master
-  std::vector<double> slave, weight, gap;  ///< D, W, G, [local node], over all ranks
-  /// Σ M_jl (x_l − x_j) − Σ B_jo (x_o − x_j), [component][local node], over all ranks; images count
-  /// at their own positions
+  std::vector<double> slave, weight, gap;  ///< D, W, G, [local node], summed over all ranks
+  /// Σ M_jl (x_l − x_j) − Σ B_jo (x_o − x_j), [component][local node], summed over all ranks;
+  /// images have their own positions
   std::array<std::vector<double>, 3> offset;
-  PetscInt sliverFaces = 0;  ///< FaceTerms without dual functions
+  PetscInt sliverFaces = 0;  ///< faces without dual functions (FaceTerms::dual)
 };
 
 /// Collective. Returns the sums.

@@ -22,16 +22,16 @@ struct Triples {
   }
 };
 
-/// The symmetry of a matrix. Contributions are summed in any order. A `rounded` matrix is therefore
-/// symmetric only within round-off. `symmetric` and `skew` matrices are made exactly symmetric or
-/// skew.
+/// The symmetry of a matrix. Since contributions are summed in an arbitrary order, a `rounded`
+/// matrix is symmetric only within round-off. `symmetric` and `skew` matrices are made exactly
+/// symmetric or skew.
 enum class SymmetryClass { rounded, symmetric, skew };
 
 /// Collective. Returns the N×N matrix of the triples of all ranks, and consumes them.
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, SymmetryClass symmetry);
 
-/// Not collective. Appends the entries of the matrix of one element with these local nodes, whose
-/// rows and columns are [node][component]. It is row-major.
+/// Not collective. Appends the entries of the matrix of one element with these local nodes. The
+/// matrix is row-major, with rows and columns [node][component].
 void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
             const std::vector<double>& matrix);
 
@@ -41,7 +41,7 @@ using CellFilter = std::function<bool(const mesh::CellBlock&, std::size_t)>;
 /// Counts the nodes that share a cell with each node of this rank.
 struct NodePattern {
   std::vector<PetscInt> own, other;  ///< [owned node] nodes of this rank, and of other ranks
-  /// Collective. Counts over the cells of all ranks that `uses` selects.
+  /// Collective. Counts over those cells of all ranks that `uses` selects.
   NodePattern(const mesh::Mesh& mesh, const CellFilter& uses);
 };
 
@@ -53,8 +53,8 @@ class Assembly {
   /// object.
   Assembly(const mesh::Mesh& mesh, const NodePattern& pattern, bool diagonal);
   /// Not collective. Adds the matrix of one element with these local nodes. The matrix is
-  /// row-major. With `scalar`, it is [node][node] and repeats on each component; otherwise its rows
-  /// and columns are [node][component].
+  /// row-major. With `scalar`, it is [node][node] and is added for each component; otherwise its
+  /// rows and columns are [node][component].
   void add(std::span<const PetscInt> nodes, const std::vector<double>& matrix, bool scalar);
   /// Not collective. Adds a matrix with entries between the components of each node; it may be
   /// null.
@@ -91,15 +91,15 @@ struct InvertedCell {
   double ratio;    ///< jacobianRatio()
   bool byCorners;  ///< it is also inverted with straight edges
 };
-/// Not collective. Describes a cell that throws InvertedElement.
+/// Not collective. Describes a cell whose integration throws InvertedElement.
 InvertedCell invertedCell(const mesh::CellBlock& block, std::size_t e,
                           const std::vector<Point>& nodes);
 /// Collective. Throws Error on all ranks if any rank has inverted cells. The message contains their
 /// number, the worst Jacobian, the names of the first ten and the remedy.
 void failOnInverted(const mesh::Mesh& mesh, const std::vector<InvertedCell>& inverted);
 
-/// Collective. Warns in one line of folded() cells in use, with their number and the names of the
-/// first ten.
+/// Collective. Prints one warning of the cells that are folded() but usable, with their number and
+/// the names of the first ten.
 void warnOfFoldedCells(const mesh::Mesh& mesh);
 
 /// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell of this rank.

@@ -7,7 +7,7 @@
 
 namespace squeal::elasticity {
 
-/// A boundary face of the bodies; a line in the plane.
+/// A boundary face of the bodies; a line in plane problems.
 struct BoundaryFace {
   int type = 0;                 ///< gmsh element type
   std::vector<PetscInt> nodes;  ///< local nodes, in gmsh's order

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The axes of anisotropic materials: defined in all cells, and unchanged by the motion of the
-/// bodies, since matter that arrives at a place must have the law of the place.
+/// Checks of the axes of anisotropic materials. The axes must be defined in all cells, and the
+/// motion of a body must not change them: matter that arrives at a place must have the law of this
+/// place.
 #include <vector>
 
 #include "model/elasticity/motion.hpp"
@@ -13,9 +14,9 @@ namespace squeal::elasticity {
 /// Collective. Checks that the motion of each body leaves the laws of its materials unchanged: the
 /// law at a point, moved with the matter, is the law at the place that the point reaches. This is
 /// true for isotropic laws, for cylindrical axes about the axis of rotation, for an axis of
-/// transverse isotropy along it, and for uniform laws under translation. Otherwise throws Error
-/// with `convective` terms, and warns without them: under approximation A the axes stay at rest
-/// while the matter moves.
+/// transverse isotropy along the axis of rotation, and for uniform laws under translation.
+/// Otherwise throws Error with `convective` terms, and warns without them: under approximation A
+/// the axes stay at rest while the matter moves.
 void checkCarriedAxes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                       const std::vector<Motion>& motions, bool convective);
 

@@ -18,16 +18,17 @@ struct CarriedMass {
   int body;  ///< index into Mesh::bodies
 };
 
-/// Collective. Returns the masses at nodes of moving bodies and at reference nodes that couplings
-/// connect only with bodies of one motion. Omits masses that are connected with bodies of different
-/// motions, and warns of them. With convective terms, throws Error for a mass that is not steady in
-/// the axes of the vehicle. A rotating mass must have its centre on the axis and an inertia that is
-/// the same at all angles, both within a thousandth.
+/// Collective. Returns the masses at nodes of moving bodies, and at reference nodes that couplings
+/// connect only with bodies of the same motion. Omits masses that are connected with bodies of
+/// different motions, and warns of them. With convective terms, throws Error for a mass that is not
+/// steady in the axes of the vehicle: a rotating mass must have its centre on the axis of rotation
+/// and an inertia that is symmetric about this axis, both within a thousandth.
 std::vector<CarriedMass> carriedMasses(const mesh::Mesh& mesh, const Settings& settings,
                                        const std::vector<constraints::CouplingSettings>& couplings,
                                        const std::vector<Motion>& motions);
 
-/// Collective. Adds the centrifugal forces [M.91] of rotating masses to `forces`, N entries, N.
+/// Collective. Adds the centrifugal forces [M.91] of rotating masses to `forces`, which has N
+/// entries, in newtons.
 void addCentrifugal(const mesh::Mesh& mesh, const std::vector<CarriedMass>& masses,
                     const std::vector<Motion>& motions, Vec forces);
 

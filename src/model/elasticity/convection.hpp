@@ -19,7 +19,7 @@ struct ConvectiveTerms {
 
 /// Collective. Assembles the terms of these materials, [material group], and motions, [body].
 /// Throws Error if the matter of a moving body crosses the surface of the body or of one of its
-/// sections, since the place of the body, or the material at a place, then changes.
+/// sections, since the place of the body, or the material at a place, would then change with time.
 ConvectiveTerms convectiveTerms(const mesh::Mesh& mesh,
                                 const std::vector<material::Material>& materials,
                                 const std::vector<Motion>& motions);

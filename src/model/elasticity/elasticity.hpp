@@ -22,18 +22,21 @@ struct Bodies {
   OwnedMat stiffness;  ///< K, N×N, symmetric, block-diagonal over the bodies, grounded springs
                        ///< included, N/m
   OwnedMat mass;       ///< M, N×N, symmetric positive definite, kg
-  OwnedMat damping;  ///< C, N×N, symmetric, acting on rates in axes at rest, N·s/m; null if none
-  OwnedMat gyroscopic;  ///< G = 2∫ρ(Dφⱼ)·φᵢ for the base motions [4.10], N×N, exactly skew, N·s/m;
+  OwnedMat damping;  ///< C, N×N, symmetric, acts on rates in the axes of the vehicle, N·s/m; null
+                     ///< if none
+  OwnedMat gyroscopic;  ///< G = 2∫ρ(Dφⱼ)·φᵢ at the speed factor 1 [4.10], N×N, exactly skew, N·s/m;
                         ///< null without convective terms
-  OwnedMat rotationStiffness;  ///< K^R = −∫ρ(Dφⱼ)·(Dφᵢ) for the base motions [4.10], N×N, exactly
-                               ///< symmetric, N/m; null if G is
-  OwnedVec load;         ///< b, N entries, N: all loads, and centrifugal forces of the base motions
-  OwnedVec centrifugal;  ///< the centrifugal part of b, N entries, N
-  OwnedVec constantLoad;    ///< the part of b that no sweep scales, N entries, N; null if none
-  OwnedMat linkStiffness;   ///< the part of K of springs and bushings, N×N, N/m; null if none
-  OwnedMat layerStiffness;  ///< the part of K of compliant contact layers, N×N, N/m; null if none
+  OwnedMat rotationStiffness;  ///< K^R = −∫ρ(Dφⱼ)·(Dφᵢ) at the speed factor 1 [4.10], N×N, exactly
+                               ///< symmetric, N/m; null if G is null
+  OwnedVec load;  ///< b, N entries, in newtons: all loads, and the centrifugal forces at the speed
+                  ///< factor 1
+  OwnedVec centrifugal;    ///< the centrifugal part of b, N entries
+  OwnedVec constantLoad;   ///< the part of b that no sweep scales, N entries; null if none
+  OwnedMat linkStiffness;  ///< the part of K due to springs and bushings, N×N, N/m; null if none
+  /// The part of K due to compliant contact layers, N×N, N/m; null if none.
+  OwnedMat layerStiffness;
   std::vector<attachments::Form> links;  ///< springs and bushings, the same on all ranks
-  OwnedMat springs;  ///< the part of K of grounded springs, N×N, with entries between the
+  OwnedMat springs;  ///< the part of K due to grounded springs, N×N, with entries between the
                      ///< components of a node, N/m; null if none
   std::vector<Motion> motions;                ///< [body], base motions
   std::vector<CarriedMass> carried;           ///< point masses that move with a body
@@ -51,26 +54,27 @@ Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
                 const std::vector<constraints::CouplingSettings>& couplings,
                 const Settings& settings);
 
-/// Collective. Returns the bodies with the stiffness of compliant contact layers, N×N, N/m, which
-/// may be null.
+/// Collective. Returns the bodies after adding the stiffness of compliant contact layers, N×N, N/m,
+/// which may be null.
 Bodies withLayers(Bodies bodies, OwnedMat stiffness);
 
 /// Returns true if a material of this Poisson's ratio is so nearly incompressible that linear cells
-/// without incompatible modes lock: such a cell cannot deform at constant volume at each point of
-/// its rule.
+/// without incompatible modes lock: they cannot deform with a constant volume at every point of
+/// their quadrature rule.
 bool locks(double poisson);
 /// Collective. Returns the number of linear cells without incompatible modes, [material group].
 std::vector<PetscInt> linearCells(const mesh::Mesh& mesh, const Settings& settings);
 
-/// The contribution of one material group, a body or a section of one, to Bodies, on all nodal
-/// displacements. Its matrices and its vectors are derivatives: K, and the part of C with K, with
-/// respect to a factor on its moduli, and all others with respect to a factor on its density.
+/// The contribution of one material group (a body, or a section of a body) to Bodies, on all nodal
+/// displacements. It consists of derivatives. Those of K, and of the part of C that is proportional
+/// to K, are with respect to a factor on the moduli of the group; all others are with respect to a
+/// factor on its density.
 struct MaterialPart {
   OwnedMat stiffness, mass;  ///< without grounded springs
   OwnedMat gyroscopic,
       rotationStiffness;  ///< null unless its body moves and there are convective terms
   OwnedVec centrifugal;
-  OwnedVec weight;              ///< gravity, acceleration and spin of its body; null if none
+  OwnedVec weight;              ///< due to gravity, acceleration and spin of its body; null if none
   double massDamping = 0;       ///< α, 1/s: C = α M + …
   double stiffnessDamping = 0;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
 };

@@ -18,22 +18,22 @@ using material::Law;
 using material::Material;
 using mesh::Point;
 
-/// Thrown by routines with J⁻¹ if det J ≤ 0 at a point of their quadrature rule, and by mass() if
-/// the volume or the matrix is not positive.
+/// Thrown by routines that need J⁻¹ if det J ≤ 0 at a point of their quadrature rule, and by mass()
+/// if the volume is not positive or the matrix is not positive definite.
 struct InvertedElement {};
 
 /// Returns true if det J ≤ 0 at a point of the rule. Such a cell is usable if the smallest rule for
-/// the stiffness has no such point: terms with J⁻¹ use that rule, loads are polynomials and are
-/// integrated as usual, and the mass has the true volume.
+/// the stiffness has no such point. Terms with J⁻¹ are then integrated by that rule. Loads are
+/// polynomials and are integrated as usual, and the mass is that of the true volume.
 bool folded(const ShapeTable& table, const std::vector<Point>& nodes);
-/// Returns the table of a cell for terms with J⁻¹: the given one or, for a folded cell, that of the
-/// stiffness.
+/// Returns the table of a cell for terms with J⁻¹: the given table or, for a folded cell, the table
+/// of the stiffness.
 const ShapeTable& gradientTable(const ShapeTable& table, const std::vector<Point>& nodes);
 
 /// Returns true if the cell is folded on the rule of its stiffness or on the stricter one of its
-/// mass. `type` is gmsh's.
+/// mass. `type` is the gmsh element type.
 bool foldedAnywhere(int type, const std::vector<Point>& nodes);
-/// Returns the ratio of the smallest det J at the points of both rules to the largest |det J|.
+/// Returns the smallest det J, divided by the largest |det J|, at the points of both rules.
 double jacobianRatio(int type, const std::vector<Point>& nodes);
 /// Returns the nodes of the cell with straight edges: nodes other than corners move to their
 /// positions in the linear cell with the same corners.
@@ -41,7 +41,7 @@ std::vector<Point> straightened(int type, const std::vector<Point>& nodes);
 
 /// Returns the stiffness
 ///   K_ij = ∫ Bᵢᵀ D Bⱼ,
-/// row-major, rows and columns [node][component], N/m (per unit thickness in the plane). If
+/// row-major, rows and columns [node][component], N/m (per unit thickness in plane problems). If
 /// `incompatible`, quad4 and hex8 get the quadratic bubble modes of Taylor, Beresford and Wilson
 /// (1976), condensed; they pass the patch test.
 std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>& nodes,

@@ -15,12 +15,12 @@ namespace squeal::elasticity {
 struct Ground {
   OwnedMat springs;             ///< N/m, symmetric
   OwnedMat dashpots;            ///< N·s/m, symmetric
-  bool turnedDashpots = false;  ///< there are dashpots in other axes than the global ones
+  bool turnedDashpots = false;  ///< some dashpots are in other axes than the global ones
 };
 
-/// Collective. Returns the springs and dashpots. The nodes of each group share its total equally.
-/// Throws Error for fewer components than dimensions, for a frame that does not exist, and for a
-/// node on the axis of a cylindrical frame.
+/// Collective. Returns the springs and dashpots. The nodes of each group share its total stiffness
+/// and damping equally. Throws Error for fewer components than dimensions, for a frame that does
+/// not exist, and for a node on the axis of a cylindrical frame.
 Ground groundOf(const mesh::Mesh& mesh, const Settings& settings);
 
 /// Collective. Return the stiffness of the springs of a group, N/m, and the damping of its

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Hourglass modes of hex20 cells with reduced integration: motions without strain at the 2×2×2
-/// points of the rule that are not rigid.
+/// Hourglass modes of hex20 cells with reduced integration: motions that are not rigid but have no
+/// strain at the 2×2×2 points of the rule.
 #include <array>
 #include <span>
 #include <vector>
@@ -16,7 +16,7 @@ namespace squeal::elasticity {
 /// hex20.
 void requireHex20(const mesh::Mesh& mesh, const std::vector<material::Material>& materials);
 
-/// A cell with reduced integration of any rank that has no edge inside the bodies.
+/// A cell with reduced integration, on any rank, that has no edge in the interior of a body.
 struct ExposedCell {
   PetscInt tag;                   ///< gmsh's
   int material, part;             ///< index into Mesh::materialGroups, connected part
@@ -24,15 +24,15 @@ struct ExposedCell {
   std::array<mesh::Point, 20> point;
 };
 /// Collective. Returns the exposed cells of all ranks, by material group and tag; none without
-/// reduced integration. The cells around an edge inside a body prevent each other's hourglass
-/// modes: the only motions of these cells together without strain are rigid. Cells in a row do not
-/// prevent them, nor do the cells of an L.
+/// reduced integration. The cells around an edge in the interior prevent each other's hourglass
+/// modes: together they have no motions without strain except rigid ones. Cells in a row, or in the
+/// shape of an L, do not prevent hourglass modes.
 std::vector<ExposedCell> exposedCells(const mesh::Mesh& mesh,
                                       const std::vector<material::Material>& materials);
 /// Collective. Warns of each material group with such cells.
 void warnOfHourglass(const mesh::Mesh& mesh, std::span<const ExposedCell> cells);
 
-/// The motions of a cell without strain at the points of the reduced rule.
+/// The number of motions of a cell without strain at the points of the reduced rule.
 inline constexpr int strainlessMotions = 12;
 /// Not collective. Returns these motions as orthogonal columns, rows [node][component], each with a
 /// mean square of 1 per node: the rigid motions and the hourglass modes, mixed.

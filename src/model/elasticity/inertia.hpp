@@ -17,15 +17,16 @@ using mesh::Point;
 
 /// Returns the mass
 ///   m_ij = ∫ ρ φᵢ φⱼ,
-/// positive definite, row-major [node][node], kg, the same for all components. `higherOrder` is the
-/// mean of the consistent matrix and the diagonal one of the same total (diagonal scaling of
-/// Hinton, Rock and Zienkiewicz 1976, row sums on linear elements).
+/// positive definite, row-major [node][node], kg, the same for all components.
+/// MassKind::higherOrder selects the mean of the consistent matrix and a diagonal matrix of the
+/// same total mass (diagonal scaling of Hinton, Rock and Zienkiewicz 1976; row sums on linear
+/// elements).
 std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density,
                          MassKind kind);
 
 /// Returns the centrifugal forces [M.4]
 ///   ∫ φᵢ ρ ω² r,
-/// [node][3], N, of a rotation.
+/// of a rotation, [node][3], N.
 std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes,
                                 double density, const Motion& motion);
 

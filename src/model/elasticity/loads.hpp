@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Loads on all nodal displacements, N entries each, N (moments on reference nodes N·m).
+/// Load vectors on all nodal displacements, with N entries each, in newtons (moments on reference
+/// nodes in N·m).
 #include <optional>
 #include <vector>
 
@@ -23,8 +24,8 @@ struct LoadInput {
 /// Collective. Returns the centrifugal forces of these motions, [body].
 OwnedVec centrifugalForces(const LoadInput& input, const std::vector<Motion>& motions);
 
-/// Collective. Returns gravity, accelerations and spins of all bodies, or of the cells of one
-/// material group. Throws Error for options of a group that is not a body.
+/// Collective. Returns the forces due to gravity, accelerations and spins on all bodies, or only on
+/// the cells of one material group. Throws Error for options of a group that is not a body.
 OwnedVec bodyForces(const LoadInput& input, std::optional<int> material);
 
 /// Pressures and forces on nodes, and the weight of point masses.

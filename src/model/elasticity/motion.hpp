@@ -2,7 +2,8 @@
 #pragma once
 /// Base motion of a body's matter (paper, section 2), a rotation or a translation [2.1]:
 ///   V = ω k × (x − x0)   or   V = const.
-/// Not collective: all ranks have the same options, and therefore the same results and Errors.
+/// The sweep multiplies V by a speed factor. Not collective: all ranks have the same options, and
+/// therefore the same results and Errors.
 #include <map>
 #include <string>
 #include <vector>

@@ -17,7 +17,7 @@ enum class MassKind { consistent, higherOrder };
 
 /// The base motion of one body.
 struct MotionSettings {
-  std::string option;           ///< an option that gives it, with its dash, for messages
+  std::string option;           ///< an option that gives the motion, with its dash, for messages
   bool moves = false;           ///< a velocity or a speed is given
   VectorValue velocity = {};    ///< of a translation, m/s
   double speed = 0;             ///< of a rotation, rad/s
@@ -26,11 +26,11 @@ struct MotionSettings {
   std::string axisOption = {};  ///< the option of the axis, with its dash, for messages
 };
 
-/// Springs and dashpots from the nodes of one group to the ground, totals of the group.
+/// Springs and dashpots from the nodes of one group to the ground, in total for the group.
 struct GroundSettings {
-  VectorValue stiffness;                   ///< N/m
-  VectorValue damping;                     ///< N·s/m
-  std::string frame = {};                  ///< whose axes these are; empty: the global ones
+  VectorValue stiffness;   ///< N/m
+  VectorValue damping;     ///< N·s/m
+  std::string frame = {};  ///< the frame of these components; empty: the global axes
   bool springs = false, dashpots = false;  ///< true if given
 };
 
@@ -45,10 +45,11 @@ struct Settings {
   std::set<std::string> constantPressure;            ///< surface groups that no sweep scales
   VectorValue gravity;                               ///< of all bodies and point masses, m/s²
   std::map<std::string, VectorValue> accelerations;  ///< [body] added to gravity, m/s²
-  std::map<std::string, MotionSettings> spins;  ///< [body] a rotation whose centrifugal forces act
-  bool bodyForces = false;                      ///< gravity, an acceleration or a spin is given
+  /// [body] a rotation that acts only as a load, by its centrifugal forces
+  std::map<std::string, MotionSettings> spins;
+  bool bodyForces = false;  ///< gravity, an acceleration or a spin is given
   attachments::Settings attachments;
-  std::map<std::string, MotionSettings> motions;  ///< [body], those with an option
+  std::map<std::string, MotionSettings> motions;  ///< [body], only bodies with such an option
   std::map<std::string, GroundSettings> ground;   ///< [group]
 
   /// Reads the options. Throws Error if rotation and translation, or both units of the speed, are

@@ -14,27 +14,28 @@ namespace squeal::frame {
 using mesh::Matrix3;
 using mesh::Point;
 
-/// A frame gives three orthonormal, right-handed axes at each point: the same everywhere if it is
-/// rectangular; radial, tangential and axial if it is cylindrical. They may be turned about one of
-/// themselves.
+/// A frame gives three orthonormal, right-handed axes at each point. The axes of a rectangular
+/// frame are the same everywhere; those of a cylindrical frame are radial, tangential and axial.
+/// The axes may in addition be turned about one of them.
 class Frame {
  public:
   /// Makes the axes x, y, z.
   Frame() = default;
-  /// Throws Error for directions that are zero or parallel and, if `dimension` is 2, for axes out
-  /// of the plane or turned out of it.
+  /// Throws Error for directions that are zero or parallel and, if `dimension` is 2, for axes that
+  /// are not in the plane x, y or are turned out of it.
   Frame(const FrameSettings& settings, int dimension);
-  /// The same for an option, which messages name, on a mesh.
+  /// Does the same for a frame that an option selects, on a mesh. Messages name this option.
   Frame(const FrameSettings& settings, const std::string& option, const mesh::Mesh& mesh);
-  /// Returns the axes at a point, by rows. Throws Error, naming the option and the frame, at a
-  /// point on the axis of a cylindrical one, up to round-off of the size of the mesh.
+  /// Returns the axes at a point, by rows. Throws Error, naming the option and the frame, if the
+  /// frame is cylindrical and the point lies on its axis, up to round-off in coordinates of the
+  /// size of the mesh.
   Matrix3 axesAt(const Point& x) const;
   bool isGlobal() const { return name_.empty(); }
   bool isCylindrical() const { return cylindrical_; }
   /// Return the origin, m, and the axis of a cylindrical frame, a unit vector.
   const Point& origin() const { return origin_; }
   const Point& axis() const { return axes_[2]; }
-  /// Returns the axes, by rows, in components along those before the turn.
+  /// Returns the turned axes, by rows, in components along the axes before the turn.
   const Matrix3& turn() const { return turn_; }
 
  private:
@@ -46,8 +47,8 @@ class Frame {
   Matrix3 turn_ = mesh::identity3;
 };
 
-/// Returns the frame that an option names, the global one for an empty name. Throws Error, naming
-/// the option and the frames, if there is none of this name.
+/// Returns the frame that an option names, or the global frame if the name is empty. Throws Error,
+/// naming the option and the frames, if no frame has this name.
 Frame named(const std::map<std::string, FrameSettings>& frames, const std::string& name,
             const std::string& option, const mesh::Mesh& mesh);
 

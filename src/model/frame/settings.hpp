@@ -22,8 +22,8 @@ struct FrameSettings {
   std::string originOption = {};  ///< the same; empty if the origin is not given
 };
 
-/// Returns the frames of the options, [name]. Throws Error for a frame without its directions, and
-/// for one with those of both kinds.
+/// Returns the frames of the options, [name]. Throws Error for a frame without directions, and for
+/// a frame with the directions of both kinds, rectangular and cylindrical.
 std::map<std::string, FrameSettings> framesGiven();
 
 /// Returns the names of frames that no option `…_frame` selects.

@@ -9,18 +9,20 @@
 
 namespace squeal::gmshreader {
 
-/// Gives the parameters to gmsh for the next time it opens the geometry that is open. Throws Error
-/// if the geometry has no parameter of a name, if that is a text, or if a value leaves the range or
-/// choices that the geometry declares.
+/// Passes the parameters to gmsh. They take effect the next time that gmsh opens the geometry,
+/// which must be open already. Throws Error for a name that no parameter of the geometry has, for a
+/// parameter that is a text, and for a value outside the range or choices that the geometry
+/// declares.
 void applyParameters(const std::vector<meshfile::GeometryParameter>& parameters);
 
 /// Throws Error if the geometry has replaced the parameters by other values. Call it after the
 /// geometry was read.
 void requireParametersUsed(const std::vector<meshfile::GeometryParameter>& parameters);
 
-/// Meshes the geometry that gmsh has open. From its edges, which are meshed first, it estimates the
-/// number of cells. Throws Error if the displacements cannot be numbered, or if gmsh needs more
-/// than twice the memory that is free; warns if it needs more than half of that.
+/// Meshes the geometry that gmsh has open. The edges are meshed first, and the number of cells is
+/// estimated from them. Throws Error if the displacements of so many cells cannot be numbered, or
+/// if gmsh needs more than twice the free memory. Warns if gmsh needs more than half of the free
+/// memory.
 void meshGeometry(const std::string& file, const Warn& warn);
 
 }  // namespace squeal::gmshreader

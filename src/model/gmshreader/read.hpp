@@ -8,9 +8,9 @@
 
 namespace squeal::gmshreader {
 
-/// Reads or meshes the file. Throws Error if gmsh cannot, for a mesh that is not sound, and for
-/// parameters that the geometry does not have or whose range the value leaves. gmsh must be
-/// initialised.
+/// Reads or meshes the file. Throws Error if gmsh fails, for a mesh that is not sound, for
+/// parameters that the geometry does not have, and for values outside the range of a parameter.
+/// gmsh must be initialised.
 meshfile::Contents read(const meshfile::Job& job, const Warn& warn);
 
 }  // namespace squeal::gmshreader

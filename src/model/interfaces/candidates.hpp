@@ -23,10 +23,11 @@ class Claims {
  public:
   /// Collective. The exchange is borrowed.
   Claims(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange);
-  /// Returns the nodes that an interface, which has this role, must leave to other interfaces.
+  /// Returns flags, [local node], of the nodes that an interface with this role must leave to other
+  /// interfaces.
   std::vector<unsigned char> against(Role role, int interface, const Interfaces& all) const;
-  /// Collective. Claims these local nodes of an interface. Throws Error if a node slides on another
-  /// disc.
+  /// Collective. Claims these local nodes for an interface. Throws Error if a node already slides
+  /// on another disc.
   void add(const std::vector<PetscInt>& nodes, const std::vector<InterfaceSettings>& options,
            int interface);
 
@@ -37,16 +38,17 @@ class Claims {
   std::vector<int> tied_, sliding_, other_;
 };
 
-/// Collective. Returns the surface whose nodes the interface couples to the other one.
+/// Collective. Returns the slave surface, whose nodes the interface couples to the other surface.
 std::string slaveSurface(const mesh::Mesh& mesh, const InterfaceSettings& options);
 
 /// Collective. Returns the owned nodes of a surface that are not periodic images.
 std::vector<PetscInt> slaveNodesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                                    const std::string& surface);
 
-/// Collective. Returns the nodes of an interface except excluded[local node], from pairs of nodes
-/// or from the coupling of its surfaces. Sets its report, its slave side and Interfaces::lost.
-/// `bodies` may be null for a tie. Throws Error for surfaces that do not meet.
+/// Collective. Returns the candidate nodes of an interface, from pairs of nodes or from the
+/// coupling of its surfaces. Nodes with excluded[local node] set are left out and added to
+/// Interfaces::lost. Also sets the report and the slave side of an interface whose meshes do not
+/// match. `bodies` may be null for a tie. Throws Error for surfaces that do not meet.
 std::vector<Candidate> candidatesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                                     const elasticity::Bodies* bodies, int interface,
                                     const std::vector<unsigned char>& excluded, Interfaces& all);

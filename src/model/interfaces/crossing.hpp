@@ -13,10 +13,10 @@ namespace squeal::interfaces {
 ///
 /// On the flat facets of a round body, V·n is not zero even for a correct axis. It changes its sign
 /// within each facet, however. Its mean over the facets around a node is at most 0.015 of the mean
-/// of |V·n|, on structured and unstructured meshes. The velocity counts as not tangential if these
-/// means are at least 0.2 of the mean of |V·n| and exceed 0.01 of |V|. An axis is therefore
-/// reported if it is wrong by more than 0.016 of the radius and, on linear faces, by more than 0.16
-/// of the angle of a facet.
+/// of |V·n|, on structured and unstructured meshes. The velocity is treated as not tangential if
+/// the magnitudes of these means exceed 0.2 of the means of |V·n|, and 0.01 of those of |V|, all
+/// summed over the nodes. A wrong axis is therefore reported if it is off by more than 0.016 of the
+/// radius and, on linear faces, by more than 0.16 of the angle of a facet.
 void checkCrossing(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                    const elasticity::Bodies& bodies, const Interfaces& all);
 

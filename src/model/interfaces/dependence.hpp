@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The rows of u = A z at nodes that follow others through ties and couplings, and at nodes with
-/// turned axes.
+/// The rows of u = A z at followers, which are nodes that follow others through ties and couplings,
+/// and at nodes with turned axes.
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -10,26 +10,27 @@
 
 namespace squeal::interfaces {
 
-/// Returns the level of each owned node that follows others through a tie or a coupling, [owned
-/// node]; 0 for all others.
+/// Returns the level of each follower, [owned node]; 0 for all other nodes.
 std::vector<int> levelsOfFollowers(const mesh::Mesh& mesh, const Interfaces& all);
 
-/// Adds the number of blocks, [owned node], that the rows of the followers of this level need.
+/// Adds to `blocks`, [owned node], the number of blocks that the rows of the followers of this
+/// level need.
 void countBlocks(const Interfaces& all, int level, std::vector<PetscInt>& blocks);
 
 /// Not collective. Sets the rows of the followers of this level.
 void setFollowers(const mesh::Mesh& mesh, const Interfaces& all, int level, Mat rows);
 
-/// Collective. Returns the rows that turn the axes of nodes with supports in other directions,
-/// u = Qᵀ z, N×N; the identity at all other nodes, and at contact nodes and followers.
+/// Collective. Returns the matrix Qᵀ of u = Qᵀ z, N×N, which turns the axes of nodes whose supports
+/// are not along x, y, z. Its rows are those of the identity at all other nodes, and at contact
+/// nodes and followers.
 OwnedMat turnedAxes(const mesh::Mesh& mesh, const Interfaces& all);
 
-/// Collective. Returns the rows of the followers of this level, N×N; those of all other nodes are
-/// rows of the identity.
+/// Collective. Returns an N×N matrix with the rows of the followers of this level. The rows of all
+/// other nodes are those of the identity.
 OwnedMat rowsOfLevel(const mesh::Mesh& mesh, const Interfaces& all, int level);
 
-/// Collective. Returns u = A z of all ties, couplings and turned axes, N×N, before equations. Rows
-/// of contact nodes are those of the identity.
+/// Collective. Returns the matrix A, N×N, of all ties, couplings and turned axes, without
+/// equations. The rows of contact nodes are those of the identity.
 OwnedMat followedRows(const mesh::Mesh& mesh, const Interfaces& all);
 
 /// Collective. Throws Error, naming coupling, interface and position, for a coupled node that is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Gauss elimination of equations between components of nodes. All ranks eliminate the equations of
-/// all ranks.
+/// Gaussian elimination of equations between components of nodes. Every rank eliminates the
+/// equations of all ranks.
 #include <cmath>
 #include <map>
 #include <set>
@@ -14,11 +14,11 @@ namespace squeal::interfaces {
 
 /// Where an equation comes from: a support of a node that follows others, or an option.
 struct Source {
-  PetscInt node = -1;  // that the support holds, global
-  Point direction{};   // in which it holds the node
+  PetscInt node = -1;  // held by the support, global
+  Point direction{};   // in which the support holds it
   int component = 0, group = -1;
   bool isTurned = false;              // the direction is not that of the component
-  int interface = -1, coupling = -1;  // through which the node follows others; −1: none
+  int interface = -1, coupling = -1;  // by which the node follows others; −1: none
   int option = -1;                    // index into Constraints::equations
   double value = 0;                   // m, or rad
   Point place{};
@@ -37,13 +37,14 @@ struct Equation {
   const Source* source;
   std::map<PetscInt, double> weights;  // [row]
   double value, scale;
-  std::map<int, double> origins = {};  // [index into Constraints::origins] its share in this sum
+  std::map<int, double> origins = {};  // [index into Constraints::origins] factor of this origin
 };
 
 /// Returns the option of an equation as the head of a message.
 std::string headOf(const constraints::EquationSettings& equation);
 
-/// Equations solved for the pivots, which appear in no other equation.
+/// Equations, each solved for a component of its own, the pivot, which appears in no other
+/// equation.
 class Elimination {
  public:
   /// `arm`, m, is the length that makes rotations comparable to displacements.
@@ -54,8 +55,8 @@ class Elimination {
   const std::map<PetscInt, Equation>& solved() const { return solved_; }
   /// Returns the equations that depend on the others, exactly or nearly.
   const std::vector<const Source*>& idle() const { return idle_; }
-  /// Throws Error if an equation with several components contains one of a contact node, whose
-  /// unknowns are not Cartesian components.
+  /// Throws Error if an equation contains a component of a contact node, whose unknowns are not
+  /// Cartesian components. Equations of supports with only one component are allowed.
   void rejectContact() const;
 
  private:
@@ -72,7 +73,7 @@ class Elimination {
   const std::map<PetscInt, Component>& components_;
   double arm_;
   std::map<PetscInt, Equation> solved_;
-  std::map<PetscInt, std::set<PetscInt>> pivotsWith_;  // [other] pivots whose equations have it
+  std::map<PetscInt, std::set<PetscInt>> pivotsWith_;  // [other] pivots whose equations contain it
   std::vector<const Source*> idle_;
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Compliant layers on contact faces. A layer of the stiffness k, N/m³, lies between the nodes P of
-/// a face and the layer nodes L, which have the gaps to the other side. Along the normal n it is a
-/// spring on the whole face [M.85],
+/// a face and the layer nodes L, which have the gaps to the other side. Along the normal n, the
+/// layer is a spring over the whole face [M.85],
 ///   E = ½ k ∫ (Σ φ_i n_i·(u_P,i − u_L,i))² dA,
-/// and along the face L moves with P. A layer of a sticking interface is a spring along the face
-/// too. Where the other side covers only a part of the integral of a shape function, its factor √k
-/// is reduced by the square root of that part.
+/// Along the face, L moves with P; on a sticking interface, the layer is a spring along the face
+/// instead. If the other side covers only a part of the integral of a shape function, the factor √k
+/// of this function is reduced by the square root of the covered fraction.
 #include <vector>
 
 #include "model/interfaces/nodes.hpp"

@@ -20,21 +20,21 @@ namespace squeal::interfaces {
 /// interface with a compliant layer it is a layer node. Contact nodes are in the order of local
 /// nodes.
 struct ContactNode {
-  Point position;    ///< m
-  Point normal;      ///< n, unit, from disc to pad
-  Point slip;        ///< τ = w/|w|, w = −V at the base motions; zero without slip
-  double slipSpeed;  ///< |w| at the base motions, m/s
-  double area;  ///< ∫ ψ dA over the part of the faces in contact, positive, m² (m in the plane);
-                ///< ∫ φ̃ dA if the meshes match
-  double wholeArea;      ///< ∫ φ̃ dA over the faces of the slave, m² (m)
-  double gap;            ///< gap without load, m
-  int interface;         ///< index into Interfaces::options
-  Role role;             ///< never tied
-  bool separates;        ///< false: its gap stays zero
-  int side;              ///< +1 if the slave is the pad, −1 if it is the disc
-  PetscInt node;         ///< local node with the gap
+  Point position;  ///< m
+  Point normal;    ///< n, unit, from disc to pad
+  Point slip;  ///< τ = w/|w|; w = −V in the tangent plane, at the speed factor 1; zero without slip
+  double slipSpeed;  ///< |w| at the speed factor 1, m/s
+  double area;       ///< ∫ ψ dA over the part of the faces in contact, positive, m² (m in plane
+                     ///< problems); ∫ φ̃ dA if the meshes match
+  double wholeArea;  ///< ∫ φ̃ dA over the faces of the slave, m² (m)
+  double gap;        ///< gap without load, m
+  int interface;     ///< index into Interfaces::options
+  Role role;         ///< never tied
+  bool separates;    ///< false: its gap stays zero
+  int side;          ///< +1 if the slave is the pad, −1 if it is the disc
+  PetscInt node;     ///< local node with the gap
   PetscInt globalNode;   ///< global node with the gap
-  PetscInt surfaceNode;  ///< local node on the face; another one than `node` below a layer
+  PetscInt surfaceNode;  ///< local node on the face; differs from `node` if there is a layer
   PetscInt master;       ///< global node of the disc if the meshes match; otherwise −1
   int discBody;          ///< index into Mesh::bodies; −1 on a rigid obstacle
   /// parts of the master; none on a rigid obstacle
@@ -59,9 +59,11 @@ struct TiedNode {
   int interface;  ///< index into Interfaces::options
   Connection connection;
   std::vector<coupling::PartShare> masterParts;
-  Point offset;  ///< Σ P_il x_l − x_i in the file, m: from the node to its position on the master
-  /// [component] 1 if a support holds the component instead of the tie. The conditions of other
-  /// nodes then already imply the condition that the support would put on the masters.
+  Point offset;  ///< Σ P_il x_l − x_i, m: from the node to its position on the master, both as in
+                 ///< the file
+  /// [component] 1 if a support holds the component directly and the tie does not act on it. This
+  /// is the case if the condition that the support would impose on the masters already follows from
+  /// other conditions.
   std::array<unsigned char, 3> apart{};
 };
 
@@ -71,55 +73,57 @@ struct SlaveSide {
   int sign;             ///< +1 if it is the pad, −1 if it is the disc
 };
 
-/// The nodes of an interface that have no condition on it because another interface determines
-/// them.
+/// The nodes of an interface that have no condition there because another interface determines
+/// their motion or their gap.
 struct LossReport {
   PetscInt nodes = 0;
-  Point first{};                    ///< the place of one of them, m
-  std::vector<std::string> owners;  ///< labels of the interfaces that determine them
+  Point first{};                    ///< position of one of them, m
+  std::vector<std::string> owners;  ///< labels of these other interfaces
 };
 
 /// The cells that the adjustment of a tie stretches or compresses.
 struct StrainReport {
   PetscInt cells = 0;  ///< cells in which a distance of corners changes by more than a tenth
   double change = 0;   ///< largest relative change of a distance of two corners
-  Point where{};       ///< middle of these two corners in the file, m
+  Point where{};       ///< midpoint of these two corners, with the coordinates of the file, m
 };
 
 /// A report on an interface, the same on all ranks.
 struct InterfaceReport {
-  bool matching = true;         ///< node on node, or a rigid obstacle
-  std::string whyNot;           ///< a sentence on where the meshes do not match
-  bool nearlyMatching = false;  ///< they do not match, but most nodes have a partner
+  bool matching = true;         ///< the meshes match node by node, or one side is a rigid obstacle
+  std::string whyNot;           ///< text on where the meshes do not match
+  bool nearlyMatching = false;  ///< the meshes do not match, but most nodes have a partner
   PetscInt nodes = 0;           ///< nodes in contact, or tied
-  // The following are zero if the meshes match, except for the slave of a tie.
+  // If the meshes match, the next four are zero, except slave and coveredArea of a tie.
   coupling::SideReport slave, master;
-  double coveredArea = 0;  ///< of the slave, m² (m in the plane)
-  double largestGap = 0;   ///< largest distance of the touching surfaces, m
+  double coveredArea = 0;  ///< of the slave, m² (m in plane problems)
+  double largestGap = 0;   ///< largest distance between the touching surfaces, m
   PetscInt dropped = 0;    ///< touching nodes without a condition: too little covered, or left
                            ///< to another interface
   LossReport loss;
-  PetscInt bonded = 0;  ///< nodes of a contact that a tie binds to the touching side
+  /// Nodes of a contact that need no gap because a tie binds them to the opposite side.
+  PetscInt bonded = 0;
   // The following apply only to ties.
-  PetscInt carried = 0;          ///< held components of tied nodes that the master carries
-  PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
+  PetscInt carried = 0;  ///< held components of tied nodes; their supports act on the masters,
+                         ///< unless TiedNode::apart is set
+  PetscInt untied = 0;   ///< nodes of the slave without a condition, covered or not
   double largestAdjustment = 0;  ///< largest move of a tied node, m
   StrainReport strain;
 };
 
-/// A node that an interface leaves to another one, owned by this rank.
+/// A node that an interface leaves to another interface, owned by this rank.
 struct LostNode {
   int interface;  ///< the interface that lost it, index into Interfaces::options
   PetscInt node;  ///< local node
 };
 
-/// The rigid obstacle of an interface; at rest on others.
+/// The rigid obstacle of an interface; zero for an interface without one.
 struct Obstacle {
   Point velocity{};      ///< m/s
   Point displacement{};  ///< m
 };
 
-/// All interfaces with their nodes. [interface] counts as in Mesh::interfaces.
+/// All interfaces with their nodes. [interface] has the same indices as Mesh::interfaces.
 struct Interfaces {
   std::vector<std::string> names;          ///< [interface]
   std::vector<InterfaceSettings> options;  ///< [interface], contact first, then ties
@@ -131,25 +135,25 @@ struct Interfaces {
   std::vector<TiedNode> tied;              ///< owned by this rank, in the order of local nodes
   std::vector<LostNode> lost;              ///< owned by this rank
   constraints::Constraints constraints;
-  std::vector<constraints::CouplingName> couplings;  ///< couplings, then bolts
+  std::vector<constraints::CouplingName> couplings;  ///< names of the couplings, then of the bolts
   std::vector<constraints::CoupledNode> coupled;     ///< owned by this rank, by local node
   PetscInt totalNodes = 0;                           ///< contact nodes of all ranks
-  /// [local node] index into `options` of the contact with a gap at the node, −1 if there is none;
-  /// includes ghosts and periodic images
+  /// [local node] contact interface with a gap at the node, index into `options`; −1 if there is
+  /// none. Includes ghosts and periodic images
   std::vector<int> interfaceOf;
-  int levels = 1;                       ///< largest level of a connection of all ranks
+  int levels = 1;                       ///< largest level of any connection on any rank
   GapBasis gapBasis;                    ///< E
-  std::vector<mesh::LayerNode> layers;  ///< those with a gap, images included
+  std::vector<mesh::LayerNode> layers;  ///< those with a gap, including periodic images
   /// N×N, exchanges each node below a compliant layer with its layer node; null without layers
   OwnedMat layerExchange;
 
-  /// Returns true if a node that two interfaces share has the same gap on both: they slide on the
-  /// same surface of a disc.
+  /// Returns true if two interfaces slide on the same surface of a disc. A node that they share
+  /// then has the same gap on both.
   bool slideTogether(int one, int other) const;
   /// Returns true if the local node has a gap on the slave surface of this name.
   bool hasGapOn(const std::string& surface, PetscInt node) const;
-  /// Returns the slave side of a contact interface with this surface, borrowed; null if there is
-  /// none.
+  /// Returns the slave side of a contact interface if this surface is one, borrowed; otherwise
+  /// null.
   const SlaveSide* slaveOf(const std::string& surface) const;
   /// Returns the labels of the interfaces whose `marks`, [interface], are not zero.
   std::vector<std::string> labels(const std::vector<int>& marks) const;
@@ -158,11 +162,11 @@ struct Interfaces {
 /// Returns a line for the log on the nodes of an interface and the coupling of its sides.
 std::string describe(const Interfaces& all, int interface);
 
-/// Collective. Adds the nodes in contact to `ties`, the result of findTies(). A node belongs to one
-/// interface: ties precede sliding interfaces, and these precede sticking and frictionless ones.
-/// `periodic`, N×N, copies u of primaries to their images. Throws Error for surfaces that do not
-/// meet, for a node in two interfaces that slide on different discs, and for slaves that depend on
-/// each other in a circle.
+/// Collective. Adds the nodes in contact to `ties`, the result of findTies(). A node belongs to
+/// only one interface. Ties take precedence over sliding interfaces, and these over sticking and
+/// frictionless ones. `periodic`, N×N, copies the displacements of primaries to their images.
+/// Throws Error for surfaces that do not meet, for a node in two interfaces that slide on different
+/// discs, and for slaves that depend on each other in a circle.
 Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, Mat periodic,
                      Interfaces ties);
 

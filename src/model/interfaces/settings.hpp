@@ -28,7 +28,7 @@ enum class Role {
 /// Returns the value of `-contact_<interface>_role` for a role.
 std::string text(Role role);
 
-/// A coefficient of friction at the swept one f: fixed + swept · f.
+/// A coefficient of friction as a function of the swept friction f: fixed + swept · f.
 struct Coefficient {
   double fixed = 0, swept = 0;
 
@@ -40,17 +40,17 @@ struct Coefficient {
 
 /// One interface: contact, or a tie of two bodies.
 struct InterfaceSettings {
-  mesh::InterfaceRequest surfaces;  ///< of a tie: the slave as pad, the master as disc
+  mesh::InterfaceRequest surfaces;  ///< of a tie: the pad is the slave, the disc the master
   Role role = Role::sliding;
-  VectorValue obstacleVelocity;      ///< m/s, of the rigid obstacle in place of a disc
+  VectorValue obstacleVelocity;      ///< of the rigid obstacle in place of a disc, m/s
   VectorValue obstacleDisplacement;  ///< m
   SlaveChoice slave = SlaveChoice::finer;
-  double searchDistance = 0;  ///< m; 0: half the size of a face
-  Coefficient friction;       ///< of a sliding interface; zero on others
+  double searchDistance = 0;  ///< m; 0: half the size of each face
+  Coefficient friction;       ///< of a sliding interface; zero for other roles
   /// Coefficient of friction up to which the nodes of a sticking interface stick; none: unlimited.
   std::optional<double> stickingLimit;
-  bool releases = false;       ///< nodes of a sticking interface slide if they exceed this limit
-  bool gapIsMeasured = false;  ///< the gap without load is the distance of the surfaces
+  bool releases = false;       ///< nodes of a sticking interface that exceed this limit slide
+  bool gapIsMeasured = false;  ///< the gap without load is the distance between the surfaces
   double gap = 0;  ///< gap without load if it is not measured, m; negative: interference
   /// Stiffness of a compliant layer along the normal and, on a sticking interface, along the face,
   /// N/m³; 0: hard contact.
@@ -58,7 +58,8 @@ struct InterfaceSettings {
   bool separates = true;  ///< false: the gap of contact stays zero, also under tension
   bool adjust = false;    ///< of a tie: its nodes are moved onto the master
 
-  /// Returns true for a tie, false for contact, whether its role is tied or not.
+  /// Returns true for an interface that the options `-tie_*` define, and false for one that the
+  /// options `-contact_*` define, even if its role is tied.
   bool isTie() const { return surfaces.pad.option.starts_with("-tie_"); }
   bool onObstacle() const { return surfaces.disc.name.empty(); }
   bool isTied() const { return role == Role::tied; }
@@ -69,16 +70,16 @@ struct InterfaceSettings {
 struct Settings {
   std::vector<InterfaceSettings> interfaces;  ///< contact, then ties, each sorted by name
 
-  /// Reads the options. Throws Error for an interface without a pad surface, for one with neither
-  /// or both of a disc surface and an obstacle, for a tie without one of its sides, and for
-  /// incompatible options.
+  /// Reads the options. Throws Error for an interface without a pad surface, for an interface that
+  /// has neither a disc surface nor an obstacle or has both, for a tie without one of its sides,
+  /// and for incompatible options.
   static Settings given();
   /// Returns the interface with this label, borrowed; there must be one.
   const InterfaceSettings& interface(const std::string& label) const;
 };
 
-/// Returns the powers of the swept friction in the coefficients of the interfaces: 0 where one has
-/// a fixed part, 1 where one has a swept part; ascending.
+/// Returns the exponents of the swept friction in the coefficients of the interfaces, ascending: 0
+/// if any coefficient has a fixed part, 1 if any has a swept part.
 std::vector<int> frictionExponents(const std::vector<InterfaceSettings>& interfaces);
 
 /// Returns the surfaces of the interfaces, for the mesh reader.

@@ -25,7 +25,7 @@ struct Hooke {
 Hooke isotropic(double young, double poisson, int dimension, bool planeStress);
 
 /// The engineering constants of an orthotropic material, moduli in Pa. νij is the contraction along
-/// j divided by the stretch along i in tension along i: νij/Ei = νji/Ej.
+/// j divided by the stretch along i, under tension along i, so νij/Ei = νji/Ej.
 struct EngineeringConstants {
   double e1, e2, e3, nu12, nu13, nu23, g12, g13, g23;
 };
@@ -35,10 +35,11 @@ std::string violatedRule(const EngineeringConstants& constants);
 /// Returns the law, 6×6, in the axes 1, 2, 3 of the material, from constants that violate no rule.
 Hooke orthotropic(const EngineeringConstants& constants);
 
-/// Returns the law, 6×6, in the axes of the material, from the upper triangle of its matrix, column
-/// by column with the rows 11, 22, 33, 12, 13, 23: D1111, D1122, D2222, D1133, …, D2323, Pa. All 21
-/// constants are given or, for an orthotropic material, the nine that are not zero: D1111, D1122,
-/// D2222, D1133, D2233, D3333, D1212, D1313, D2323.
+/// Returns the law, 6×6, in the axes of the material, from the upper triangle of its matrix, Pa.
+/// The triangle is given column by column, with rows and columns in the order 11, 22, 33, 12, 13,
+/// 23: D1111, D1122, D2222, D1133, …, D2323. `constants` are all 21 constants or, for an
+/// orthotropic material, the nine that are not zero: D1111, D1122, D2222, D1133, D2233, D3333,
+/// D1212, D1313, D2323.
 Hooke anisotropic(std::span<const double> constants);
 /// Returns the first violated rule if the strain energy of a 6×6 law is not positive for every
 /// strain; otherwise an empty text.
@@ -49,11 +50,11 @@ using Axes = std::array<Point, 3>;
 /// Returns the law in the axes of the mesh, 6×6, from the law in the given axes, 6×6.
 Hooke rotated(const Hooke& hooke, const Axes& axes);
 
-/// Returns true if strains in the plane x, y and along z cause no shear stress across the plane,
+/// Returns true if strains in the plane x, y and along z cause no shear stresses σ_yz and σ_zx,
 /// within 1e-9 of the largest modulus.
 bool mirrorSymmetric(const Hooke& solid);
-/// Returns the law in the plane, 3×3, from a mirror-symmetric 6×6: with u_z = 0 in plane strain,
-/// and σ_zz = σ_yz = σ_zx = 0 in plane stress.
+/// Returns the 3×3 law for plane problems from a mirror-symmetric 6×6 law, with u_z = 0 in plane
+/// strain, and σ_zz = σ_yz = σ_zx = 0 in plane stress.
 Hooke inPlane(const Hooke& solid, bool planeStress);
 
 /// Hooke's law of a material.
@@ -61,7 +62,7 @@ struct Law {
   Hooke uniform;
   std::function<Hooke(const Point&)> varying;  ///< if not empty, the law at each point instead
 
-  /// Returns the law at x, in `storage` if it varies.
+  /// Returns the law at x. A law that varies is evaluated into `storage`.
   const Hooke& at(const Point& x, Hooke& storage) const {
     return varying ? storage = varying(x) : uniform;
   }

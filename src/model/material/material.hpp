@@ -15,11 +15,12 @@ struct Material {
   double density;           ///< kg/m³
   double massDamping;       ///< α, 1/s: C = α M + …
   double stiffnessDamping;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
-  bool reducedIntegration;  ///< of the stiffness of hex20 cells, its only cells
-  /// Poisson's ratio; for an anisotropic body, that of the mean bulk and shear moduli. Zero in
-  /// plane stress, where the thickness is free to change.
+  /// The stiffness is integrated by the reduced rule; all cells are hex20.
+  bool reducedIntegration;
+  /// Poisson's ratio; for an anisotropic material, the ratio that follows from the mean bulk and
+  /// shear moduli. Zero in plane stress, where the thickness is free to change.
   double poisson;
-  std::function<Axes(const Point&)> axes = {};  ///< at each point; empty if it is isotropic
+  std::function<Axes(const Point&)> axes = {};  ///< at each point; empty for an isotropic material
 };
 
 /// Not collective. Returns the materials in the order of `mesh.materialGroups`. Throws Error for

@@ -14,13 +14,14 @@
 
 namespace squeal::material {
 
-/// The axis of a body with cylindrical axes: axis 1 is radial, 2 tangential, 3 along it.
+/// The axis of cylindrical material axes: axis 1 is radial, axis 2 tangential, and axis 3 along
+/// this axis.
 struct CylinderAxis {
   Point origin{};            ///< a point of the axis, m
   Point direction{0, 0, 1};  ///< unit vector
 };
 
-/// The name of a frame whose axes x, y, z are the axes 1, 2, 3.
+/// The name of a frame whose axes x, y, z are the axes 1, 2, 3 of the material.
 struct FrameName {
   std::string name;
 };
@@ -29,9 +30,9 @@ struct FrameName {
 struct Anisotropy {
   Hooke stiffness;  ///< in the axes of the material, 6×6
   std::variant<Axes, CylinderAxis, FrameName> axes;
-  bool general = false;    ///< it is not orthotropic in these axes
-  std::string option;      ///< that gives the constants, with its dash, for messages
-  std::string axesOption;  ///< that gives the axes, or could give them
+  bool general = false;    ///< the material is not orthotropic in these axes
+  std::string option;      ///< option that gives the constants, with its dash, for messages
+  std::string axesOption;  ///< option that gives the axes, or could give them
 };
 
 /// The material of one body, or of one section of a body.
@@ -42,12 +43,12 @@ struct BodySettings {
   double density = 0;                    ///< kg/m³
   double massDamping = 0;                ///< α, 1/s: C = α M + …
   double stiffnessDamping = 0;           ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
-  bool reducedIntegration = false;       ///< of the stiffness of hex20 cells
+  bool reducedIntegration = false;       ///< reduced rule for the stiffness of hex20 cells
 };
 
 struct Settings {
-  bool planeStress = false;  ///< of plane problems; otherwise plane strain
-  /// [volume group] the materials of bodies without sections, and of sections.
+  bool planeStress = false;  ///< plane problems are in plane stress; otherwise in plane strain
+  /// [volume group] materials of the bodies without sections, and of all sections.
   std::map<std::string, BodySettings> bodies;
   std::map<std::string, std::vector<std::string>> sections;  ///< [body] its sections
   std::map<std::string, frame::FrameSettings> frames;        ///< [name]
@@ -55,8 +56,8 @@ struct Settings {
 
   /// Reads the options. Throws Error if no group has a law, for a group with other options but no
   /// law, for a wrong or missing option, for options of different laws, for constants without
-  /// positive strain energy, for a section of two bodies or with sections of its own, and for an
-  /// option of a body that all of its sections replace.
+  /// positive strain energy, for a section that belongs to two bodies or has sections of its own,
+  /// and for an option of a body that all sections of the body override.
   static Settings given();
 };
 

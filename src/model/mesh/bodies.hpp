@@ -49,9 +49,10 @@ class NodeIndex {
 
 /// Fills bodies, material groups, dimension, cells, points and tags of the mesh. Throws Error for a
 /// missing group, for a body that is not a volume (a surface of a plane mesh), for cells of an
-/// unsupported type, for a cell without a body or with two, for a cell of a body that is in none of
-/// its sections or in two, for a section with cells of another body, for a cell that is there twice
-/// or has a node twice, and for a plane mesh that does not lie in a plane z = constant.
+/// unsupported type, for a cell without a body or with two, for a cell that is in none of the
+/// sections of its body or in two of them, for a section with cells of another body, for a cell
+/// that occurs twice or has a node twice, and for a plane mesh that does not lie in a plane z =
+/// constant.
 void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index);
 
 }  // namespace squeal::mesh

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The material of each cell: that of its body, or of its section of the body. Not collective: for
-/// rank 0 only.
+/// The material of each cell: that of its body or, if the body has sections, of its section. Not
+/// collective: for rank 0 only.
 #include "model/mesh/bodies.hpp"
 #include "model/mesh/gmsh_model.hpp"
 #include "model/mesh/whole.hpp"
@@ -10,8 +10,8 @@ namespace squeal::mesh {
 
 /// Fills WholeMesh::materialGroups and ElementBlock::material of all cells. A section contains a
 /// cell if it has an element on the same nodes. Throws Error, naming cell, sections and body, for a
-/// cell of a body in none of its sections or in two of them, and for an element of a section that
-/// is not a cell of the body.
+/// cell that is in none of the sections of its body or in two of them, and for an element of a
+/// section that is not a cell of the body.
 void assignMaterials(WholeMesh& mesh, const GmshModel& model, const Request& request,
                      const NodeIndex& index);
 

@@ -33,9 +33,9 @@ struct CellBlock {
 };
 
 /// A FaceBlock holds the boundary faces of one gmsh element type, from the surface groups that
-/// options name. A face is on the rank of the cell that it bounds. Where pad and disc share nodes
-/// in the file, the pad's group has the faces of the resting cells. The disc's group, if it is
-/// another one, has those of the moving cells.
+/// options name. A face is on the rank of the cell that it bounds. If pad and disc share nodes in
+/// the file, the group of the pad contains the faces of the cells at rest. The group of the disc,
+/// if it is a different group, contains those of the moving cells.
 struct FaceBlock {
   int type = 0;
   int nodesPerFace = 0;
@@ -49,7 +49,7 @@ struct FaceBlock {
   }
 };
 
-/// A node of this rank that repeats the displacement of another one (periodicity).
+/// A node of this rank that repeats the displacement of another node (periodicity).
 struct Image {
   PetscInt node;     ///< local node (owned)
   PetscInt primary;  ///< global node
@@ -81,7 +81,7 @@ struct Section {
   int reference;  ///< index into Mesh::references
 };
 
-/// Two nodes at one place on the sides of a section.
+/// Two nodes at the same place, one on each side of a section.
 struct SectionPair {
   PetscInt node;   ///< local node of the upper side (owned)
   PetscInt lower;  ///< global node of the lower side
@@ -89,8 +89,8 @@ struct SectionPair {
   int lowerPart;   ///< connected part of the lower node
 };
 
-/// A node of a compliant layer. It belongs to no cell and lies at the place of a node on a surface;
-/// the layer is between these two nodes.
+/// A node of a compliant layer. It belongs to no cell and has the same position as a node on a
+/// surface; the layer is between these two nodes.
 struct LayerNode {
   PetscInt node;   ///< local node on the surface (owned)
   PetscInt layer;  ///< local node (owned)
@@ -98,32 +98,35 @@ struct LayerNode {
 
 /// How the meshes of the two sides of an interface fit together.
 struct InterfaceMatch {
-  std::string label;  ///< of the request, the key of the interface
+  std::string label;  ///< label of the request, the key of the interface
   /// The pad's faces lie on faces of the disc, node on node, or the pad is on a rigid obstacle.
   /// Otherwise the interface has no pairs.
   bool matching = true;
-  std::string mismatch;  ///< where and why they do not match, without full stop; empty if they do
-  bool nearlyMatching = false;  ///< they do not match, but most nodes of the pad have a partner
+  /// Where and why the meshes do not match, without full stop; empty if they match.
+  std::string mismatch;
+  /// The meshes do not match, but most nodes of the pad have a partner.
+  bool nearlyMatching = false;
 };
 
 /// The changes that `-mesh_straighten` has made to the whole mesh.
 struct Straightened {
-  PetscInt folded = 0;     ///< cells whose Jacobian was not positive, in all rounds
+  PetscInt folded = 0;     ///< cells whose Jacobian was not positive, summed over all rounds
   PetscInt cells = 0;      ///< cells with a node that was moved
   PetscInt nodes = 0;      ///< nodes moved
-  PetscInt rounds = 0;     ///< a round straightens the cells that the previous one folded
+  PetscInt rounds = 0;     ///< each round straightens the cells that the previous one folded
   double largestMove = 0;  ///< m
 };
 
 /// A reference node: a point with a displacement and a rotation, which couplings join to the
-/// bodies. Two nodes of the mesh, in no cell, hold the components of the two vectors; in the plane
-/// the first component of the second one is the rotation about z.
+/// bodies. Two nodes of the mesh that belong to no cell have the displacement and the rotation as
+/// their components. In plane problems the first component of the second node is the rotation about
+/// z.
 struct Reference {
   std::string name;
   Point position;         ///< m
   PetscInt displacement;  ///< global node whose components are the displacement, m
   PetscInt rotation;      ///< global node whose components are the rotation, rad
-  int part;               ///< index into Mesh::partName, where each reference node is a part
+  int part;               ///< index into Mesh::partName; each reference node is a part of its own
 };
 
 /// The part of the mesh on this rank, with the names and totals of the whole.
@@ -131,7 +134,8 @@ struct Mesh {
   MPI_Comm comm = MPI_COMM_NULL;
   int dimension = 3;  ///< 2 for a plane problem in x, y; 3 for a solid
   PetscInt totalNodes = 0, totalCells = 0;
-  /// Number of nodes of the file in no cell, without those that gmsh makes at points.
+  /// Number of nodes of the file that are in no cell, not counting those that gmsh makes at points
+  /// of the geometry.
   PetscInt unusedNodes = 0;
   Straightened straightened;
   double diagonal = 0;      ///< of the box around all nodes of the file, m
@@ -142,11 +146,12 @@ struct Mesh {
   /// [local node] gmsh's tag; the two nodes of a split shared node repeat it. It is 0 and −1 at
   /// reference nodes, and −1 − tag at the layer node of a node with this tag.
   std::vector<PetscInt> nodeTag;
-  /// [local node] connected part (0 … parts−1) of the bodies without contact
+  /// [local node] connected part (0 … parts−1) of the bodies; contact does not connect parts
   std::vector<int> nodePart;
   int parts = 0;
-  std::vector<std::string> partName;          ///< [part] names of its bodies joined by '+'
-  std::vector<std::string> bodies;            ///< groups with a material, or made up of sections
+  std::vector<std::string> partName;  ///< [part] names of its bodies joined by '+'
+  /// Volume groups with a material, or bodies made up of sections.
+  std::vector<std::string> bodies;
   std::vector<MaterialGroup> materialGroups;  ///< in the order of the bodies
   std::vector<CellBlock> cells;
   std::vector<std::string> surfaces;  ///< surface groups that options name
@@ -158,15 +163,17 @@ struct Mesh {
   std::vector<Reference> references;
   std::vector<Section> sections;  ///< the same on all ranks
   std::vector<SectionPair> sectionPairs;
-  std::vector<LayerNode> layers;  ///< owned by this rank; images and unused ones too
-  PetscInt layerNodes = 0;        ///< of all ranks
+  /// Owned by this rank, including images and layer nodes that are not used.
+  std::vector<LayerNode> layers;
+  PetscInt layerNodes = 0;  ///< on all ranks together
   std::vector<Image> images;
   std::vector<ContactPair> pairs;          ///< of the interfaces that match
   std::vector<InterfaceMatch> interfaces;  ///< in the order of the request
 
   PetscInt localNodes() const { return globalNode.size(); }
-  /// Returns the distance below which a point near x is x, m: larger than the round-off of
-  /// coordinates and of their means. Directions between closer points have no meaning.
+  /// Returns the distance, m, below which a point is treated as coinciding with x. It is larger
+  /// than the round-off of coordinates and of their means, so the direction between closer points
+  /// is meaningless.
   double coincidence(const Point& x) const;
   /// Returns true if a body is made up of sections.
   bool hasSections() const;
@@ -177,7 +184,7 @@ struct Mesh {
     const PetscInt local = global - firstNode;
     return local >= 0 && local < ownedNodes ? local : -1;
   }
-  /// Returns the number of the nodes of all ranks that are in cells.
+  /// Returns the number of nodes in cells, over all ranks.
   PetscInt cellNodes() const { return totalNodes - 2 * std::ssize(references) - layerNodes; }
   /// Returns the reference node that has this global node; null if there is none. Borrowed.
   const Reference* referenceWith(PetscInt global) const;
@@ -193,8 +200,9 @@ struct Mesh {
 /// Formats the coordinates of a point for a message.
 std::string text(const Point& p);
 
-/// Collective. Returns a text with the checksum of nodes and cells as they are distributed. A
-/// geometry may include other files, and gmsh may mesh it otherwise than before.
+/// Collective. Returns a text with the checksum of nodes and cells as they are distributed. The
+/// input files do not determine these: a geometry may include other files, and gmsh may mesh it
+/// differently next time.
 std::string checksum(const Mesh& mesh);
 
 /// A GroupRequest names a group of the mesh that a later stage needs. `option` is the option that
@@ -207,17 +215,17 @@ struct GroupRequest {
 struct InterfaceRequest {
   std::string name;
   std::string label;         ///< the kind of interface and its name: unique, for messages
-  GroupRequest pad, disc;    ///< an empty name for the disc stands for a rigid obstacle
+  GroupRequest pad, disc;    ///< an empty name of the disc means a rigid obstacle
   bool discIsSlave = false;  ///< the nodes of the disc have the gaps, also if the meshes match
-  /// Surfaces whose nodes need layer nodes: those that may have the gaps above a compliant layer.
+  /// Surfaces whose nodes need layer nodes, because they may have the gaps above a compliant layer.
   std::vector<std::string> layered = {};
 };
 
-/// A PeriodicRequest requests a periodic constraint: the group `image` is the translated group
-/// `of`.
+/// A PeriodicRequest requests a periodic constraint: the group `image` is a translated copy of the
+/// group `of`.
 struct PeriodicRequest {
   std::string image, of;
-  std::string option;  ///< the option that asks for it, with its dash, for messages
+  std::string option;  ///< the option that requests it, with its dash, for messages
 };
 
 /// A reference node at a position or, without one, at the mean position of the nodes of a group.
@@ -225,16 +233,16 @@ struct ReferenceRequest {
   std::string name;
   std::optional<VectorValue> position;  ///< m
   GroupRequest centreOf;
-  std::string option;  ///< the option that asks for it, with its dash, for messages
+  std::string option;  ///< the option that requests it, with its dash, for messages
 };
 
 /// A surface group inside a body that cuts it.
 struct SectionRequest {
   std::string name;
   GroupRequest surface;
-  std::optional<VectorValue> axis;  ///< points to the upper side; without it either side is the
-                                    ///< upper one
-  std::string axisOption;           ///< with its dash, for messages
+  /// Points to the upper side; without an axis, either side may be the upper one.
+  std::optional<VectorValue> axis;
+  std::string axisOption;  ///< with its dash, for messages
 };
 
 /// The groups that the later stages need from the mesh.
@@ -242,7 +250,8 @@ struct Request {
   std::vector<GroupRequest> bodies;  ///< volume groups with a material, or made up of sections
   /// [body] the volume groups that make up the body; a body that is not here is one group.
   std::map<std::string, std::vector<GroupRequest>> bodySections;
-  /// Bodies with a motion. Where an interface has shared nodes, they are its disc side.
+  /// Bodies with a motion. If the two sides of an interface share nodes, these bodies are the disc
+  /// side.
   std::vector<std::string> moving;
   /// Groups of any dimension, or reference nodes, whose nodes are constrained or loaded.
   std::vector<GroupRequest> nodeGroups;
@@ -252,8 +261,8 @@ struct Request {
   std::vector<GroupRequest> surfaces;
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;
-  std::string howToGiveMaterials;  ///< "give -…", for a group of cells that has none
-  std::string motionOptions;       ///< "-…", for interfaces on which neither side moves
+  std::string howToGiveMaterials;  ///< "give -…", for messages on cells without a material
+  std::string motionOptions;  ///< "-…", for messages on interfaces on which neither side moves
 };
 
 }  // namespace squeal::mesh

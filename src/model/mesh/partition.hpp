@@ -7,9 +7,9 @@
 
 namespace squeal::mesh {
 
-/// Returns the rank of each cell, [cell], which METIS finds from the dual graph. Contact partners,
-/// and periodic images with their primaries, count as one node. Throws Error for more ranks than
-/// cells.
+/// Returns the rank of each cell, [cell], which METIS finds from the dual graph. Contact partners
+/// are treated as one node, and so are periodic images and their primaries. Throws Error for more
+/// ranks than cells.
 std::vector<int> partition(const WholeMesh& mesh, int ranks);
 
 }  // namespace squeal::mesh

@@ -7,15 +7,15 @@
 
 namespace squeal::mesh {
 
-/// A node that all ranks know: that of a group with one node, or a reference node.
+/// A node that all ranks know: the only node of a group, or a reference node.
 struct PointNode {
   PetscInt displacement = -1;  ///< global node
   PetscInt rotation = -1;      ///< global node whose components are its rotation; −1: it has none
   Point position{};            ///< m
 };
 
-/// Collective. Returns the node of this group or reference node. Throws Error, beginning with
-/// `head`, for a group that has not exactly one node.
+/// Collective. Returns the node of the group or reference node with this name. Throws Error, with a
+/// message that begins with `head`, for a group that does not have exactly one node.
 PointNode pointNode(const Mesh& mesh, const std::string& name, const std::string& head);
 
 }  // namespace squeal::mesh

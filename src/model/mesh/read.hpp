@@ -9,12 +9,12 @@
 
 namespace squeal::mesh {
 
-/// Collective. Reads the file, or meshes it if it is a .geo, by `reader` on rank 0; splits nodes
-/// shared across contact interfaces, pairs contact and periodic nodes, partitions with METIS and
-/// sends each rank its part. Only rank 0 holds the whole mesh. Throws Error on all ranks for an
-/// unreadable file, a missing group, a cell without material, a surface that bounds no body, and
-/// periodic nodes without a partner. Contact sides that do not match are marked.
-/// `geometry` is for Settings::straightening.
+/// Collective. On rank 0, `reader` reads the file, or meshes it if it is a geometry or a shape.
+/// Nodes that the two sides of a contact interface share are split, contact and periodic nodes are
+/// paired, and each rank receives its part of a METIS partition. Only rank 0 stores the whole mesh.
+/// Throws Error on all ranks for an unreadable file, a missing group, a cell without material, a
+/// surface that bounds no body, and periodic nodes without a partner. Interfaces whose sides do not
+/// match are marked (InterfaceMatch). Settings::straightening needs `geometry`.
 Mesh read(MPI_Comm comm, const Request& request, const meshfile::Settings& file,
           const Settings& settings, const CellGeometry& geometry,
           meshfile::Reader reader = meshfile::readInProgram);

@@ -6,8 +6,8 @@
 
 namespace squeal::mesh {
 
-/// Adds the nodes of the reference nodes, those of sections last. Throws Error for a name that a
-/// group of the mesh has.
+/// Adds two nodes to the mesh for each reference node; the reference nodes of sections come last.
+/// Throws Error for a reference node with the name of a group of the mesh.
 void addReferences(WholeMesh& mesh, const GmshModel& model, const Request& request);
 
 }  // namespace squeal::mesh

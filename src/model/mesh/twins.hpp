@@ -13,13 +13,15 @@ struct ElementPlace {
   std::size_t block, element;
 };
 
-/// Returns two elements on the same nodes, whose contributions would count twice; none if there are
-/// none. Elements of one type are the same if all nodes are; elements of two types, if their
-/// corners are. Of several pairs, the one with the smallest tags is returned.
+/// Returns two elements on the same nodes, whose contributions would be added twice; none if there
+/// are none. Two elements of the same type are duplicates if all their nodes are the same; two of
+/// different types, if their corners are the same. If there are several pairs, returns the one with
+/// the smallest tags.
 std::optional<std::pair<ElementPlace, ElementPlace>> findTwins(
     const std::vector<WholeBlock>& blocks);
 
-/// Returns the element of the smallest tag that has a node twice; none if there is none.
+/// Returns an element that has a node twice, the one with the smallest tag if there are several;
+/// none if there is none.
 std::optional<ElementPlace> findRepeatedNode(const std::vector<WholeBlock>& blocks);
 
 /// Returns the nodes in ascending order.

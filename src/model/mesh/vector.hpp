@@ -24,10 +24,10 @@ inline Point scaled(const Point& a, double factor) {
   return {factor * a[0], factor * a[1], factor * a[2]};
 }
 inline Point unit(const Point& a) { return scaled(a, 1 / length(a)); }
-/// Returns a − (a·n) n, the part of a along the plane whose unit normal is n.
+/// Returns a − (a·n) n, the component of a in the plane whose unit normal is n.
 inline Point tangential(const Point& a, const Point& n) { return plus(a, n, -dot(a, n)); }
 
-/// Returns a unit vector across a unit vector.
+/// Returns a unit vector perpendicular to a unit vector.
 inline Point across(const Point& e) {
   std::size_t least = 0;
   for (std::size_t d = 1; d < 3; ++d)
@@ -44,7 +44,7 @@ inline Point axis(int component) {
   return e;
 }
 
-/// A matrix by its rows.
+/// A matrix, stored by rows.
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 inline constexpr Matrix3 identity3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 /// Returns the vector with these components along axes, given by rows.

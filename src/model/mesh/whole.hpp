@@ -15,11 +15,11 @@ using WholeBlock = meshfile::ElementBlock;
 
 /// The boundary faces of one gmsh element type in the whole mesh.
 struct WholeFaces : WholeBlock {
-  std::vector<PetscInt> cell;  ///< [face] number over all blocks of the cell that it bounds
+  std::vector<PetscInt> cell;  ///< [face] the cell that it bounds, numbered over all blocks
   std::vector<int> sign;       ///< see FaceBlock
 };
 
-/// The whole mesh, of which load() fills all but primary, images, pairs, interfaces and layers.
+/// The whole mesh. load() fills all members except primary, images, pairs, interfaces and layers.
 struct WholeMesh {
   int dimension = 0;
   std::vector<Point> points;
@@ -36,11 +36,12 @@ struct WholeMesh {
       discFaces;          ///< [surface of a disc] nodes of each face, for each cell it bounds
   std::vector<int> part;  ///< [node] connected part
   std::vector<std::string> partName;
-  std::vector<Section> sections;           ///< see Mesh
-  std::vector<SectionPair> sectionPairs;   ///< in numbers of the whole mesh
-  std::vector<Reference> references;       ///< see Mesh, in numbers of the whole mesh
-  std::vector<LayerNode> layers;           ///< in numbers of the whole mesh
-  std::vector<PetscInt> primary;           ///< [node] the node that it repeats, itself if none
+  std::vector<Section> sections;          ///< see Mesh
+  std::vector<SectionPair> sectionPairs;  ///< in numbers of the whole mesh
+  std::vector<Reference> references;      ///< see Mesh, in numbers of the whole mesh
+  std::vector<LayerNode> layers;          ///< in numbers of the whole mesh
+  /// [node] the node that it repeats, or the node itself if it repeats none
+  std::vector<PetscInt> primary;
   std::vector<Image> images;               ///< in numbers of the whole mesh
   std::vector<ContactPair> pairs;          ///< in numbers of the whole mesh
   std::vector<InterfaceMatch> interfaces;  ///< see Mesh
@@ -52,8 +53,8 @@ struct WholeMesh {
 /// Returns the mean position of nodes.
 Point centroid(const WholeMesh& mesh, std::span<const PetscInt> nodes);
 
-/// Reads or meshes a file with gmsh, splits nodes shared across contact interfaces, and finds parts
-/// and faces.
+/// Reads or meshes a file with gmsh, splits nodes shared across contact interfaces, and finds
+/// connected parts and boundary faces.
 WholeMesh load(const meshfile::Settings& file, const Request& request, meshfile::Reader reader);
 
 }  // namespace squeal::mesh

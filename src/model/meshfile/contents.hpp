@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Contents of a mesh as gmsh has read or made it, which its program passes to this one. Not
-/// collective.
+/// Contents of a mesh as gmsh has read or made it. The program that calls gmsh passes them to this
+/// one. Not collective.
 #include <petscsystypes.h>
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace squeal::meshfile {
 
-/// The elements of one gmsh type. Its reader leaves the labels empty.
+/// The elements of one gmsh type. The program that calls gmsh leaves the labels empty.
 struct ElementBlock {
   int type = 0, nodesPerElement = 0, corners = 0;
   std::vector<PetscInt> nodes;     ///< [element][node] index of the node
   std::vector<int> label;          ///< [element] body (cells) or surface (faces)
   std::vector<PetscInt> tag;       ///< [element] gmsh's tag
   std::string typeName = {};       ///< gmsh's name of the type, for messages
-  std::vector<int> material = {};  ///< [element] material group of a cell; empty for its reader
+  std::vector<int> material = {};  ///< [element] material group of a cell; empty like the labels
 
   std::span<PetscInt> nodesOf(std::size_t element) {
     return std::span(nodes).subspan(element * nodesPerElement, nodesPerElement);
@@ -43,7 +43,7 @@ struct Contents {
   std::vector<std::array<double, 3>> points;
   std::vector<PetscInt> tags;
   std::map<std::string, GroupElements> groups;
-  int dimension = 0;  ///< the largest of an element
+  int dimension = 0;  ///< largest dimension of an element
   std::vector<PetscInt> ungrouped;
   std::vector<char> atPoint;  ///< [node] 1: at a point of the geometry
   PetscInt droppedNodes = 0;

@@ -16,14 +16,14 @@ enum class FileKind {
 /// The format of a file.
 struct Format {
   FileKind kind;
-  std::string ending;  ///< of the file's name, ".msh"
-  std::string part;    ///< part of the gmsh library that reads it; empty if always there
+  std::string ending;  ///< ending of the file's name, such as ".msh"
+  std::string part;    ///< optional part of the gmsh library that reads it; empty if none is needed
 };
 
-/// Returns the format of a file. Throws Error if it cannot be read, and unless it is a geometry by
-/// its name, or a mesh or shape by its name and its first line: gmsh runs any other file as a
-/// script. Throws Error also if there is an options file of gmsh next to it, which gmsh would run
-/// too.
+/// Returns the format of a file. A geometry is recognised by its name, and a mesh or shape by its
+/// name and its first line. Throws Error for any other file, since gmsh would run it as a script,
+/// and for a file that cannot be read. Also throws Error if there is an options file of gmsh next
+/// to the file, since gmsh would run this file too.
 Format requireSound(const std::string& file);
 
 }  // namespace squeal::meshfile

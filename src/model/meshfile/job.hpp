@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Work for gmsh, with the results of the checks of the file.
+/// A job for gmsh, with the results of the checks of its file.
 #include <string>
 #include <vector>
 
@@ -12,18 +12,18 @@ namespace squeal::meshfile {
 
 /// A file to read or mesh.
 struct Job {
-  std::string file, option;  ///< the option as messages begin with it
+  std::string file, option;  ///< option: the beginning of messages, which names the option
   Format format;
   std::vector<GeometryParameter> parameters;
   ShapeMesh shape;       ///< for a shape
-  MshContents contents;  ///< of a .msh; of a .unv the numbers of nodes and elements
+  MshContents contents;  ///< for a .msh; for a .unv only the numbers of nodes and elements
 
   bool isMeshedHere() const {
     return format.kind == FileKind::geometry || format.kind == FileKind::shape;
   }
   /// Returns true for a .msh file of version 2, which gives each element one group and one entity.
-  /// gmsh would put all elements of an entity into all of its groups; it must take the groups
-  /// for the entities.
+  /// gmsh would put all elements of an entity into all groups of the entity, so it must treat the
+  /// groups as the entities.
   bool groupsAreEntities() const { return format.kind == FileKind::msh && contents.version < 4; }
 };
 

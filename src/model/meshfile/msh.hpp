@@ -16,8 +16,8 @@ struct MshContents {
 /// binary. Throws Error, with the line (or the byte in a binary file), unless the sections $Nodes
 /// and $Elements contain what their headers announce: tags that are positive and given once, finite
 /// coordinates, and elements of known types on existing nodes. gmsh's reader does not check the
-/// headers. With wrong ones it writes beyond its arrays, stops early without a message, or uses -1
-/// as a node.
+/// headers. If they are wrong, it writes beyond its arrays, stops early without a message, or uses
+/// -1 as a node.
 MshContents requireSoundMsh(const std::string& file);
 
 }  // namespace squeal::meshfile

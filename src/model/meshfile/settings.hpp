@@ -6,7 +6,7 @@
 
 namespace squeal::meshfile {
 
-/// A parameter of a geometry and the value that it is given.
+/// A parameter of a geometry and the value to set.
 struct GeometryParameter {
   std::string name;
   double value;
@@ -33,7 +33,7 @@ struct Settings {
 /// Returns the parameters in items "name=number". Throws Error as Settings::given() does.
 std::vector<GeometryParameter> parametersOf(const std::vector<std::string>& items);
 
-/// Throws Error if an option for shapes is given, for a file that is none.
+/// Throws Error if an option for shapes is given although the file is not a shape.
 void rejectShapeMesh(const std::string& file, const ShapeMesh& shape);
 
 }  // namespace squeal::meshfile

@@ -15,14 +15,15 @@ struct UnvContents {
 };
 
 /// Not collective. Returns the contents of a .unv file. Throws Error, with the line, unless the
-/// sections of nodes (2411) and elements (2412) hold tags that are positive and given once, finite
-/// coordinates, and elements on existing nodes. Throws Error also if two groups (2435, 2452, 2467,
-/// 2477) have the same name. These checks are necessary since gmsh's reader silently ends a section
-/// at a line that it does not understand.
+/// sections of nodes (2411) and elements (2412) contain tags that are positive and given once,
+/// finite coordinates, and elements on existing nodes. Also throws Error if two groups (2435, 2452,
+/// 2467, 2477) have the same name. These checks are necessary since gmsh's reader silently ends a
+/// section at a line that it does not understand.
 UnvContents requireSoundUnv(const std::string& file);
 
-/// A UnvCopy is a copy of a sound .unv file in the folder for temporary files, with the groups as
-/// gmsh reads them and underscores for blanks in their names. It is removed with the object.
+/// A UnvCopy is a copy of a sound .unv file in the folder for temporary files, with groups in the
+/// form that gmsh reads, and underscores in place of blanks in their names. The copy is removed
+/// with the object.
 class UnvCopy {
  public:
   /// Throws Error if the copy cannot be written.

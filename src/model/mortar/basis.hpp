@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The shape functions φ of a face at any point, and the basis φ̃ = Eᵀφ of the slave side with
-/// positive integrals. Displacements in φ and φ̃ satisfy u = E ũ, edge by edge with a parameter α:
+/// The shape functions φ of a face at any point, and the basis φ̃ = Eᵀφ of the slave side, whose
+/// integrals are positive. The nodal displacements u of φ and ũ of φ̃ satisfy u = E ũ, edge by edge
+/// with a parameter α:
 ///   u_c = ũ_c at corners,   u_e = (1 − 2α) ũ_e + α (ũ_a + ũ_b) between the corners a and b,
 /// so neighbouring faces with the same α agree on ũ. Not collective. Source: Popp, Wohlmuth, Gee
 /// and Wall, SIAM J. Sci. Comput. 34 (2012).
@@ -11,7 +12,7 @@
 
 namespace squeal::mortar {
 
-inline constexpr std::size_t mostNodes = 9;  ///< of a face
+inline constexpr std::size_t mostNodes = 9;  ///< largest number of nodes of a face
 
 /// Reference coordinates of a face, as in gmsh. The second coordinate of a line is zero.
 using Reference = std::array<double, 2>;
@@ -23,8 +24,8 @@ struct MidEdge {
   std::array<int, 2> corners;
 };
 
-/// The common properties of the faces of one gmsh element type. Nodes are in gmsh's order: corners,
-/// mid-edge nodes, centre.
+/// The properties that all faces of one gmsh element type share. Nodes are in gmsh's order:
+/// corners, mid-edge nodes, centre.
 struct FaceType {
   int type, dimension, order, nodes, corners;
   /// Edges with a node between their corners. A line3 has one.
@@ -53,16 +54,17 @@ enum class Multiplier { nodes, corners };
 /// The cover of a slave face by the master faces.
 enum class Cover { full, partial };
 
-/// Returns α for the edges of a face that no other type of face shares. On fully covered faces, ∫φ̃
-/// is then positive for all pivots; on partly covered tri6 and quad8 faces, φ̃ itself is
-/// nonnegative. α is 0 on line3 and quad9, where ∫φ̃ is positive only for a fully covered face.
-/// With multipliers at the corners of a straight tri6, ψ_p are its linear functions.
+/// Returns α for those edges of a face at which only faces of the same type meet. With this α, ∫φ̃
+/// is positive for all pivots of fully covered faces, and φ̃ itself is nonnegative on partly
+/// covered tri6 and quad8 faces. On line3 and quad9 faces α is 0, and ∫φ̃ is positive only for a
+/// fully covered face. With multipliers at the corners of a straight tri6, the dual functions ψ_p
+/// are the linear functions of the corners.
 double usualAlpha(const FaceType& type, Cover cover, Multiplier multiplier = Multiplier::nodes);
 
 /// Returns φ̃ from φ at the same point:
 ///   φ̃_c = φ_c + Σ α_e φ_e over the edges e at the corner c,   φ̃_e = (1 − 2α_e) φ_e,
-/// and the function of a centre node does not change. `alpha` contains α of each edge, in the order
-/// of FaceType::edges.
+/// where the function of a centre node does not change. `alpha` contains α of each edge, in the
+/// order of FaceType::edges.
 NodeValues slaveBasis(const FaceType& type, const NodeValues& shape, std::span<const double> alpha);
 
 }  // namespace squeal::mortar

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Cuts of convex regions of a plane: polygons, or segments of a line. Not collective.
+/// Operations on convex regions of a plane, which are polygons or segments of a line. Not
+/// collective.
 #include <array>
 #include <vector>
 
@@ -26,15 +27,15 @@ PlanePoint centroid(const Region& region);
 bool isConvex(const Region& region);
 /// Returns the part of a region in the half-plane.
 Region clip(const Region& region, const HalfPlane& half);
-/// Returns the part of a region inside another one, both polygons or both segments of one line.
-/// First moves the sides of the other region outwards by `margin`.
+/// Returns the part of a region inside another one, both polygons or both segments of one line. The
+/// sides of the other region are first moved outwards by `margin`.
 Region intersection(const Region& region, const Region& other, double margin = 0);
 /// Returns the part of a region outside another one, in convex pieces. Omits pieces whose measure
 /// is at most `smallest`.
 std::vector<Region> difference(const Region& region, const Region& other, double smallest);
 
-/// A point of a quadrature rule and its weight, in the unit of the area of the region, or of its
-/// length.
+/// A point of a quadrature rule and its weight, which has the unit of the area of the region (for a
+/// segment, of its length).
 struct WeightedPoint {
   PlanePoint point;
   double weight;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Integrals of the dual functions of one slave face against both sides. A dual function ψ_p is
-/// orthogonal to all φ̃_q of other pivots q, so each pivot has its own condition. Sources:
-/// Wohlmuth, SIAM J. Numer. Anal. 38 (2000); Popp, Wohlmuth, Gee and Wall, SIAM J. Sci. Comput. 34
-/// (2012).
+/// Integrals of the dual functions of one slave face times the shape functions of both sides. The
+/// dual function ψ_p of a pivot p is orthogonal to the functions φ̃_q of all other pivots q, so
+/// each pivot has its own condition. Sources: Wohlmuth, SIAM J. Numer. Anal. 38 (2000); Popp,
+/// Wohlmuth, Gee and Wall, SIAM J. Sci. Comput. 34 (2012).
 #include <span>
 #include <vector>
 
@@ -15,14 +15,15 @@ namespace squeal::mortar {
 /// The functions χ_p of the pivots of a slave face, which span the dual functions; Σ χ_p = 1.
 struct Pivots {
   std::vector<int> nodes;   ///< [pivot] node of the face
-  std::vector<int> others;  ///< nodes that are no pivots
+  std::vector<int> others;  ///< nodes that are not pivots
   /// [pivot][node]: χ_p = Σ functions(p, i) φ̃_i.
   linalg::DenseMatrix functions;
 };
 
-/// Returns the pivots of a face. Not collective. `dropped` marks nodes that have no multiplier
-/// although nodes of their kind do; their functions are distributed equally among the pivots. If
-/// all are dropped, there are no pivots.
+/// Returns the pivots of a face. Not collective. `dropped`, [node], marks nodes without a
+/// multiplier although other nodes of their kind (see Multiplier) have one. The functions of
+/// dropped nodes are distributed equally among the pivots. If all nodes are dropped, there are no
+/// pivots.
 Pivots pivots(const FaceType& type, Multiplier multiplier, const std::vector<bool>& dropped);
 
 /// The coupling of a slave face to one master face:
@@ -30,17 +31,20 @@ Pivots pivots(const FaceType& type, Multiplier multiplier, const std::vector<boo
 ///   face].
 using MasterTerms = MasterMoments;
 
-/// The integrals over one slave face, in m² (m in the plane) unless noted. With D = diag(slave),
+/// The integrals over one slave face, in m² (m in plane problems) unless noted. With D =
+/// diag(slave),
 ///   D ũ_p + B ũ_o − M u_l
 /// is the jump of displacements at a pivot, times W.
 struct FaceTerms {
-  std::vector<double> slave;   ///< D: ∫ ψ_p φ̃_p dA, [pivot]
-  std::vector<double> weight;  ///< W: ∫ ψ_p dA, [pivot]; W = Σ of the rows of D and B, and of M
+  std::vector<double> slave;  ///< D: ∫ ψ_p φ̃_p dA, [pivot]
+  /// W: ∫ ψ_p dA, [pivot]; equal to the row sums of D and B together, and of all M
+  std::vector<double> weight;
   linalg::DenseMatrix others;  ///< B: ∫ ψ_p φ̃_o dA, [pivot][other node]
   std::vector<double> gap;     ///< G: ∫ ψ_p gap dA, [pivot], m³ (m²)
   std::vector<MasterTerms> masters;
   std::vector<double> covered;  ///< ∫ φ̃_i dA over the covered part, [node]
-  std::vector<Point> normal;  ///< ∫ φ̃_i n dA over the covered part, [node], n out of the slave
+  /// ∫ φ̃_i n dA over the covered part, [node]; n points out of the slave
+  std::vector<Point> normal;
   /// False if ψ would be large because the covered part is too small or too thin to distinguish the
   /// functions. Then χ_p replaces ψ_p, and ∫ χ_p φ̃ dA of all nodes is lumped on the pivot: D = W =
   /// ∫ χ_p dA and B = 0. Uniform pressures, uniform displacements and the total force stay exact,
@@ -54,11 +58,11 @@ struct FaceTerms {
 FaceTerms integrate(const FaceMoments& moments, std::span<const double> alpha,
                     const Pivots& pivots);
 
-/// Returns ∫ φ̃_i dA over the covered part of a face, [node], m² (m in the plane), as in
+/// Returns ∫ φ̃_i dA over the covered part of a face, [node], m² (m in plane problems), as in
 /// FaceTerms::covered. Not collective.
 std::vector<double> coveredIntegrals(const FaceMoments& moments, std::span<const double> alpha);
 
-/// Returns ∫ φ̃_i dA over the whole face, covered or not, [node], m² (m in the plane). Not
+/// Returns ∫ φ̃_i dA over the whole face, covered or not, [node], m² (m in plane problems). Not
 /// collective.
 std::vector<double> wholeIntegrals(const Face& slave, std::span<const double> alpha);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A boundary face with its geometry, independent of the mesh: it can be sent to the rank that
-/// integrates over it.
+/// A boundary face with its geometry. It is independent of the mesh, so it can be sent to the rank
+/// that integrates over it.
 #include <string>
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace squeal::mortar {
 using mesh::Point;
 
 struct Face {
-  int type = 0;                 ///< gmsh element type: a line in the plane, otherwise a surface
+  int type = 0;  ///< gmsh element type: a line in plane problems, otherwise a surface
   std::vector<PetscInt> nodes;  ///< [node] global number, in gmsh's order
   std::vector<int> parts;       ///< [node] connected part of the mesh
   std::vector<Point> points;    ///< [node] coordinates, m

@@ -14,8 +14,9 @@ namespace squeal::mortar {
 
 /// The integrals against the shape functions φ_l of one master face.
 struct MasterMoments {
-  std::size_t face;            ///< index into the master faces
-  linalg::DenseMatrix values;  ///< ∫ φ_i φ_l dA, [node][node of the master face], m² (m)
+  std::size_t face;  ///< index into the master faces
+  /// ∫ φ_i φ_l dA, [node][node of the master face], m² (m in plane problems)
+  linalg::DenseMatrix values;
   /// ∫ φ_i V·∇_S φ_l dA with the velocity V, [node][node of the master face], m²/s (m/s); empty
   /// without a velocity
   linalg::DenseMatrix convected;
@@ -25,7 +26,7 @@ struct MasterMoments {
 struct FaceMoments {
   int type = 0;                    ///< gmsh element type of the slave face
   std::vector<double> value, gap;  ///< ∫ φ_i dA, ∫ φ_i gap dA, [node], m² (m), m³ (m²)
-  std::vector<Point> normal;       ///< ∫ φ_i n dA, [node], n out of the slave
+  std::vector<Point> normal;       ///< ∫ φ_i n dA, [node]; n points out of the slave
   linalg::DenseMatrix products;    ///< ∫ φ_i φ_j dA, [node][node]
   std::vector<MasterMoments> masters;
   double covered = 0, largestGap = 0;  ///< area, m² (m); largest |gap|, m

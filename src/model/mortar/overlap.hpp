@@ -11,10 +11,10 @@ namespace squeal::mortar {
 
 /// An integration point on the covered part of a slave face.
 struct OverlapPoint {
-  Reference slave, master;  ///< where it is on both faces
-  double weight;            ///< area of the slave face at this point, m² (m in the plane)
+  Reference slave, master;  ///< its position on both faces
+  double weight;            ///< area of the slave face at this point, m² (m in plane problems)
   std::size_t masterFace;   ///< index into the master faces
-  /// Signed distance of the master's point from the slave's, m, positive where open:
+  /// Signed distance of the point on the master from the point on the slave, m, positive if open:
   ///   x_master = x_slave + gap · normal.
   double gap;
   Point normal;  ///< unit normal out of the slave face at the point
@@ -23,17 +23,18 @@ struct OverlapPoint {
 /// Returns integration points and weights for the part of the slave face that the master faces
 /// cover; the weights refer to the area of the (curved) slave face. Not collective.
 ///
-/// A master face covers its projection along the mean normal of the slave face, if both face each
-/// other and their distance, positive or negative, is at most `searchDistance`, m. If two master
-/// faces cover the same place, the nearer one counts. At an uncovered rim of the slave, master
-/// faces are extended beyond their edges if that closes the open part. The extension is the sag of
-/// curved edges plus the shift of inclined faces with a gap in the projection. Common rims of
-/// different meshes therefore stay covered, but an overhang does not.
+/// A master face covers its projection along the mean normal of the slave face if the two faces
+/// point towards each other and the magnitude of their distance is at most `searchDistance`, m. If
+/// two master faces cover the same place, the nearer one is used. At an uncovered rim of the slave
+/// face, master faces are extended beyond their edges if this closes the open part. The extension
+/// is the sag of curved edges plus the shift that a gap between inclined faces causes in the
+/// projection. If two different meshes have a common rim, it is therefore covered, but an overhang
+/// is not.
 ///
 /// If edges are straight in the projection, faces are cut at the edges of both sides, and the
-/// covered part is exact within round-off; for the rules see overlapRule(). Otherwise four straight
-/// pieces replace each edge, the triangles between them tile the slave face exactly, and master
-/// faces are extrapolated beyond their edges by their sag.
+/// covered part is exact within round-off; for the quadrature rules see overlapRule(). Otherwise
+/// each edge is replaced by four straight pieces. The triangles that result tile the slave face
+/// exactly, and master faces are extended beyond their edges by their sag.
 ///
 /// Throws Error for a type of face without a faceType(), and for a slave face whose normal turns by
 /// more than 84° from its mean.

@@ -10,11 +10,11 @@
 namespace squeal::mortar {
 
 /// Returns a rule for the products of shape functions of both faces over a tile of their overlap,
-/// in the plane of the frame. `whole` is true if neither face is split there.
+/// in the plane of the frame. `whole` is true if neither face is split into triangles there.
 ///
 /// On affine faces the rule is exact. On other flat faces with straight edges it integrates each
-/// function within round-off, so they transmit a uniform pressure like affine faces. Not
-/// collective.
+/// shape function within round-off, so such faces transmit a uniform pressure as affine faces do.
+/// Not collective.
 std::vector<WeightedPoint> overlapRule(const Region& tile, const Frame& frame, const Face& slave,
                                        const Face& master, bool whole);
 

@@ -7,13 +7,14 @@
 
 namespace squeal::ties {
 
-/// Collective. Moves the tied nodes of adjusted ties to Σ P_il x_l, in chains the masters first. It
-/// uses the P of the original coupling: the P of the moved nodes would differ by about a hundredth
-/// of the move, and would move them along the surface repeatedly. Nodes within edges, faces and
-/// cells follow the corners of their cells unless they are on a surface that options name. Periodic
-/// images move with their primaries. Sets InterfaceReport::largestAdjustment and
-/// InterfaceReport::strain. Throws Error for a tie that folds a cell, and warns of one that changes
-/// a distance of corners of a cell by more than a tenth.
+/// Collective. Moves the tied nodes of adjusted ties to Σ P_il x_l; in chains of ties, masters are
+/// moved before their slaves. It uses the P of the original coupling. The P of the moved nodes
+/// would differ by about a hundredth of the move, and would move the nodes along the surface again
+/// and again. Nodes within edges, faces and cells follow the corners of their cells unless they are
+/// on a surface that options name. Periodic images move with their primaries. Sets
+/// InterfaceReport::largestAdjustment and InterfaceReport::strain. Throws Error for a tie that
+/// folds a cell, and warns of a tie that changes a distance between corners of a cell by more than
+/// a tenth.
 void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                      interfaces::Interfaces& ties);
 

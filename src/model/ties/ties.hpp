@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Ties, which are coupled before the elements are assembled, and the moves of tied nodes onto
-/// their masters. A tie u_i = Σ P_il u_l is exact for a rotation of both sides together only if its
-/// nodes satisfy
+/// Ties, and the moves of tied nodes onto their masters. Ties are coupled before the elements are
+/// assembled, because these moves change the mesh. A tie u_i = Σ P_il u_l is exact for a rotation
+/// of both sides together only if its nodes satisfy
 ///   x_i = Σ P_il x_l   [M.55].
 #include "model/interfaces/nodes.hpp"
 #include "model/mesh/mesh.hpp"
@@ -10,12 +10,11 @@
 namespace squeal::ties {
 
 /// Collective. Returns the options of all interfaces, the supports, the tied nodes and the coupled
-/// ones. A node
-/// belongs to one tie: the first that claims it if the meshes do not match, otherwise by
-/// tieMatched(). The nodes of adjusted ties are moved to satisfy the equation above within
-/// round-off with the returned P. Warns of ties with less than half of the slave covered. Throws
-/// Error for surfaces that do not meet, for ties that depend on each other in a circle, and for a
-/// tie that folds a cell.
+/// nodes. A node belongs to only one tie. Among ties whose meshes do not match, this is the first
+/// one that claims the node; for ties with matching meshes, see tieMatched(). The nodes of adjusted
+/// ties are moved to satisfy the equation above within round-off with the returned P. Warns of ties
+/// if less than half of the slave is covered. Throws Error for surfaces that do not meet, for ties
+/// that depend on each other in a circle, and for a tie that folds a cell.
 interfaces::Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings,
                                 const constraints::Settings& supports);
 
