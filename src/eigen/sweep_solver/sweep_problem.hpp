@@ -34,7 +34,7 @@ struct PathPiece {
   double from = 0, to = 0;           ///< friction
 };
 
-/// The data of a point between those of the sweep.
+/// The data of a point between two points of the sweep.
 struct PointBetween {
   std::vector<pencil::Term> terms;  ///< that belong only to this point
   /// Collective. Returns the forms yᴴ (∂P/∂θ) x of all parameters θ. Borrows the pencil, which
@@ -55,7 +55,7 @@ class SweepProblem {
   Mat trial = nullptr;                          ///< T: maps all unknowns to the reported vectors
   std::vector<sweep::Parameters> steadyPoints;  ///< points with a steady state; their damping is 1
   std::vector<PointRange> ranges;               ///< one for each active set
-  std::optional<pencil::Pencil> pencil;         ///< the terms that hold at all points; always set
+  std::optional<pencil::Pencil> pencil;  ///< the terms that hold at all points; always has a value
   /// [steady point] the path to it from the preceding point, if the two differ only in friction.
   /// The last piece has the active set of the point. Empty if all points have one active set.
   std::vector<std::vector<PathPiece>> steps;
@@ -75,8 +75,9 @@ class SweepProblem {
     factors.missing = "the factors of the friction terms are not known";
     return factors;
   }
-  /// Collective. Returns a point between those of the sweep; none if it has no steady state, or
-  /// another active set than steadyPoints[like]. Its forms borrow this problem.
+  /// Collective. Returns the data of a point between two points of the sweep; none if it has no
+  /// steady state, or an active set other than that of steadyPoints[like]. The forms borrow this
+  /// problem.
   virtual std::optional<PointBetween> between(const sweep::Parameters& /*at*/,
                                               std::size_t /*like*/) {
     return PointBetween();
