@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Error estimates for the eigenvalues of the reduced problem as approximations of the eigenvalues
-/// of the full problem. Equations in brackets are those of docs/method.md, section 11.
+/// of the full problem. Numbers in brackets refer to equations in docs/method.md, section 11.
 #include <vector>
 
 #include "base/checkpoint/archive.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The reduced problem [4.19], corrected until its eigenvalues agree with those of the full one.
-/// The number in brackets is an equation of docs/method.md, src/README.md explains the symbols, and
-/// subspace::Substructure defines interior and boundary unknowns.
+/// Numbers in brackets refer to equations in docs/method.md, src/README.md explains the symbols,
+/// and subspace::Substructure defines interior and boundary unknowns.
 #include <functional>
 #include <optional>
 #include <utility>

@@ -8,7 +8,7 @@
 
 namespace squeal::steady {
 
-/// Collective. Returns b with the pressures and the centrifugal forces of this point.
+/// Collective. Returns the loads b at this point.
 OwnedVec loadAt(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                 const sweep::Parameters& at);
 
