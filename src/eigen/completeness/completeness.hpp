@@ -21,8 +21,9 @@ struct ProvedSet {
 /// Collective. Extends the basis by K0⁻¹ Sᵀ, the static responses to forces along the slip rows S.
 /// Sets ComplexModes::completeness of each point and, where it is proved, the radius of each of its
 /// eigenvalues. `modes` are the free modes of `system`, which has only the interior unknowns
-/// (subspace::Substructure). The proof needs their number up to a frequency well above the band. If
-/// it is confirmed only up to slightly above, the modes are counted again at a higher frequency.
+/// (subspace::Substructure). The proof needs the number of these modes up to well above the band.
+/// If their number is confirmed only up to slightly above the band, they are counted again at a
+/// higher frequency.
 void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
            const modes::Modes& modes, const FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings);

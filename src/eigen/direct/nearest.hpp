@@ -12,7 +12,8 @@
 
 namespace squeal::direct {
 
-/// An eigenvalue with its right vector of 2-norm 1. The imaginary part of a real vector is zero.
+/// An eigenvalue and its right vector, which has the 2-norm 1. The imaginary part of a real vector
+/// is zero.
 struct NearestPair : linalg::ComplexVector {
   Complex s;
 };
@@ -53,8 +54,8 @@ class NearestSolver {
   /// eigenvalues have converged.
   virtual NearestPairs collected(PetscInt count) = 0;
   NearestPairs krylov(PetscInt count);
-  /// Collective. Runs SLEPc's solver. Returns an empty text, or the message of a LAPACK failure,
-  /// after which the solver no longer exists.
+  /// Collective. Runs SLEPc's solver. Returns an empty text or, if LAPACK fails, its message;
+  /// SLEPc's solver then no longer exists.
   std::string lapackFailure();
   NearestPairs whole() const;
   int runs_ = 0;  // number of start vectors used so far

@@ -11,9 +11,9 @@ namespace squeal::modes {
 /// Name of the type, for EPSSetType and -eps_type.
 constexpr const char* blockLanczosType = "blocklanczos";
 
-/// Registers the type with SLEPc, once. It supports the monitors and convergence tests of EPS, and
-/// its options nev, ncv (largest number of basis vectors), tol and max_it (largest number of
-/// restarts). The type has two options of its own:
+/// Registers the type with SLEPc; further calls have no effect. It supports the monitors and
+/// convergence tests of EPS, and its options nev, ncv (largest number of basis vectors), tol and
+/// max_it (largest number of restarts). The type has two options of its own:
 ///   -eps_blocklanczos_blocksize <8>: number of right-hand sides per block solve,
 ///   -eps_blocklanczos_pole <true>: place further poles among the wanted eigenvalues; the
 ///     inertia at such a pole counts the eigenvalues below it.

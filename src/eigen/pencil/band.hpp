@@ -11,8 +11,8 @@ namespace squeal::pencil {
 /// Returns the top of the band, rad/s. `frequencies` are the angular frequencies of the free modes,
 /// rad/s, ascending and not empty. The top is `requested` if this is positive, otherwise the
 /// frequency at 55 % of the list. In both cases it is kept below the highest mode, unless all modes
-/// are equal. Only found eigenvalues are corrected, so an eigenvalue above all modes could be
-/// missed without notice.
+/// are equal. Only eigenvalues that have been found are corrected, so an eigenvalue above all modes
+/// could be missed without notice.
 double bandBelow(const std::vector<double>& frequencies, double requested = 0);
 
 /// The band and the guard zone around it [M.43], whose eigenvalues are tracked too.

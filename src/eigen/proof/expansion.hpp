@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Bounds of P_CV P_VV⁻¹ P_VC around a point of the plane.
+/// Bounds of P_CV P_VV⁻¹ P_VC around a point of the plane of z.
 #include <optional>
 #include <vector>
 

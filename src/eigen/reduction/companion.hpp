@@ -36,7 +36,8 @@ class Companion {
   double unit() const { return unit_; }
   /// Returns the right vectors of the pairs, 2m × pairs.
   ComplexMatrix right(const std::vector<const linalg::DensePair*>& pairs) const;
-  /// Returns the functionals l of the left vectors, lᴴ(u, v / unit), of 2-norm 1.
+  /// Returns the functionals of the left vectors as columns l of 2-norm 1; their values are lᴴ(u,
+  /// v / unit).
   ComplexMatrix left(const std::vector<const linalg::DensePair*>& pairs) const;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace squeal::reduction {
 
-/// A pair of a list that needs improvement.
+/// A pair that needs improvement, by its index in a list.
 struct UnconvergedPair {
   std::size_t pair;
   double right;  ///< fraction of its residual P(s) x that may remain

@@ -14,8 +14,8 @@ class PointNorms {
  public:
   /// Collective. Computes the norms of a point.
   const Norms& compute(const PointProblem& point);
-  /// Collective. Returns the norms of the nearest point in friction among those computed before
-  /// with the same other parameters. Without such a point, computes the norms of this one.
+  /// Collective. Returns the norms of the computed point whose friction is nearest and whose other
+  /// parameters are the same. If none exists, computes the norms of this point.
   const Norms& nearby(const PointProblem& point);
   /// Not collective. Writes or reads all norms.
   void serialise(checkpoint::Archive& archive) { archive.common(known_); }

@@ -60,10 +60,10 @@ struct PointState {
   const PointSet* set;
   ProjectedTerms ownTerms;
   bool damped;
-  bool associated = false;  ///< the point has only the terms of the free modes
+  bool associated = false;  ///< it is the problem of the free modes, with only K and M
   PointSolution solution = {};
 
-  /// Returns these pairs of the point with their columns, borrowed. If `isDamped` is false, pairs
+  /// Returns these pairs, borrowed, with the columns that they take. If `isDamped` is false, pairs
   /// with real vectors may take one column.
   PointPairs pairs(std::vector<const linalg::DensePair*> some, bool isDamped) const {
     return {{point->at, associated}, Coordinates(std::move(some), isDamped, set->space)};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The terms of a pencil, projected on a growing basis V. It stores the projections VᵀAV, and
-/// sketches of A V and AᵀV for the norms of residuals [M.39]. It stores the product A V only if A
-/// has few nonzero rows, since otherwise A V would take as much memory as V.
+/// The terms of a pencil, projected on a growing basis V. Stored are the projections VᵀAV, and
+/// sketches of A V and AᵀV for the norms of residuals [M.39]. The product A V is stored only if A
+/// has few nonzero rows, since otherwise it would take as much memory as V.
 #include <vector>
 
 #include "algebra/linalg/block.hpp"
@@ -17,9 +17,9 @@ namespace squeal::reduction {
 using subspace::Basis;
 using subspace::PointSpace;
 
-/// The vectors of some eigenpairs, in coordinates of a basis, as columns of a real matrix. A pair
-/// with real vectors and an s on the imaginary axis, in a problem without damping, takes one
-/// column; all others take two.
+/// The vectors of some eigenpairs, in coordinates of a basis, as columns of a real matrix. In a
+/// problem without damping, a pair with real vectors and an imaginary s takes one column. All other
+/// pairs take two.
 class Coordinates {
  public:
   std::vector<const linalg::DensePair*> pairs;  ///< borrowed
@@ -86,9 +86,9 @@ class ProjectedTerms {
   struct Part {
     pencil::Term term;
     linalg::RowSet rows, leftRows;   // nonzero rows of A and Aᵀ
-    OwnedMat matrix, adjoint;        // these rows; no adjoint if A is symmetric
-    linalg::Block timesV;            // A V, by `rows`; empty if these are all rows
-    linalg::Block rowsOfV;           // these rows of V; empty if these are all rows
+    OwnedMat matrix, adjoint;        // A and Aᵀ in these rows; no adjoint if A is symmetric
+    linalg::Block timesV;            // A V in `rows`; empty if these are all rows
+    linalg::Block rowsOfV;           // V in `rows`; empty if these are all rows
     linalg::DenseMatrix sketch;      // sketch of A V
     linalg::DenseMatrix leftSketch;  // sketch of AᵀV; empty if A is symmetric
     linalg::DenseMatrix projection;  // VᵀAV

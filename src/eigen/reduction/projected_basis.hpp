@@ -34,9 +34,9 @@ class ProjectedBasis {
 
   /// Collective. Adds a set of points with the same boundary unknowns, those with has[boundary
   /// unknown of all ranks] = 1, and returns its index. The terms of the set are those of `pencil`
-  /// that follow the terms of all points and hold for all parameters. A set that is only `passed`
-  /// on the way between points must be loaded before use. Throws Error if the stiffness is not
-  /// positive definite.
+  /// that follow the terms of all points and hold for all parameters. A `passed` set occurs only
+  /// between points, and must be loaded before use. Throws Error if the stiffness is not positive
+  /// definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
   /// Collective. Projects the terms of a passed set, unless they are loaded. Of the passed sets,

@@ -44,7 +44,7 @@ struct Improvement {
 /// static responses to the friction forces and to the residuals of Ritz pairs. With only the modes,
 /// the method would miss unstable eigenvalues and report spurious ones. Each round adds K0⁻¹ r for
 /// the residuals r of all inaccurate pairs. One block solve computes all these vectors, with the
-/// real symmetric factorisation that the modes were computed with. A round reduces the errors to
+/// real symmetric factorisation that was computed for the modes. A round reduces the errors to
 /// about a tenth. A pair is certified if its full-order backward error is at most
 /// `-flutter_accuracy` and the estimate of |δs|/|s| at most `-flutter_tolerance`. The whole sweep
 /// shares one basis.
@@ -59,8 +59,8 @@ class ReducedProblem {
   /// Collective. Adds a set of points with the same boundary unknowns: has[i] is 1 for the boundary
   /// unknowns i, numbered over all ranks, that they have. Returns the index of the set. The set
   /// shares the terms of `pencil` that come after those passed to the constructor; they hold for
-  /// all parameters. A set that is only `passed` on the way between points must be loaded before
-  /// use. Throws Error if the stiffness is not positive definite.
+  /// all parameters. A `passed` set occurs only between points, and must be loaded before use.
+  /// Throws Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
   /// Collective. Makes a set ready for use (ProjectedBasis::load()).
@@ -153,7 +153,7 @@ class ReducedProblem {
   PointNorms norms_;
   SolvedPairs solved_;
   Pod pod_;
-  std::optional<subspace::ModeCount> count_;  // with boundary unknowns
+  std::optional<subspace::ModeCount> count_;  // none without boundary unknowns
   bool started_ = false;                      // the basis contains the static responses
   std::function<void()> afterRound_;
   std::optional<PendingBatch> pending_;  // between two rounds, or resumed from a checkpoint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The space V of the proof: free modes, static responses and corrections. It has the projected
-/// matrices, and the Gram matrices of their couplings to C, the space that V leaves out.
+/// The space V of the proof: free modes, static responses and corrections. KeptSpace also has the
+/// projected matrices, and the Gram matrices of their couplings to C, the space that V leaves out.
 #include "algebra/linalg/quadratic.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/proof/kept.hpp"

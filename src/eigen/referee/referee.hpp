@@ -57,7 +57,7 @@ struct Judgement {
 
   bool proved() const { return why.empty(); }
   long number(Verdict verdict) const;
-  /// Returns the number of proved discs of single eigenvalues in the upper half.
+  /// Returns the number of eigenvalues with Im s ≥ 0 that are proved to be single in a disc.
   long singles() const;
   /// Returns true if the count is proved, every entry in the region is right and no eigenvalue is
   /// missing.

@@ -28,7 +28,7 @@ struct LinePiece {
 
 /// The points of one speed, pressure and damping.
 struct Line {
-  sweep::Parameters at;           ///< the other parameters; its friction has no meaning
+  sweep::Parameters at;           ///< the parameters; its friction has no meaning
   std::vector<double> swept;      ///< frictions of the sweep, ascending
   std::vector<LinePiece> pieces;  ///< ascending
   /// Friction of the preceding point, if the active set changes between it and the first point and
@@ -39,10 +39,10 @@ struct Line {
 
 /// The result for all frictions of one speed, pressure and damping that share a basis.
 struct TrackedLine {
-  sweep::Parameters line;           ///< the other parameters; its friction has no meaning
+  sweep::Parameters line;           ///< the parameters; its friction has no meaning
   std::vector<int> activeSet;       ///< [piece of the path] its number in the results
   double from = 0;                  ///< friction below which another active set applies; 0: none
-  Branches branches;                ///< numbered from 1: renumber()
+  Branches branches;                ///< numbered from 1 by renumber()
   std::vector<Critical> criticals;  ///< critical frictions of the branches, ascending
   std::vector<pencil::CriticalMode> criticalModes;  ///< [critical]
   bool countExact = false;  ///< the Sturm count confirms the number at the first friction, 0

@@ -14,7 +14,7 @@ struct Settings {
   double tolerance = 1e-8;  ///< `-flutter_critical_tolerance`: relative change of a friction
   /// Smallest step as a fraction of a step of the sweep: 2^-h for h = `-flutter_track_halvings`.
   double smallest = 1. / 1024;
-  /// Not collective. Reads the options, those of the reduced method only with it.
+  /// Not collective. Reads the options; those of the reduced method only if it is selected.
   static Settings given(const pencil::Settings& problem);
 };
 

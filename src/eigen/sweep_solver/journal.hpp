@@ -28,7 +28,8 @@ class Journal {
 
   /// Collective. Restores the segments of a finished sweep. Returns false if there are none.
   bool restoreFinished();
-  /// Collective. Returns the recorded free modes of the interior unknowns; none if there are none.
+  /// Collective. Returns the recorded free modes of the interior unknowns; none if none are
+  /// recorded.
   std::optional<modes::Modes> restoredModes();
   /// Collective. Restores the points and the basis; `basis` is null with the direct method.
   void restorePoints(reduction::ReducedProblem* basis);

@@ -19,9 +19,9 @@ struct ListedPoint {
   pencil::ComplexModes* list;       ///< borrowed
 };
 
-/// Collective. Sets what is proved about the lists of the points, and extends the basis for it.
-/// `modes` are the free modes of the interior unknowns. Returns a line of text for each list that
-/// lacks an eigenvalue.
+/// Collective. Sets ComplexModes::completeness of the points. Extends the basis for this. `modes`
+/// are the free modes of the interior unknowns. Returns a line of text for each list that lacks an
+/// eigenvalue.
 std::vector<std::string> proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
                                     const modes::Modes& modes, std::vector<ListedPoint> points,
                                     const completeness::Settings& settings);

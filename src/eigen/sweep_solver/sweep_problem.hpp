@@ -38,7 +38,8 @@ struct PathPiece {
 struct PointBetween {
   std::vector<pencil::Term> terms;  ///< that belong only to this point
   /// Collective. Returns the forms yᴴ (∂P/∂θ) x of all parameters θ. Borrows the pencil, which
-  /// contains the terms of the point, during the life of the forms. Empty: no derivatives.
+  /// contains the terms of the point, during the lifetime of the forms. If the function is empty,
+  /// there are no derivatives.
   std::function<sensitivity::Forms(const pencil::Pencil&)> forms;
 };
 
@@ -49,7 +50,7 @@ class SweepProblem {
   virtual ~SweepProblem() = default;
 
   const factor::AssociatedSystem* system = nullptr;  ///< K0 and M0 of the interior unknowns
-  /// The boundary unknowns: the gaps, and tangential displacements, of the contact nodes that are
+  /// The boundary unknowns: the gaps and tangential displacements of the contact nodes that are
   /// active at only some of the points.
   subspace::Substructure substructure;
   Mat trial = nullptr;                          ///< T: maps all unknowns to the reported vectors
@@ -88,7 +89,7 @@ class SweepProblem {
   virtual void examine(std::size_t i, const pencil::Pencil& pencil,
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
   /// Collective. Returns, for each of these complex modes, its name and the shares of the free
-  /// modes in it. The vectors of `motions` consist of the unknowns.
+  /// modes in it. The vectors of `motions` are in the unknowns.
   virtual std::vector<pencil::CriticalMode> describe(
       const std::vector<pencil::ComplexMotion>& motions, const modes::Modes& /*modes*/) const {
     return std::vector<pencil::CriticalMode>(motions.size());

@@ -9,8 +9,8 @@ namespace squeal::tracking {
 
 /// Returns the sign of Re s; 0 for a neutral eigenvalue.
 int sign(Complex s, bool damped);
-/// Returns the sign of the growth of pair k. If all pairs are equal, it is the sign of their mean,
-/// since a round-off δ separates equal eigenvalues by about √δ.
+/// Returns the sign of the growth of pair k. If all eigenvalues are equal, it is the sign for their
+/// mean, since a round-off δ separates equal eigenvalues by about √δ.
 int growthOf(const std::vector<linalg::DensePair>& pairs, std::size_t k, bool damped);
 /// Returns true if exactly one of these two signs is that of an unstable eigenvalue.
 bool changes(int before, int after);

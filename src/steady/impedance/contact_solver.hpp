@@ -17,8 +17,8 @@ struct ContactConditions {
   /// others w = 0
   std::vector<unsigned char> free;
   std::vector<double> coefficient;  ///< [contact node] c
-  /// Direct forces on w, N, per friction magnitude t, released unknowns × contact nodes: those of
-  /// friction on nodes that slide (steady::Hold::released); borrowed; null: none.
+  /// The direct effect of friction magnitudes t on F, released unknowns × contact nodes: the
+  /// friction on nodes that slide (steady::Hold::released). Borrowed; null if there is none.
   Mat direct = nullptr;
 };
 

@@ -12,7 +12,7 @@ using OwnedSNES = Owned<SNES, SNESDestroy>;
 
 /// The attainable accuracy of a steady state.
 struct Accuracy {
-  double forceUnit = 1;  ///< 2-norm of the residual without displacements, N
+  double forceUnit = 1;  ///< 2-norm of the residual at zero displacements, N
   double target = 0;     ///< η0 [M.16], a fraction of forceUnit
 };
 /// Collective. Returns the attainable accuracy near the unknowns x.

@@ -29,9 +29,9 @@ class Conditions {
  public:
   /// Collective. Borrows the contact during the lifetime of the object.
   explicit Conditions(const contact::Contact& contact);
-  /// Collective. Returns the forces whose sum at each node is `forces`, N entries, N. These are the
-  /// forces that the bodies need for equilibrium, without those of contact. If several groups hold
-  /// the same component, its force is attributed to one of them.
+  /// Collective. Returns the forces whose sum at each node is `forces` (N entries, in newtons).
+  /// These are the forces that the bodies need for equilibrium, without those of contact. If
+  /// several groups hold the same component, its force is attributed to one of them.
   ConditionForces of(Vec forces) const;
 
  private:

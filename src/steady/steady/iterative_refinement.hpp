@@ -30,8 +30,8 @@ struct Refinement {
 /// Collective. Improves y by the steps
 ///   y ← y − A⁻¹ F(y)
 /// until the residual F(y) is at round-off, a step does not halve it, or 20 steps have been made.
-/// `inner` solves with A to a few digits. A step that does not reduce the residual is undone.
-/// `residual` returns F(y), in the layout of y.
+/// `inner` solves with A inexactly. A step that does not reduce the residual is undone. `residual`
+/// returns F(y), in the layout of y.
 Refinement refine(KSP inner, const std::function<Residual(Vec)>& residual, Vec y);
 
 /// Collective. Returns GMRES for A = `matrix`, with the tolerance for a step of refinement. It

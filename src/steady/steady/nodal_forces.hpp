@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Nodal forces of a steady state, N entries each, N (moments on reference nodes N·m).
+/// Nodal forces of a steady state: N entries each, in newtons (moments on reference nodes in N·m).
 #include "base/petsc/owned.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "model/elasticity/elasticity.hpp"

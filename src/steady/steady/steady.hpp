@@ -60,7 +60,8 @@ struct Solution {
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES
   int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
-  /// Relative residual: its 2-norm divided by that at zero displacements [M.15].
+  /// Relative residual: the 2-norm of the natural residual, divided by that of the residual at zero
+  /// displacements [M.15].
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
   std::vector<ContactState> contact;  ///< [contact node]

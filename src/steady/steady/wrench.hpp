@@ -40,10 +40,10 @@ struct Wrench {
   }
 };
 
-/// Collective. Returns the resultant of the nodal forces on the nodes of this rank, N entries.
+/// Collective. Returns the resultant of `forces`, N entries, over the nodes of this rank.
 Wrench ownWrench(const mesh::Mesh& mesh, Vec forces);
 
-/// Collective. Sums over all ranks.
+/// Collective. Sums the wrenches over all ranks.
 void reduce(MPI_Comm comm, const std::vector<Wrench*>& wrenches);
 
 /// Not collective. Returns the components of an owned node; those beyond the dimension are zero.

@@ -37,14 +37,14 @@ bool surelyCopositive(const linalg::DenseMatrix& a);
 /// applied up to n = `pMatrixLimit`.
 Judgement examineMatrix(const linalg::DenseMatrix& a, double friction, int pMatrixLimit);
 
-/// Returns the friction where positive definiteness is lost [M.19],
+/// Returns the friction at which positive definiteness is lost [M.19],
 ///   f = −1/μ,
 /// where μ = `smallestRatio` is the smallest eigenvalue of sym(A1) v = μ A0 v; infinite unless μ is
 /// negative beyond round-off.
 double lossOfPositivity(double smallestRatio);
 
-/// Returns the smallest f > 0 where sym(A0 + f A1) is not positive definite; infinite if there is
-/// none, and 0 if A0 is not positive definite. Throws Error if LAPACK fails.
+/// Returns the smallest f > 0 at which sym(A0 + f A1) is not positive definite; infinite if there
+/// is none, and 0 if A0 is not positive definite. Throws Error if LAPACK fails.
 double lossOfPositivity(const linalg::DenseMatrix& a0, const linalg::DenseMatrix& a1);
 
 }  // namespace squeal::uniqueness
