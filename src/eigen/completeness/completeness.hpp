@@ -11,18 +11,19 @@
 
 namespace squeal::completeness {
 
-/// The points of a sweep that share the same active set.
+/// The points of a sweep that have the same active set.
 struct ProvedSet {
-  std::vector<PetscInt> rows;  ///< of the FrictionFactors that the set uses, ascending
-  std::vector<reduction::PointProblem> problems;  ///< at least one
-  std::vector<pencil::ComplexModes*> points;      ///< [problem] solved, borrowed
+  std::vector<PetscInt> rows;  ///< rows of FrictionFactors that the set uses, ascending
+  std::vector<reduction::PointProblem> problems;  ///< the problems of the points; at least one
+  std::vector<pencil::ComplexModes*> points;      ///< [problem] its solution, borrowed
 };
 
-/// Collective. Extends the basis by the static responses to forces in the slip rows. Sets the
-/// completeness of each point and, for each of its eigenvalues, the radius of the disc that
-/// contains it. `modes` are the free modes of `system`, which has only the interior unknowns
-/// (subspace::Substructure). If their number is known only to just above the band, they are counted
-/// again at a higher frequency.
+/// Collective. Extends the basis by K0⁻¹ Sᵀ, the static responses to forces along the slip rows S.
+/// Sets ComplexModes::completeness of each point and, where it is proved, the radius of each of its
+/// eigenvalues. `modes` are the free modes of `system`, which has only the interior unknowns
+/// (subspace::Substructure). The proof needs the number of these modes up to well above the band.
+/// If their number is confirmed only up to slightly above the band, they are counted again at a
+/// higher frequency.
 void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
            const modes::Modes& modes, const FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings);

@@ -6,7 +6,7 @@ namespace squeal::completeness {
 
 struct Settings {
   bool wanted = false;  ///< `-flutter_proof`
-  int discs = 400;      ///< `-flutter_proof_discs`: most expansions on the boundary, per point
+  int discs = 400;      ///< `-flutter_proof_discs`: limit of expansions on the boundary per point
   /// Not collective. Reads the options.
   static Settings given();
 };

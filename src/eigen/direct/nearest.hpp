@@ -12,7 +12,8 @@
 
 namespace squeal::direct {
 
-/// An eigenvalue with its right vector of 2-norm 1. The imaginary part of a real vector is zero.
+/// An eigenvalue and its right vector, which has the 2-norm 1. The imaginary part of a real vector
+/// is zero.
 struct NearestPair : linalg::ComplexVector {
   Complex s;
 };
@@ -20,7 +21,7 @@ struct NearestPair : linalg::ComplexVector {
 /// Eigenvalues found near zero.
 struct NearestPairs {
   std::vector<NearestPair> pairs;  ///< with Im s ≥ 0
-  double reached = 0;  ///< |s| up to which all eigenvalues are listed, 1/s; infinite: all are
+  double reached = 0;  ///< |s| up to which no eigenvalue is missing, 1/s; may be infinite
 };
 
 /// A solver for the eigenvalues nearest to zero at one point of the sweep.
@@ -30,10 +31,10 @@ class NearestSolver {
   NearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at);
   virtual ~NearestSolver() = default;
   /// Collective. Returns at least the `count` eigenvalues nearest to zero, or all if there are
-  /// fewer, with conjugate pairs counted once. Each call uses another start vector and the same
-  /// factorisation. If the Krylov space would be the whole space of a small problem, it calls
-  /// LAPACK instead. Throws Error if SLEPc does not converge, or if LAPACK fails within it for
-  /// several start vectors.
+  /// fewer. A conjugate pair counts once. Each call uses another start vector and the same
+  /// factorisation. If the Krylov space of a small problem would be the whole space, LAPACK solves
+  /// the problem instead. Throws Error if SLEPc does not converge, or if LAPACK fails inside SLEPc
+  /// for several start vectors.
   NearestPairs solve(PetscInt count);
 
  protected:
@@ -53,23 +54,23 @@ class NearestSolver {
   /// eigenvalues have converged.
   virtual NearestPairs collected(PetscInt count) = 0;
   NearestPairs krylov(PetscInt count);
-  /// Collective. Runs SLEPc's solver. Returns an empty text, or the message of a LAPACK failure,
-  /// after which the solver no longer exists.
+  /// Collective. Runs SLEPc's solver. Returns an empty text or, if LAPACK fails, its message;
+  /// SLEPc's solver then no longer exists.
   std::string lapackFailure();
   NearestPairs whole() const;
-  int runs_ = 0;  // start vectors taken so far
+  int runs_ = 0;  // number of start vectors used so far
 };
 
 /// Collective. Returns a solver with shift-and-invert at zero: if there is no damping, an EPS in
 /// μ = −s² [M.40] (-flutter_eps_*), otherwise the PEP solver TOAR (-flutter_pep_*). The options
-/// -flutter_st_* configure the factorisation of both.
+/// -flutter_st_* configure the factorisation of both solvers.
 std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,
                                              const sweep::Parameters& at);
 
-/// Collective. Repeats the solve from other start vectors, and adds new pairs to `found`, the
-/// result of solver.solve(count), until a solve finds none. A Krylov space from one vector contains
-/// only one vector of a multiple eigenvalue, except for round-off. A pair is new if its vector is
-/// not in the span of known vectors with nearly the same s.
+/// Collective. `found` is the result of solver.solve(count). Repeats the solve from other start
+/// vectors and adds the new pairs to `found`, until a solve finds no new pair. A Krylov space from
+/// one vector contains only one vector of a multiple eigenvalue, except for round-off. A pair is
+/// new if its vector is not in the span of known vectors with nearly the same s.
 void addMissing(NearestSolver& solver, PetscInt count, NearestPairs& found);
 
 /// Throws Error if -flutter_eps_*, -flutter_pep_* or -flutter_st_* options are given without the

@@ -23,7 +23,7 @@ struct Modes {
   /// `-modes_sturm`.
   bool countConfirmed = false;
   int inertiaCount = 0;     ///< number of eigenvalues of (K0, M0) below σ
-  double inertiaShift = 0;  ///< σ, in the widest gap of the topmost modes, rad²/s²
+  double inertiaShift = 0;  ///< σ, in a gap between two modes, rad²/s²
   /// The largest relative error of a λ that round-off in the entries of K0 may cause [M.26].
   double rounding = 0;
 };
@@ -32,24 +32,23 @@ struct Modes {
 struct TopCount {
   double shift = 0;     ///< rad²/s²
   int below = 0;        ///< number of eigenvalues of (K0, M0) below the shift
-  bool agrees = false;  ///< with the number of known modes
+  bool agrees = false;  ///< `below` is the number of known modes below the shift
 };
-/// Collective. Counts the modes below the widest gap of the topmost ten, by a factorisation. The
-/// list must not be empty.
+/// Collective. Counts the modes below the widest gap among the ten highest modes, by a
+/// factorisation. `modes` must not be empty.
 TopCount countAtTop(const factor::AssociatedSystem& system, const Modes& modes);
 
 /// How the log names a computation of modes.
 struct Label {
   std::string stage = "modes";
-  std::string subject = "";  ///< begins the line of the stage
+  std::string subject = "";  ///< text at the beginning of the line of the stage
 };
 
 /// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
-/// Unless `-modes_solver` selects one of these, LAPACK replaces them in two cases: if most modes of
-/// a small problem are requested, or if EPS too has missed modes of a problem of at most 2000
-/// unknowns. An unconfirmed count does not throw. Throws Error if a given count exceeds the number
-/// of unknowns, if the solver does not converge, or if an eigenvalue is not positive within
-/// round-off.
+/// Unless options select one of these, LAPACK is used in two cases: if most modes of a small
+/// problem are requested, and if EPS has missed modes of a problem with at most 2000 unknowns. An
+/// unconfirmed count is not an error. Throws Error if a given count exceeds the number of unknowns,
+/// if the solver does not converge, or if an eigenvalue is not positive within round-off.
 Modes compute(const factor::AssociatedSystem& system, const Settings& settings,
               const Label& label = {});
 

@@ -11,7 +11,7 @@
 
 namespace squeal::modes {
 
-/// A pole σ of the rational functions of S that generate the basis.
+/// A pole σ of the rational functions that generate the basis. The first pole is σ0.
 struct Pole {
   double distance;  ///< δ = σ − σ0
   /// Collective. Computes X = (K − σ M)⁻¹ B, both n × b.
@@ -22,8 +22,8 @@ struct Pole {
 struct RitzPairs {
   std::vector<double> value;     ///< θ, descending
   std::vector<double> residual;  ///< ‖S x − θ x‖_M
-  /// [k × k]: coordinates of the M-orthonormal Ritz vectors x, then of the b directions, orthogonal
-  /// to these, that span their residuals.
+  /// [k × k]: coordinates of the M-orthonormal Ritz vectors x, followed by those of b directions
+  /// that are orthogonal to all x and span their residuals.
   linalg::DenseMatrix vectors;
   linalg::DenseMatrix coupling;  ///< [b × pairs] coordinates of the residuals in these directions
 };
@@ -33,13 +33,13 @@ struct RitzPairs {
 /// appends Q. In terms of S,
 ///   S (V_l + δ W) = W,
 /// so all steps together satisfy S V A = V B for any poles, with small matrices A and B that have b
-/// more rows than columns. Rayleigh–Ritz uses V A, where the residuals are known without a further
-/// solve. With δ = 0 this is block Lanczos with full orthogonalisation and thick restart (Golub and
-/// Underwood 1977; Wu and Simon 2000).
+/// more rows than columns. The Rayleigh–Ritz method is applied to the range of V A, where residuals
+/// are known without further solves. With δ = 0 this is block Lanczos with full orthogonalisation
+/// and thick restart (Golub and Underwood 1977; Wu and Simon 2000).
 class RationalLanczos {
  public:
-  /// Collective. Borrows M, symmetric positive definite, and the columns of a BV of type svec,
-  /// which it fills, during the lifetime of the object. `blockSize` is b.
+  /// Collective. During the lifetime of the object, borrows M, symmetric positive definite, and the
+  /// columns of a BV of type svec, which it fills. `blockSize` is b.
   RationalLanczos(Mat m, BV basis, PetscInt blockSize);
   ~RationalLanczos() { BVRestoreArray(basis_, &columns_); }
   RationalLanczos(const RationalLanczos&) = delete;
@@ -48,15 +48,16 @@ class RationalLanczos {
   PetscInt size() const { return size_; }  ///< k, number of vectors of V
   bool full() const { return size_ + width_ > limit_; }
   int solves() const { return solves_; }  ///< number of right-hand sides
-  /// Collective. Creates the first block: S applied to a random one, which damps components of high
-  /// frequency. The pole is σ0.
+  /// Collective. Creates the first block by applying S to a random one, which damps components of
+  /// high frequency. The pole must be σ0.
   void start(const Pole& pole);
   /// Collective. Appends a block by a step with this pole. Throws Error if the basis cannot be
   /// extended.
   void expand(const Pole& pole);
   /// Collective. Returns k − b Ritz pairs, the same on all ranks.
   RitzPairs ritz() const;
-  /// Collective. Replaces V by the first `kept` Ritz vectors and the directions of the residuals.
+  /// Collective. Replaces V by the first `kept` Ritz vectors and the directions that span the
+  /// residuals.
   void restart(const RitzPairs& ritz, PetscInt kept);
   /// Collective. Replaces V by the first `count` Ritz vectors, in the first columns of the BV.
   void finish(const RitzPairs& ritz, PetscInt count);
@@ -76,15 +77,15 @@ class RationalLanczos {
   Mat m_;
   BV basis_;
   MPI_Comm comm_;
-  PetscInt width_, limit_ = 0, rows_ = 0, size_ = 0;  // width: b
+  PetscInt width_, limit_ = 0, rows_ = 0, size_ = 0;  // width_ is b
   int solves_ = 0;
   PetscScalar* columns_ = nullptr;  // of V
   int sinceChange_ = 0;             // steps with this pole since the last restart
   double distance_ = 0;             // of the last pole
   bool massIsOfLast_ = false;       // M W is M times the last block
   linalg::Block w_;
-  OwnedMat asMat_, mw_;            // W, whose entries are borrowed, and M W
-  std::vector<bool> foreign_;      // [column of A] of a step with another pole than σ0
+  OwnedMat asMat_, mw_;            // W, with borrowed entries, and M W
+  std::vector<bool> foreign_;      // [column of A] true: from a step with a pole other than σ0
   linalg::DenseMatrix a_, b_, r_;  // A, B and the last R
   std::mt19937 random_;
   std::uniform_real_distribution<double> uniform_{-1, 1};

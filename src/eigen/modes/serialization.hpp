@@ -6,8 +6,8 @@
 
 namespace squeal::modes {
 
-/// Collective. Writes or reads the modes, with vectors in the layout of the columns of `like`. An
-/// archive being written borrows the vectors.
+/// Collective. Writes or reads the modes. Their vectors have the layout of the columns of `like`,
+/// and an archive that is being written borrows them.
 void serialise(checkpoint::Archive& archive, Modes& modes, Mat like);
 
 }  // namespace squeal::modes

@@ -7,8 +7,8 @@ namespace squeal::modes {
 /// Options of the free modes.
 struct Settings {
   enum class Solver { automatic, blockLanczos, eps };
-  int count = 200;                    ///< `-modes_count`
-  bool countGiven = false;            ///< a given count must not exceed the number of unknowns
+  int count = 200;          ///< `-modes_count`
+  bool countGiven = false;  ///< the count is given: it must not exceed the number of unknowns
   Solver solver = Solver::automatic;  ///< `-modes_solver`; eps if `-modes_eps_type` is given
   int blockSize = 8;                  ///< `-modes_block_size`
   double tolerance = 1e-8;            ///< `-modes_tolerance`: relative error of 1/ω²

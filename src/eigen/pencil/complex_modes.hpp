@@ -19,20 +19,20 @@ namespace squeal::pencil {
 enum class Verdict {
   unstable,    ///< it grows
   stable,      ///< it decays
-  undecided,   ///< the estimate is larger than the growth rate
+  undecided,   ///< the estimated error exceeds the magnitude of the growth rate
   neutral,     ///< it neither grows nor decays: it lies on the imaginary axis
-  uncertified  ///< there is no estimate
+  uncertified  ///< it has no error estimate
 };
 /// All verdicts in the order of their numbers.
 inline constexpr std::array allVerdicts{Verdict::unstable, Verdict::stable, Verdict::undecided,
                                         Verdict::neutral, Verdict::uncertified};
-/// Returns the word of tables and texts.
+/// Returns the word for the verdict in tables and texts.
 const char* text(Verdict verdict);
 
 /// A symmetry of the problem that restricts its eigenvalues.
 enum class Symmetry {
   none,
-  even,         ///< real and even in s: −s is an eigenvalue with every s
+  even,         ///< real and even in s: −s is an eigenvalue whenever s is
   conservative  ///< all eigenvalues are imaginary
 };
 
@@ -42,12 +42,12 @@ struct Eigenvalue {
   double backwardError = 0;  ///< backward error of the full-order problem [M.33]
   double error = 0;          ///< estimate of |δs|, 1/s; NaN: none (direct method)
   bool certified = false;    ///< the known errors are within their tolerances
-  /// Radius of the disc about s that is proved to hold exactly one eigenvalue of the full problem,
-  /// 1/s; NaN: none is proved.
+  /// Radius of a disc about s that is proved to contain exactly one eigenvalue of the full problem,
+  /// 1/s; NaN if no such disc is known.
   double radius = std::numeric_limits<double>::quiet_NaN();
   Verdict verdict = Verdict::uncertified;
-  /// True if it counts as unstable: by its verdict or, if it is uncertified, because Re s exceeds
-  /// |s| times 1e-6 and |s| times `-flutter_unstable_tolerance`.
+  /// True if it is treated as unstable: by its verdict or, if it is uncertified, because Re s
+  /// exceeds both 1e-6 |s| and `-flutter_unstable_tolerance` times |s|.
   bool unstable = false;
 
   /// Returns −Re s/|s|, or 0 for s = 0.
@@ -59,14 +59,14 @@ struct Eigenvalue {
   double errorEstimate() const { return mayBeZero() ? 1 : error / std::abs(s); }
 };
 
-/// Contributions to the growth rate of a mode by cause, 1/s. Those of all components of the model
-/// add up to Re s.
+/// Contributions to the growth rate of a mode, by cause, 1/s. The contributions of all components
+/// of the model add up to Re s.
 struct GrowthParts {
   double damping = 0;     ///< of materials, dashpots and free modes; it never feeds the mode
   double follower = 0;    ///< friction follows the change of the normal force
   double turning = 0;     ///< friction turns with the relative velocity (friction damping)
   double slope = 0;       ///< friction changes with the slip speed by the friction law
-  double convective = 0;  ///< the strained disc carries the relative velocity with it
+  double convective = 0;  ///< friction changes with the convective velocity of the strained disc
   double gyroscopic = 0;  ///< zero up to round-off, since G is skew
   double sum() const { return damping + follower + turning + slope + convective + gyroscopic; }
 };
@@ -74,21 +74,21 @@ struct GrowthParts {
 /// The share of one component of the model in a mode.
 struct Component {
   std::string
-      kind;  ///< body, spring, bushing, mass, ground, interface, and terms of the whole model
+      kind;  ///< body, spring, bushing, mass, ground or interface, or a term of the whole model
   std::string name;
   double strain = 0;        ///< share of the strain energy; all shares add up to 1
   double kinetic = 0;       ///< share of the kinetic energy; all shares add up to 1
-  std::string motion = {};  ///< what a body does, such as "(0,4) out of plane"; empty if unclear
-  double motionShare = 0;   ///< share of the kinetic energy of the body that this explains
+  std::string motion = {};  ///< motion of a body, such as "(0,4) out of plane"; empty if unclear
+  double motionShare = 0;   ///< share of this motion in the kinetic energy of the body
   GrowthParts growth = {};
 };
 
-/// The part of a free mode in a complex mode [M.88].
+/// The participation of a free mode in a complex mode [M.88].
 struct Participation {
   std::size_t mode;   ///< index of the free mode
   Complex amplitude;  ///< mass-weighted, relative to the norm of the complex mode
   double energy = 0;  ///< share of the energy of the complex mode
-  double mac = 0;     ///< mass-weighted modal assurance criterion
+  double mac = 0;     ///< mass-weighted modal assurance criterion (MAC)
 };
 
 /// The MAC of a complex mode with a free mode, body by body.
@@ -99,27 +99,28 @@ struct BodyCorrelation {
 
 /// Returns the name of a mode from the motions of the bodies that have at least 0.15 of its kinetic
 /// energy, at most three, largest first: "disc (0,4) out of plane + pad rigid about x". If the
-/// motion of a body is unclear, the name contains only the body. Empty if all motions are unclear.
+/// motion of a body is unclear, the name gives only the body. The name is empty if all motions are
+/// unclear.
 std::string modeName(const std::vector<Component>& components);
 
-/// A complex mode d = real + i imaginary in nodal displacements, N entries. Its scaling makes the
-/// largest real or imaginary part of an entry 1.
+/// A complex mode d = real + i imaginary in nodal displacements, N entries. It is scaled so that
+/// the largest magnitude of a real or imaginary part is 1.
 struct Shape {
   std::size_t index;  ///< index into ComplexModes::eigenvalues
   OwnedVec real, imaginary;
-  linalg::ComplexVector unknowns;     ///< the same d in the unknowns x
-  std::vector<double> frictionWork;   ///< [contact node] contribution of friction there to the
-                                      ///< growth rate, 1/s [M.52]; empty without contact
+  linalg::ComplexVector unknowns;    ///< the same d in the unknowns x
+  std::vector<double> frictionWork;  ///< [contact node] contribution of friction at the node to the
+                                     ///< growth rate, 1/s [M.52]; empty without contact
   std::vector<Component> components;  ///< the same on all ranks; empty for matrices from files
   std::vector<Participation> participations;  ///< [free mode]; not in checkpoints
-  std::vector<BodyCorrelation> correlations;  ///< most energy first; not in checkpoints
+  std::vector<BodyCorrelation> correlations;  ///< in descending order of energy; not in checkpoints
 };
 
 /// The derivative of an eigenvalue with respect to one parameter θ.
 struct Derivative {
   std::string parameter;  ///< name of θ
   Complex value;          ///< ds/dθ, 1/s per unit of the parameter
-  /// d²s/dθ² by the nearest eigenvalue [M.90], 1/s per unit²; NaN: unknown
+  /// d²s/dθ², estimated from the nearest eigenvalue [M.90], 1/s per unit²; NaN: unknown
   Complex second = {NAN, NAN};
 
   /// Returns the change of θ at which the second-order change of the growth rate is a tenth of the
@@ -129,7 +130,8 @@ struct Derivative {
 
 /// Condition number and derivatives of one eigenvalue.
 struct Sensitivity {
-  /// Condition number [M.50], 1 for a symmetric problem and infinite at an exceptional point:
+  /// Condition number [M.50], which is 1 for a symmetric problem and infinite where two eigenvalues
+  /// and their vectors meet:
   ///   2 |s| ‖x‖_M0 ‖y‖_M0 / |yᴴ P′(s) x|.
   double condition = 0;
   /// Distance to the nearest of the other eigenvalues found, relative to |s|.
@@ -149,13 +151,14 @@ struct CriticalDerivative {
 
 /// The mode at a critical friction, where two eigenvalues meet or one is i ω.
 struct CriticalMode {
-  std::string name;                                          ///< as of modeName()
+  std::string name;                                          ///< as returned by modeName()
   std::vector<Participation> participations;                 ///< [free mode]
-  double rightBackwardError = NAN, leftBackwardError = NAN;  ///< of the vectors of the derivatives
+  double rightBackwardError = NAN, leftBackwardError = NAN;  ///< of the null vectors x and y
   std::vector<CriticalDerivative> derivatives = {};          ///< empty if there are none
 };
 
-/// An eigenvalue of the full problem that the list of a point lacks: the disc holds exactly one.
+/// An eigenvalue of the full problem that the list of a point lacks. It is the only one in the disc
+/// with this centre and radius.
 struct MissingEigenvalue {
   Complex centre;     ///< 1/s
   double radius = 0;  ///< 1/s
@@ -163,16 +166,16 @@ struct MissingEigenvalue {
 
 /// What is proved about the list of a point (docs/method.md, section 13).
 struct Completeness {
-  bool proved = false;  ///< the full problem has `count` eigenvalues with |s| < top
-  /// Eigenvalues with Im s > 0, and half of those on the real axis; with multiplicities.
+  bool proved = false;  ///< the number of eigenvalues of the full problem with |s| < top is proved
+  /// Half the number of these eigenvalues, with multiplicities: a conjugate pair counts once.
   int count = 0;
   double top = 0;           ///< rad/s
   double definiteness = 0;  ///< δ
-  double ratio = 0;         ///< largest φ on the boundary; the count is proved if it is below 1
-  Complex place = 0;        ///< where it is reached, 1/s
-  int discs = 0;            ///< that cover the upper half of the boundary
-  std::string reason;       ///< why the count is not proved; empty if it is
-  std::vector<MissingEigenvalue> missing;  ///< that belong to the list
+  double ratio = 0;    ///< largest φ found on the boundary; the count is proved if it is below 1
+  Complex place = 0;   ///< where `ratio` is reached, or where the proof fails, 1/s
+  int discs = 0;       ///< number of discs that cover the upper half of the boundary
+  std::string reason;  ///< why the count is not proved; empty if it is
+  std::vector<MissingEigenvalue> missing;  ///< eigenvalues that the list should contain
 };
 
 /// The results of one point of the sweep.
@@ -184,29 +187,29 @@ struct ComplexModes {
   /// Top of the band, rad/s: eigenvalues with |s| up to this value are listed and corrected. 0:
   /// none are corrected (direct method); infinite: the basis spans the whole space.
   double bandTop = 0;
-  int freeModesInBand = 0;   ///< free modes up to bandTop
+  int freeModesInBand = 0;   ///< number of free modes up to bandTop
   bool damped = false;       ///< the reduced problem has terms in s; false with the direct method
-  double accuracy = 0;       ///< requested backward error
-  double tolerance = 0;      ///< requested estimate of |δs|/|s|; 0: none (direct method)
+  double accuracy = 0;       ///< required backward error
+  double tolerance = 0;      ///< required estimate of |δs|/|s|; 0: none (direct method)
   double directBandTop = 0;  ///< upper end of the band of the direct method, rad/s; 0: none
   /// All eigenvalues of that band with |s| below this value are listed, rad/s; 0 without a band.
   double coveredTo = 0;
   std::optional<Completeness> completeness = {};  ///< none if no proof is wanted
-  /// Returns the number of free modes in the band minus the number of listed eigenvalues, for a
-  /// damped problem. The missing eigenvalues are damped too strongly to be listed, or lie beyond
-  /// the top.
+  /// For a damped problem, returns by how many the free modes in the band outnumber the listed
+  /// eigenvalues; otherwise 0. The missing eigenvalues are damped too strongly to be listed, or lie
+  /// beyond the top.
   int modesWithoutEigenvalue() const;
-  /// Returns the number of listed eigenvalues without a disc that is proved to hold only them.
+  /// Returns the number of listed eigenvalues without a proved disc (Eigenvalue::radius).
   int withoutDisc() const;
   /// Returns true if the full problem is proved to have exactly the listed eigenvalues in the band,
-  /// each in a disc of its own.
+  /// each in its own proved disc.
   bool listIsProved() const;
-  /// Returns the number of eigenvalues that count as unstable.
+  /// Returns the number of eigenvalues that are treated as unstable.
   int unstableCount() const;
   /// Returns the number of eigenvalues with this verdict.
   int count(Verdict verdict) const;
-  /// Returns the verdict on the point: the first in the order unstable, uncertified, undecided,
-  /// neutral, stable that one of its eigenvalues has; uncertified if there are no eigenvalues.
+  /// Returns the verdict on the point: the first of unstable, uncertified, undecided, neutral and
+  /// stable that one of its eigenvalues has; uncertified without eigenvalues.
   Verdict verdict() const;
   /// Returns the number of eigenvalues that are not certified.
   int uncertifiedCount() const;
@@ -214,7 +217,7 @@ struct ComplexModes {
   double worstBackwardError() const;
   /// Returns the largest estimate of the relative error; NaN if one is NaN.
   double worstErrorEstimate() const;
-  /// Returns the eigenvalue of the largest growth rate, borrowed; null if there are none.
+  /// Returns the eigenvalue with the largest growth rate, borrowed; null if there are none.
   const Eigenvalue* fastestGrowing() const;
 };
 
@@ -225,7 +228,7 @@ void setVerdicts(ComplexModes& point, Symmetry symmetry, const Criteria& criteri
 /// rate: at most `shapes`, all below `shapesBelow`, and only unstable ones unless `stableShapes`.
 std::vector<std::size_t> shapesToStore(const ComplexModes& point, const Criteria& criteria);
 /// Collective. Appends the shapes of the eigenvalues with these indices to the point. Takes
-/// `modes`, their vectors in the unknowns x, of any length; `trial` is T.
+/// `modes`, their vectors in the unknowns x, scaled in any way; `trial` is T.
 void storeShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
                  std::vector<linalg::ComplexVector> modes);
 

@@ -21,8 +21,9 @@ struct ComplexMotion {
 /// q_i = d_iᵀ M0 x [M.88],
 ///   x = Σ q_i d_i + rest,   energy share = (|s|² + ω_i²) |q_i|² / (|s|² xᴴ M0 x + xᴴ K0 x),
 ///   MAC = |q_i|² / xᴴ M0 x.
-/// The sums of both are at most 1, since the modes are orthogonal in both norms. The amplitudes q_i
-/// are given relative to √(xᴴ M0 x), with the phase in which the largest one is positive.
+/// The energy shares of all modes add up to at most 1, and so do the MACs, since the modes are
+/// orthogonal in M0 and in K0. The amplitudes q_i are divided by √(xᴴ M0 x), and by a phase that
+/// makes the largest one real and positive.
 std::vector<std::vector<Participation>> participations(const modes::Modes& modes,
                                                        const factor::AssociatedSystem& system,
                                                        std::span<const ComplexMotion> motions);

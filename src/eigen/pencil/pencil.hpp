@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The friction-perturbed eigenproblem of a sum of terms P [M.23],
+/// The friction-perturbed eigenproblem whose P is a sum of terms [M.23],
 ///   P(s; f, v, c) d = 0,   P = Σ_t α_t f^a_t v^b_t c^d_t s^k_t A_t,
 /// with the friction f, the factor v on the base velocities of the bodies, and the factor c on
-/// their damping. The pencil is independent of finite elements: [4.15–4.16] enter as terms.
+/// their damping. The pencil does not depend on finite elements: the matrices of [4.15–4.16] enter
+/// as terms.
 #include <array>
 #include <memory>
 #include <vector>
@@ -22,19 +23,19 @@ struct Term {
   double factor = 1;         ///< α
   int speedExponent = 0;     ///< b
   int dampingExponent = 0;   ///< d
-  /// The term contains friction: the basis starts with responses to it, and K0 and M0 exclude it. A
-  /// term with an exponent of friction always does.
+  /// The term contains friction; a term with an exponent of friction does so in any case. The basis
+  /// starts with responses to such terms, and K0 and M0 exclude them.
   bool ofFriction = false;
 
   bool containsFriction() const { return ofFriction || frictionExponent != 0; }
-  /// Returns true for a term of K0 and M0 [4.17], without friction, base motions and damping.
+  /// Returns true for a term of K0 or M0 [4.17]: one without friction, base motion and damping.
   bool isAssociated() const {
     return power != 1 && !containsFriction() && speedExponent == 0 && dampingExponent == 0;
   }
   double coefficient(const sweep::Parameters& at) const;
   /// Returns the derivative of the coefficient with respect to one parameter.
   double slope(const sweep::Parameters& at, double sweep::Parameters::*parameter) const;
-  /// Returns the same term, with a shared matrix.
+  /// Returns the same term, which shares the matrix.
   Term share() const;
 };
 
@@ -44,15 +45,15 @@ class Pencil {
   /// Collective. Takes the terms, which hold for all parameters, and omits terms in s whose matrix
   /// is zero.
   explicit Pencil(std::vector<Term> terms);
-  /// Returns all terms, those of the point last.
+  /// Returns all terms; those that hold only at one point come last.
   const std::vector<Term>& terms() const { return terms_; }
   /// Returns the number of terms that hold for all parameters.
   std::size_t affineCount() const { return affineCount_; }
   /// Collective. Takes further terms that hold for all parameters. The pencil must not have terms
-  /// of a point.
+  /// that hold only at one point.
   void add(std::vector<Term> terms);
-  /// Returns a pencil of these terms, with shared matrices, and of terms that hold only at one
-  /// point of the parameters, such as those of its steady forces. Collective if there are any.
+  /// Returns a pencil with the terms of this one, whose matrices it shares, and with `pointTerms`,
+  /// which hold only at one point of the sweep. Collective unless `pointTerms` is empty.
   Pencil with(std::vector<Term> pointTerms) const;
   /// Returns true if there are terms with this power of s.
   bool hasPower(int power) const;
@@ -65,17 +66,18 @@ class Pencil {
   void apply(int power, const sweep::Parameters& at, Vec x, Vec y) const;
   /// Collective. Sets y = (sum of the terms with this power)ᵀ x.
   void applyTranspose(int power, const sweep::Parameters& at, Vec x, Vec y) const;
-  /// Collective. Returns an estimate of the 2-norm of the sum of the terms with this power of s,
-  /// from below, so a backward error computed with it is never too small; 0 if there are none.
-  /// Power iteration on AᵀA continues from the last call for this power, even at another point of
-  /// the sweep.
+  /// Collective. Returns an estimate of the 2-norm of the sum of the terms with this power of s; 0
+  /// if there are none. The estimate is a lower bound, so a backward error computed with it is
+  /// never too small. The power iteration on AᵀA starts from the result of the last call for this
+  /// power, even at another point of the sweep.
   double norm(int power, const sweep::Parameters& at) const;
 
  private:
   std::vector<Term> terms_;
   std::size_t affineCount_;
   std::shared_ptr<std::array<OwnedVec, 3>>
-      singular_;  // [power] start vector of the next power iteration, shared by `with`
+      singular_;  // [power] start vector of the next power iteration, shared with the pencils that
+                  // with() returns
 };
 
 /// The side of an eigenvector: right with P(s) d = 0, or left with P(s)ᴴ d = 0.

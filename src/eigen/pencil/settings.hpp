@@ -15,7 +15,8 @@ struct Criteria {
   double unstable = 0;  ///< `-flutter_unstable_tolerance`: ζ of [M.24]
   int shapes = 3;       ///< `-flutter_shapes`: largest number of complex modes stored per point
   bool stableShapes = false;   ///< `-flutter_shapes_stable`: stable complex modes are stored too
-  double shapesBelow = 1e300;  ///< `-flutter_shapes_below`: upper bound of their frequencies, rad/s
+  double shapesBelow = 1e300;  ///< `-flutter_shapes_below`: upper bound of the frequencies of
+                               ///< stored complex modes, rad/s
 };
 
 /// Limits of the band.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The region of a count, and the upper half of its boundary. The lower half is its mirror image,
-/// on which a real problem has the same bounds.
+/// The region in which eigenvalues are counted, and the upper half of its boundary. The lower half
+/// is its mirror image, where a real problem has the same bounds.
 #include <limits>
 #include <span>
 #include <vector>
@@ -13,18 +13,18 @@ namespace squeal::proof {
 /// The region |s| < top and Re s > −left.
 struct Region {
   double top = 0;  ///< rad/s
-  /// 1/s; from `top` on, the region is the whole disc.
+  /// 1/s; if it is at least `top`, the region is the whole disc.
   double left = std::numeric_limits<double>::infinity();
 };
 
 /// A part of the boundary: an arc about 0, or a line parallel to the imaginary axis.
 class Piece {
  public:
-  /// An arc that begins at start and turns by `angle`, positive counter-clockwise.
+  /// Returns an arc that begins at `start` and turns by `angle`, positive counter-clockwise.
   static Piece arc(Complex start, double angle);
-  /// The line from start to the real axis.
+  /// Returns the line from `start` to the real axis.
   static Piece line(Complex start);
-  double length() const { return length_; }  ///< angle or length
+  double length() const { return length_; }  ///< angle of an arc, or length of a line
   Complex at(double t) const;                ///< 0 ≤ t ≤ length()
   /// Returns the difference in t of two points at this distance from each other.
   double parameter(double distance) const;
@@ -36,9 +36,9 @@ class Piece {
   double length_ = 0;
 };
 
-/// The upper half of the boundary, from the imaginary axis in both directions: eigenvalues are most
-/// likely near the axis, and a proof that fails does so soon. In the plane of s² the disc begins at
-/// the negative real axis.
+/// The upper half of the boundary. Its pieces begin at the imaginary axis and run in both
+/// directions: eigenvalues are most likely near this axis, so a proof that fails does so early. In
+/// the plane of s² the arc begins at the negative real axis.
 class Contour {
  public:
   Contour(double radius, double left, bool squared);
@@ -53,12 +53,12 @@ class Contour {
 };
 
 /// Returns the middle of the widest gap of |s| between (1 − within) and (1 + within) times the
-/// wanted top, for eigenvalues s in any order. The ends of this range bound gaps too. Of equal gaps
-/// it takes the lowest.
+/// wanted top. The eigenvalues s may be in any order. The ends of this range also bound gaps. Of
+/// equally wide gaps, the lowest is taken.
 double placedTop(std::span<const Complex> eigenvalues, double wanted, double within = 0.08);
 
-/// Returns the middle of the widest gap of −Re s around the wanted left edge, in the same way,
-/// for the eigenvalues with |s| up to 10 % above the top.
+/// Returns the middle of the widest gap of −Re s around the wanted left edge in the same way. Only
+/// eigenvalues with |s| up to 10 % above the top are considered.
 double placedLeft(std::span<const Complex> eigenvalues, double top, double wanted,
                   double within = 0.5);
 

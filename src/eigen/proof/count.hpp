@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The proof that P(s) has as many eigenvalues in a region as P_VV(s). docs/method.md, section 13,
-/// has the theorem.
+/// states the theorem.
 #include "eigen/proof/contour.hpp"
 #include "eigen/proof/diagonal_form.hpp"
 
@@ -9,30 +9,30 @@ namespace squeal::proof {
 
 enum class Verdict {
   proved,
-  indefinite,    ///< δ is not positive: too few modes in V, or too strong terms on C
+  indefinite,    ///< δ is not positive: V has too few modes, or the terms on C are too large
   irregular,     ///< P_VV(top) is singular, or the deviation Δ of the diagonal form is not small
-  edge,          ///< an eigenvalue of P_VV lies on the boundary, up to 10⁻⁶ of the top
+  edge,          ///< an eigenvalue of P_VV is nearer to the boundary than 10⁻⁶ of the top
   ratio,         ///< φ is not below 1 at `place`: the coupling of V and C is too strong
-  tooManyDiscs,  ///< the limit is reached at `place`, where φ is near 1
+  tooManyDiscs,  ///< the largest number of expansions is reached, at `place`
 };
 
 struct CountProof {
   Verdict verdict = Verdict::irregular;
   PetscInt count = 0;  ///< eigenvalues s of P_VV in the region, with multiplicities and conjugates
-  double definiteness = 0;   ///< δ
-  double ratio = 0;          ///< largest φ at the centres of discs
-  double bound = 0;          ///< largest bound of ‖P_CV P_VV⁻¹ P_VC‖ on the discs
-  Complex place = 0;         ///< where it is reached, rad/s; the point of failure if not proved
-  double edgeDistance = 0;   ///< of the boundary from the nearest eigenvalue, as a fraction of the
-                             ///< top
-  PetscInt discs = 0;        ///< on the upper half of the boundary
-  PetscInt evaluations = 0;  ///< expansions, of discs and of points where a disc did not fit
+  double definiteness = 0;  ///< δ
+  double ratio = 0;         ///< largest φ at the centres of discs
+  double bound = 0;         ///< largest bound of ‖P_CV P_VV⁻¹ P_VC‖ on the discs
+  Complex place = 0;        ///< where `ratio` is reached, rad/s; the point of failure if not proved
+  /// Distance of the boundary from the nearest eigenvalue, as a fraction of the top.
+  double edgeDistance = 0;
+  PetscInt discs = 0;        ///< number of discs on the upper half of the boundary
+  PetscInt evaluations = 0;  ///< expansions: for discs, and at points where a disc did not fit
 };
 
 /// Not collective. Proves the count for the region, if the bounds suffice, with at most `largest`
 /// expansions. If the verdict is `proved`, P has exactly `count` eigenvalues in the region and none
-/// on its boundary. δ > 0 and φ < 1 must hold with a margin of 10⁻⁶, for round-off in the given
-/// data.
+/// on its boundary. δ > 0 and φ < 1 must hold with a margin of 10⁻⁶, which allows for round-off in
+/// the given data.
 CountProof proveCount(const DiagonalForm& form, const LeftOut& bounds, const Region& region,
                       PetscInt largest = 400);
 

@@ -14,8 +14,8 @@ namespace squeal::proof {
 /// with z = s / top and L the linearised P_VV, or z = (s / top)² and L = P_VV if neither P_VV nor
 /// the couplings have odd powers of s. L has the eigenvalues of P_VV with their multiplicities, and
 ///   F(s) P_VV(s)⁻¹ E(s) = a(z) (D(z) + Δ(z))⁻¹ b(z)
-/// with polynomials a and b. X and Y come from LAPACK and may be inaccurate, as Δ is measured. Not
-/// collective.
+/// with polynomials a and b. X and Y come from LAPACK and may be inaccurate, since Δ is computed
+/// from them. Not collective.
 class DiagonalForm {
  public:
   /// Computes the form for regions with tops near `top`, rad/s. Throws Error if LAPACK fails.
@@ -30,29 +30,31 @@ class DiagonalForm {
 
   /// Returns the eigenvalues in the plane of z, in the order of ν. Some may be infinite.
   std::vector<Complex> eigenvaluesInPlane() const;
-  /// Returns the finite eigenvalues s, rad/s; for each z both ±s if squared.
+  /// Returns the finite eigenvalues s, rad/s; if squared, both ±s for each z.
   std::vector<Complex> eigenvalues() const;
   /// Returns z of s.
   Complex inPlane(Complex s) const { return squared_ ? s * s / (top_ * top_) : s / top_; }
   /// Returns s of z, with Im s ≥ 0 if squared.
   Complex outOfPlane(Complex z) const;
 
-  /// The coefficients of the polynomials: of a (rows × size, at most two of them) and of b (size ×
-  /// columns). An empty one is zero.
+  /// The coefficients of the polynomials: of a (rows × size, at most two of them) and of b
+  /// (size × columns). An empty coefficient is zero.
   const std::vector<linalg::ComplexMatrix>& a() const { return a_; }
   const std::vector<linalg::ComplexMatrix>& b() const { return b_; }
   /// The lengths of the columns of a and of the rows of b, [coefficient][index of ν].
   const std::vector<std::vector<double>>& aLengths() const { return aLengths_; }
   const std::vector<std::vector<double>>& bLengths() const { return bLengths_; }
-  std::span<const PetscInt> rowEnds() const { return rowEnds_; }        ///< of the parts of P_CV
-  std::span<const PetscInt> columnEnds() const { return columnEnds_; }  ///< of the parts of P_VC
+  /// Return the row at which each part of P_CV ends, and the column at which each part of P_VC
+  /// ends.
+  std::span<const PetscInt> rowEnds() const { return rowEnds_; }
+  std::span<const PetscInt> columnEnds() const { return columnEnds_; }
 
   /// Returns a bound of ‖Δ(z)‖ for |z| ≤ reach.
   double deviation(double reach) const { return eta0_ + (1 + reach) * eta1_; }
-  /// Return bounds of the remainders of P_CV and P_VC for |z| ≤ reach, with round-off.
+  /// Return bounds of the remainders of P_CV and P_VC for |z| ≤ reach, including round-off.
   double errorTo(double reach) const { return error(errorTo_, reach); }
   double errorFrom(double reach) const { return error(errorFrom_, reach); }
-  /// Return bounds of the norms of X and Y as maps to and from V.
+  /// Return bounds of the norms of X as a map to V and of Y as a map from V.
   double normOfX() const { return normOfX_; }
   double normOfY() const { return normOfY_; }
 
@@ -70,7 +72,7 @@ class DiagonalForm {
   std::vector<linalg::ComplexMatrix> a_, b_;
   std::vector<std::vector<double>> aLengths_, bLengths_;
   std::vector<PetscInt> rowEnds_, columnEnds_;
-  std::array<double, 3> errorTo_ = {}, errorFrom_ = {};  // of the powers of s / top
+  std::array<double, 3> errorTo_ = {}, errorFrom_ = {};  // [power of s / top]
   double eta0_ = 0, eta1_ = 0, normOfX_ = 0, normOfY_ = 0;
 };
 

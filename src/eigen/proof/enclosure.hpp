@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Discs that hold exactly one eigenvalue of P each, and the judgement of a list of eigenvalues by
-/// them.
+/// Discs that each contain exactly one eigenvalue of P, and the judgement of a list of eigenvalues
+/// by these discs.
 #include <vector>
 
 #include "algebra/linalg/quadratic.hpp"
@@ -14,8 +14,8 @@ namespace squeal::proof {
 /// What is proved about an eigenvalue of P_VV.
 enum class Isolation {
   single,      ///< each disc with a radius from inner to outer holds exactly one eigenvalue of P
-  indefinite,  ///< δ is not positive there
-  neighbour,   ///< the nearest eigenvalue is too near for the coupling to C
+  indefinite,  ///< δ is not positive at the eigenvalue
+  neighbour,   ///< another eigenvalue is too near, given the coupling to C
 };
 
 struct Enclosure {
@@ -26,22 +26,22 @@ struct Enclosure {
 };
 
 /// Not collective. Returns an enclosure for each wanted eigenvalue of P_VV in the region, by
-/// default for all; none if the form is not regular. With a proof of the count of this region, an
-/// eigenvalue whose vectors are hardly coupled to C takes almost no time; others take as long as a
-/// disc of the boundary.
+/// default for all; none if the form is not regular. If `count` is proved for this region, an
+/// eigenvalue whose vectors are hardly coupled to C takes almost no time, and any other one takes
+/// as long as a disc of the boundary.
 std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
                                const Region& region, const CountProof& count = {},
                                const linalg::EigenvalueFilter& wanted = {});
 
 /// Agreement of an entry of a list with the eigenvalues of P. If the count is proved and all
-/// enclosures are single, these eigenvalues lie in the discs of the inner radii.
+/// enclosures are single, the discs of the inner radii contain all eigenvalues in the region.
 enum class Agreement {
-  right,     ///< at most the tolerance and the inner radius from the centre of a disc
-  inexact,   ///< farther from it, but in the disc of the outer radius
-  repeated,  ///< right or inexact, but another entry is closer to the centre
+  right,     ///< at most the inner radius plus the tolerance from the centre of a disc
+  inexact,   ///< farther from the centre, but in the disc of the outer radius
+  repeated,  ///< as right or inexact, but another entry is closer to the same centre
   wrong,     ///< in none of the discs
   unproved,  ///< the enclosure of the nearest eigenvalue of P_VV is not single
-  outside,   ///< not in the region
+  outside,   ///< neither in the region nor right
 };
 
 struct JudgedEntry {
@@ -55,9 +55,9 @@ struct JudgedList {
   std::vector<Enclosure> missing;  ///< single enclosures without an entry
 };
 
-/// Not collective. Judges a list of eigenvalues with Im s ≥ 0 by the enclosures of the region. A
-/// multiple eigenvalue is listed as often as its multiplicity. `tolerance`, rad/s, is the accuracy
-/// that entries should have.
+/// Not collective. Judges a list of eigenvalues with Im s ≥ 0 by the enclosures of the region. The
+/// list must contain a multiple eigenvalue as often as its multiplicity. `tolerance`, rad/s, is the
+/// accuracy that entries should have.
 JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
                  const Region& region, double tolerance);
 

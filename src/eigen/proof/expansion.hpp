@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Bounds of P_CV P_VV⁻¹ P_VC around a point of the plane.
+/// Bounds of P_CV P_VV⁻¹ P_VC around a point of the plane of z.
 #include <optional>
 #include <vector>
 
@@ -8,34 +8,34 @@
 
 namespace squeal::proof {
 
-/// The part of T = a D⁻¹ b of some poles, known by a bound that holds in a region.
+/// The sum of those terms of T = a D⁻¹ b that belong to some of the poles, with a bound of its norm
+/// in a region.
 struct FarPart {
-  std::vector<unsigned char> poles;  ///< [pole] 1 if it belongs to the part
+  std::vector<unsigned char> poles;  ///< [pole] 1 if its term belongs to the sum
   double bound = 0;
 };
 
-/// The Taylor polynomial of T = a D⁻¹ b about a point z0, with all terms that it omits: for z = z0
-/// + h,
+/// The Taylor polynomial of T = a D⁻¹ b about a point z0, with its exact remainder: for z = z0 + h,
 ///   T(z) = Σ hʲ T_j (j ≤ order) + h^(order + 1) R(h),
 /// where R is a finite sum over the poles, so that the Taylor series need not converge. Not
 /// collective.
 class Expansion {
  public:
-  /// Expands about z0. Borrows the form. With `omitted`, the pole of this number is not in T_j and
-  /// R, and bound() adds its exact term.
+  /// Expands about z0. Borrows the form. T_j and R do not contain the term of the pole with the
+  /// index `omitted`, if it is given; bound() adds this term exactly.
   Expansion(const DiagonalForm& form, Complex centre, int order, PetscInt omitted = -1);
 
-  /// Sums the terms of all poles except the far part, which needs no products of matrices. Borrows
-  /// both.
+  /// Uses the bound of the far part, and bounds the terms of the other poles one by one. This takes
+  /// no products of matrices. Borrows the form and the far part.
   Expansion(const DiagonalForm& form, Complex centre, const FarPart& far, PetscInt omitted);
 
   Complex centre() const { return centre_; }
-  /// Returns the bound of ‖P_CV P_VV⁻¹ P_VC‖ at the points z with |z − z0| ≤ radius that lie at
-  /// least distance[k] from the eigenvalue k. Infinite if nothing is known.
+  /// Returns a bound of ‖P_CV P_VV⁻¹ P_VC‖ at the points z with |z − z0| ≤ radius whose distance
+  /// from each eigenvalue k is at least distances[k]; infinite if no bound is known.
   double bound(double radius, std::span<const double> distances) const;
-  /// Returns the same on the circle |z − z0| = radius about the omitted pole.
+  /// Returns such a bound on the circle |z − z0| = radius about the omitted pole.
   double boundOnCircle(double radius) const;
-  /// Returns the same at z0 itself.
+  /// Returns such a bound at z0 itself.
   double boundAtCentre() const { return bound(0, {}); }
 
  private:
@@ -48,7 +48,7 @@ class Expansion {
   std::vector<double> norms_;                             // ‖T_j‖
   std::vector<double> denominators_;                      // |D_k|
   std::vector<std::vector<double>> aLengths_, bLengths_;  // [j][k] of the Taylor coefficients
-  std::vector<double> lastLengths_;  // of row k of the last coefficient of D⁻¹ b
+  std::vector<double> lastLengths_;  // [k] of row k of the last coefficient of D⁻¹ b
 };
 
 }  // namespace squeal::proof

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A problem P(s) in two parts: a small space V, on which it is known, and the space C that is
-/// left out, on which it is known only by bounds.
+/// A problem P(s) on two spaces: a small space V, on which P is known, and the space C that V
+/// leaves out, on which only bounds of P are known.
 #include <array>
 #include <span>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace squeal::proof {
 
-/// Coefficients of s⁰, s¹ and s². An empty one counts as zero.
+/// Coefficients of s⁰, s¹ and s². An empty matrix means zero.
 using Coefficients = std::array<linalg::DenseMatrix, 3>;
 
 /// A majorant of a block that couples V and C. For P_CV it is F(s) = Σ sᵏ F_k, rows × N, with
@@ -22,9 +22,9 @@ struct Coupling {
   std::array<double, 3> error = {};  ///< e_k
 };
 
-/// The blocks of P(s) on V and between V and C. C is orthogonal to V in the energy K0, and its
-/// coordinates are orthonormal in it. The coordinates of V are arbitrary; the remainders of
-/// couplings refer to them. Each part of a coupling has a W of its own.
+/// The blocks of P(s) on V and between V and C. C is orthogonal to V in the energy K0 and has
+/// coordinates that are orthonormal in this energy. The coordinates of V are arbitrary; the
+/// remainders of couplings refer to them. Each part of a coupling has its own W.
 struct KeptProblem {
   Coefficients matrices;              ///< of P_VV, N × N
   std::vector<Coupling> toLeftOut;    ///< parts of P_CV, rows × N
@@ -32,16 +32,17 @@ struct KeptProblem {
   PetscInt order() const;             ///< N
 };
 
-/// Bounds of the blocks of P on C, in the energy K0: for x in C of energy norm 1,
-///   P_CC(s) = 1 + (s² − σ) M + s² M_a + s (C + G) + rest.
+/// Bounds of the block of P on the space C, in coordinates that are orthonormal in the energy K0:
+///   P_CC(s) = 1 + (s² − σ) M + s² M_a + s (C + G) + rest,
+/// with the symmetric matrices M and C and the antisymmetric M_a and G of mass and damping.
 struct LeftOut {
-  /// M ≤ this, symmetric and ≥ 0: 1/θ if V contains all modes of K0 d = λ M d with λ < θ.
+  /// Upper bound of M ≥ 0, s²: 1/θ if V contains all modes of K0 d = λ M d with λ < θ.
   double mass = 0;
   double shift = 0;       ///< σ ≥ 0 of K0 = K + σ M, rad²/s²
-  double skewMass = 0;    ///< ‖M_a‖, antisymmetric
-  double damping = 0;     ///< C ≤ this, symmetric and ≥ 0, s
-  double gyroscopic = 0;  ///< ‖G‖, antisymmetric, s
-  /// All other terms have norms of at most Σ |s|ᵏ rest[k].
+  double skewMass = 0;    ///< ‖M_a‖, s²
+  double damping = 0;     ///< upper bound of the damping C ≥ 0, s
+  double gyroscopic = 0;  ///< ‖G‖, s
+  /// The norm of the sum of all other terms is at most Σ |s|ᵏ rest[k].
   std::array<double, 3> rest = {};
 };
 
@@ -51,15 +52,15 @@ struct LeftOut {
 /// a lower bound of Re xᴴ P_CC(s) x for |s| ≤ reach and Re s ≥ −left.
 double definiteness(const LeftOut& bounds, double reach, double left);
 
-/// Returns a coupling for the side P_CV from a Gram matrix of its coefficients C_k, for the listed
-/// powers of s:
-///   gram ≥ [C_0, C_1, …]ᵀ [C_0, C_1, …]   in the sense of quadratic forms,
-/// with N rows and N columns for each power. Directions within round-off are dropped and become the
-/// error. `top`, rad/s, sets the relative weights of the powers.
+/// Returns a majorant of P_CV from an upper bound of the Gram matrix of its coefficients C_k, for
+/// the listed powers of s:
+///   gram ≥ [C_0, C_1, …]ᵀ [C_0, C_1, …]   in the sense of quadratic forms.
+/// `gram` has N rows and N columns for each power. Directions within round-off are dropped and
+/// become the error. `top`, rad/s, sets the relative weights of the powers.
 Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top);
 
-/// Returns the coupling for the side P_VC. `coupling` comes from couplingFromGram() with the Gram
-/// matrix of the transposed coefficients of P_VC.
+/// Returns the majorant of P_VC. `coupling` comes from couplingFromGram() with the Gram matrix of
+/// the transposed coefficients of P_VC.
 Coupling transposed(const Coupling& coupling);
 
 }  // namespace squeal::proof

@@ -9,9 +9,9 @@ namespace squeal::proof {
 double quickBound(const linalg::ComplexMatrix& a);
 double quickBound(const linalg::DenseView& a);
 
-/// Returns a bound of the 2-norm, in general less than 1 % above it and at most quickBound(). A
-/// guess c by the Lanczos method, which proves nothing, is accepted only if the Cholesky
-/// factorisation of c² − AᴴA succeeds.
+/// Returns a bound of the 2-norm, in general less than 1 % above it and at most quickBound(). The
+/// Lanczos method only proposes a bound c; it is accepted only if the Cholesky factorisation of
+/// c² − AᴴA succeeds.
 double normBound(const linalg::ComplexMatrix& a);
 
 }  // namespace squeal::proof

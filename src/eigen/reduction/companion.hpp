@@ -24,8 +24,9 @@ double largestSize(const std::vector<linalg::DensePair>& pairs);
 
 /// Linearises a quadratic problem to one of twice the size
 ///   A z = s B z,   A = [0 I; −K −Z],   B = [I 0; 0 M],   z = (x, s x / unit),
-/// where `unit` gives both halves the same magnitude. A left vector y becomes the functional yᴴ[(sM
-/// + Z)u + M v] of (u, v / unit), which is zero for the right vectors of all other eigenvalues.
+/// where `unit` gives both halves of z the same magnitude. A left vector y becomes the functional
+/// yᴴ[(sM + Z)u + M v] of (u, v / unit), which is zero for the right vectors of all other
+/// eigenvalues.
 class Companion {
  public:
   /// Borrows the problem.
@@ -35,7 +36,8 @@ class Companion {
   double unit() const { return unit_; }
   /// Returns the right vectors of the pairs, 2m × pairs.
   ComplexMatrix right(const std::vector<const linalg::DensePair*>& pairs) const;
-  /// Returns the functionals l of the left vectors, lᴴ(u, v / unit), of 2-norm 1.
+  /// Returns the functionals of the left vectors as columns l of 2-norm 1; their values are lᴴ(u,
+  /// v / unit).
   ComplexMatrix left(const std::vector<const linalg::DensePair*>& pairs) const;
 
  private:
@@ -51,8 +53,8 @@ class ShiftInvert {
   bool regular() const { return factors_.pivotRatio() > 0; }
   /// Returns the operator times the columns z.
   ComplexMatrix apply(const ComplexMatrix& z) const;
-  /// Returns t = −P(σ)⁻ᴴ (l₁ + σ̄ l₂ / unit). For a functional that is an eigenvector this is the
-  /// left vector of P.
+  /// Returns t = −P(σ)⁻ᴴ (l₁ + σ̄ l₂ / unit). If the functional l is an eigenvector of the adjoint
+  /// operator, t is the left vector of P.
   ComplexMatrix leftVectors(const ComplexMatrix& l) const;
   /// Returns the adjoint of the operator times the columns l.
   ComplexMatrix applyAdjoint(const ComplexMatrix& l) const;

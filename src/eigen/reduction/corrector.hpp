@@ -16,21 +16,22 @@ struct CorrectionRequest {
   std::vector<double> weights;  ///< [pair] length to which its residual is scaled
 };
 
-/// Adds K0⁻¹ f to the basis for static forces f, in block solves.
+/// Adds the static responses K0⁻¹ f of forces f to the basis, by block solves.
 class Corrector {
  public:
-  /// Borrows both during the lifetime of the object.
+  /// Borrows both arguments during the lifetime of the object.
   Corrector(ProjectedBasis& basis, ErrorEstimator& estimator)
       : basis_(basis), estimator_(estimator) {}
   /// Collective. Adds the static responses to friction at this point [M.29] for the free modes of
   /// these frequencies, rad/s.
   void start(const PointProblem& point, const std::vector<double>& frequencies);
-  /// Not collective. Returns the unconverged pairs of a point with the residual reduction each
-  /// needs: to `resolution`, or to the tolerance, whose squared budget is split evenly between
-  /// unresolved residual and correction error.
+  /// Not collective. Returns the unconverged pairs of a point. The weight of a pair determines the
+  /// part of its residual that the correction may leave out: 3 %, or more if 1/√2 of the limit of
+  /// its error permits more. The rest of the squared limit is for the error of the correction
+  /// itself.
   CorrectionRequest requestOf(const PointState& state) const;
-  /// Collective. Adds corrections of these residuals. Returns the number of vectors added; 0 if the
-  /// residuals are round-off.
+  /// Collective. Adds corrections for these residuals. Returns the number of vectors added; 0 if
+  /// the residuals are round-off.
   PetscInt correct(const std::vector<CorrectionRequest>& requests);
 
  private:

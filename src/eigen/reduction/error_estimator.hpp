@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Error estimates for the eigenvalues of the reduced problem as approximations of the eigenvalues
-/// of the full problem. docs/method.md, section 11, has the equations in brackets.
+/// of the full problem. Numbers in brackets refer to equations in docs/method.md, section 11.
 #include <vector>
 
 #include "base/checkpoint/archive.hpp"
@@ -12,11 +12,11 @@
 
 namespace squeal::reduction {
 
-/// Estimates the relative error |δs|/|s| of an eigenvalue s by [M.36]. The estimate needs the
-/// residual in the norm √(rᵀ K0⁻¹ r), which takes a solve with K0. A sketch, a product of the
-/// residual with few random vectors [M.39], gives the norm √(rᵀ diag(K0)⁻¹ r) cheaply. The
-/// estimator measures the ratio of the two norms for a few residuals by solving with K0. It
-/// multiplies the cheap norm by the largest ratio.
+/// Estimates the relative error |δs|/|s| of an eigenvalue s by [M.36]. The estimate needs the norm
+/// √(rᵀ K0⁻¹ r) of the residual, which takes a solve with K0. A sketch, a product of the residual
+/// with few random vectors [M.39], gives the norm √(rᵀ diag(K0)⁻¹ r) cheaply. The estimator
+/// measures the ratio of the two norms for a few residuals by solving with K0. It multiplies the
+/// cheap norm by the largest of these ratios.
 class ErrorEstimator {
  public:
   /// Borrows the basis during the lifetime of the object. `frequencies` are those of the free modes
@@ -28,7 +28,8 @@ class ErrorEstimator {
   /// Records that the basis no longer contains the free modes. The estimates then use only the
   /// right residuals.
   void dropModes() { highestMode_ = 0; }
-  /// Reads the ratio of the norms of the residuals that were last added to the basis.
+  /// Records the ratio of the two norms for the residuals whose corrections were last added to the
+  /// basis.
   void recordCorrection();
 
   /// Not collective. Sets the errors of the eigenpairs of a point of the sweep. `problem` is the
@@ -37,19 +38,19 @@ class ErrorEstimator {
   /// Returns the estimate of |δs|, 1/s.
   double absoluteError(const PointSolution& solution, std::size_t pair) const;
   /// Returns true if the relative error |δs|/|s| of the eigenvalue is within the tolerance. If s is
-  /// zero within its error, the lowest angular frequency ω_1 of the free modes replaces |s|. The
-  /// ratio is then squared if the problem has only even powers of s.
+  /// zero within its error, |δs|/ω_1 with the lowest angular frequency ω_1 of the free modes is
+  /// used instead, squared if the problem has a pencil::Symmetry.
   bool isExactEnough(const PointSolution& solution, const pencil::Eigenvalue& e) const;
-  /// Returns the backward error divided by its limit, or the same ratio of the error estimate if it
-  /// is larger. It is 0 if only round-off of the residual remains.
+  /// Returns the larger of two ratios: the backward error and the error estimate, each divided by
+  /// its limit. Returns 0 if the residual is only round-off.
   double errorRatio(const PointSolution& solution, std::size_t pair) const;
   /// Returns true if all errors of the point are within their limits.
   bool isAccurate(const PointSolution& solution) const;
   /// Collective. Measures the ratio of the norms for the residuals of the eigenpair with the
-  /// largest estimate. If this raises the ratio, all estimates grow. Returns the points that are
-  /// not accurate afterwards; none if no estimate exceeds those already checked.
+  /// largest estimate. If this raises the largest ratio, all estimates grow. Returns the points
+  /// that are not accurate afterwards; none if no estimate exceeds those checked before.
   std::vector<PointState*> unconfirmed(std::vector<PointState>& states);
-  /// Not collective. Writes or reads the ratios.
+  /// Not collective. Writes or reads the ratios and the frequencies.
   void serialise(checkpoint::Archive& archive);
 
  private:

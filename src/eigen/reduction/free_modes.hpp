@@ -11,11 +11,11 @@
 
 namespace squeal::reduction {
 
-/// Returns the terms of K and M only.
+/// Returns a pencil of only the terms of K and M.
 pencil::Pencil associatedTerms(const pencil::Pencil& pencil);
 
-/// Collective. Returns the free modes of a solved point, M-orthonormal, with the entries of all
-/// unknowns. `associated` has the terms of K and M.
+/// Collective. Returns the free modes of a solved point, M-orthonormal, as vectors of all unknowns.
+/// `associated` has the terms of K and M.
 modes::Modes freeModes(const Basis& basis, const PointState& state,
                        const pencil::Pencil& associated);
 
@@ -23,10 +23,11 @@ modes::Modes freeModes(const Basis& basis, const PointState& state,
 struct CountRange {
   double top;                             ///< upper end of the list, rad/s
   const std::vector<double>& values;      ///< ω² of the reduced problem, ascending
-  const std::vector<PetscInt>& boundary;  ///< boundary unknowns of the modes
+  const std::vector<PetscInt>& boundary;  ///< boundary unknowns of the point
 };
-/// Collective. Confirms the number of modes: at a σ in a gap above the end of the list, the count
-/// equals the number of ω² of the reduced problem. These are upper bounds of the exact ω².
+/// Collective. Confirms the number of modes if, at some σ in a gap above the end of the list, the
+/// count equals the number of ω² of the reduced problem below σ. The ω² of the reduced problem are
+/// upper bounds of the exact ones.
 void confirmCount(MPI_Comm comm, const subspace::ModeCount& count, const CountRange& range,
                   modes::Modes& modes);
 

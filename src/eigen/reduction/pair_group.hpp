@@ -9,24 +9,24 @@
 
 namespace squeal::reduction {
 
-/// A pair of a list that needs improvement.
+/// A pair that needs improvement, by its index in a list.
 struct UnconvergedPair {
   std::size_t pair;
   double right;  ///< fraction of its residual P(s) x that may remain
-  double left;   ///< fraction of P(s)ᴴ y that may remain
+  double left;   ///< fraction of its left residual P(s)ᴴ y that may remain
 };
 
-/// Iterates the right and left vectors of its members together, by two-sided block inverse
-/// iteration with a shift amid the members.
+/// A group of neighbouring pairs, its members. Their right and left vectors are iterated together,
+/// by two-sided block inverse iteration with a shift in the middle of the members.
 class PairGroup {
  public:
-  /// Borrows the companion form and the pairs, all of its order.
+  /// Borrows the companion form and the pairs, whose vectors must have its order.
   PairGroup(const Companion& companion, std::vector<linalg::DensePair>& pairs,
             const std::vector<UnconvergedPair>& open);
-  /// Returns the indices of its pairs.
+  /// Returns the indices of the members in the list of pairs.
   const std::vector<std::size_t>& members() const { return members_; }
   enum class Outcome { untouched, done, unfinished, failed };
-  /// Iterates until the residuals are small, at least once if `forced`, and at most twice.
+  /// Iterates until the residuals are small enough, at least once if `forced`, and at most twice.
   Outcome iterate(bool forced);
 
  private:
@@ -34,7 +34,7 @@ class PairGroup {
   struct Residuals {
     std::vector<double> right, left;
   };
-  /// Right or left vectors of all pairs of a group, and of the Ritz pairs.
+  /// Right and left vectors of the members and their neighbours, and of the Ritz pairs.
   struct Subspaces {
     ComplexMatrix right, left, ritzRight, ritzLeft;
   };
@@ -50,13 +50,13 @@ class PairGroup {
   std::vector<linalg::DensePair>& pairs_;
   std::vector<std::size_t> members_, neighbours_;
   Complex shift_ = 0;
-  double reach_ = 0;  // largest distance of a member from the middle
+  double reach_ = 0;  // largest distance of a member from the middle of the group
   std::optional<ShiftInvert> inverse_;
-  Residuals wanted_, first_;  // wanted: fractions of `first_`, see UnconvergedPair
+  Residuals wanted_, first_;  // wanted_ has the permitted fractions of first_
   double roundOff_ = 0;
 };
 
-/// Returns the open pairs in groups of neighbours of limited size.
+/// Returns the open pairs in groups of neighbours, each within a limited range of frequency.
 std::vector<std::vector<UnconvergedPair>> groupsOf(const std::vector<linalg::DensePair>& pairs,
                                                    std::vector<UnconvergedPair> open);
 

@@ -13,12 +13,13 @@ namespace squeal::reduction {
 /// The eigenvectors of the points solved so far.
 class Pod {
  public:
-  /// Not collective. Takes the pairs of these points, without their coordinates of constraint
+  /// Not collective. Takes the pairs of these points, and drops their coordinates of constraint
   /// modes.
   void take(std::vector<PointState>& states);
-  /// Collective. Replaces the basis, except its constraint modes, by orthonormal combinations that
-  /// span the real and imaginary parts of all right vectors, except for components of length 1e-9,
-  /// which corrections restore. Returns false if there are no pairs. Throws Error if LAPACK fails.
+  /// Collective. Replaces the basis, except its constraint modes, by orthonormal combinations of
+  /// its vectors. They span the real and imaginary parts of all right vectors except for components
+  /// of length 1e-9, which corrections restore. Returns false if there are no pairs. Throws Error
+  /// if LAPACK fails.
   bool compress(ProjectedBasis& basis);
 
  private:

@@ -9,13 +9,13 @@
 
 namespace squeal::reduction {
 
-/// Computes and stores norms, each of which takes many products with large matrices.
+/// Computes norms and stores them, since each takes many products with large matrices.
 class PointNorms {
  public:
   /// Collective. Computes the norms of a point.
   const Norms& compute(const PointProblem& point);
-  /// Collective. Returns the norms of the computed point nearest in friction with the same other
-  /// parameters. If there is none, computes the norms of this point.
+  /// Collective. Returns the norms of the computed point whose friction is nearest and whose other
+  /// parameters are the same. If none exists, computes the norms of this point.
   const Norms& nearby(const PointProblem& point);
   /// Not collective. Writes or reads all norms.
   void serialise(checkpoint::Archive& archive) { archive.common(known_); }

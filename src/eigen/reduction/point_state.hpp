@@ -20,26 +20,27 @@ struct PointProblem {
   /// The terms of all points, the terms of the points with the same boundary unknowns, and the
   /// terms of this point.
   pencil::Pencil pencil;
-  int set = 0;  ///< number of its boundary unknowns, by ReducedProblem::addSet(); 0: none
+  int set = 0;  ///< index from ReducedProblem::addSet(); 0: no boundary unknowns
 };
 
 /// Points with the same boundary unknowns.
 struct PointSet {
   PointSpace space;
   pencil::Pencil pencil;                ///< with the terms of these points
-  std::optional<ProjectedTerms> terms;  ///< terms of these points; none if they are not loaded
-  double top;                           ///< upper end of the listed band, rad/s
-  int modesInBand;                      ///< free modes up to there
+  std::optional<ProjectedTerms> terms;  ///< projected; none if they are not loaded
+  double top;                           ///< top of the band that is listed, rad/s
+  int modesInBand;                      ///< number of free modes up to `top`
 };
 
 using Norms = std::array<double, 3>;  ///< 2-norms of K̄, Z̄, M̄ of a point
 
-/// Estimated errors of an eigenpair. The estimate of |δs|/|s| is the product of `right` and `left`,
-/// each in the norm of diag(K0)⁻¹ instead of K0⁻¹; `left` counts at most as 1.
+/// Estimated errors of an eigenpair. The estimate of |δs|/|s| is the product of `right` and `left`.
+/// Both use the norm of diag(K0)⁻¹ instead of K0⁻¹, and are multiplied by ratios of the norms; the
+/// factor from `left` is at most 1.
 struct PairErrors {
   double backward = 0;      ///< backward error in the full problem
   double right = 0;         ///< error of the right vector, times the condition number of s
-  double left = 0;          ///< error of the left vector; infinite above the highest mode
+  double left = 0;          ///< error of the left vector; infinite if |s| exceeds the highest mode
   double roundOff = 0;      ///< upper bound of the round-off in yᴴP(s)x of unit vectors
   double dense = 0;         ///< error of the dense solve
   bool isRoundOff = false;  ///< the residual is round-off, so that no correction makes it smaller
@@ -53,17 +54,17 @@ struct PointSolution {
   pencil::Symmetry symmetry = pencil::Symmetry::none;
 };
 
-/// A point in the present basis.
+/// A point in the current basis.
 struct PointState {
   const PointProblem* point;
   const PointSet* set;
   ProjectedTerms ownTerms;
   bool damped;
-  bool associated = false;  ///< it is the problem of the free modes
+  bool associated = false;  ///< it is the problem of the free modes, with only K and M
   PointSolution solution = {};
 
-  /// Returns some of its pairs, borrowed. With `isDamped` = false, pairs with real vectors may take
-  /// one column.
+  /// Returns these pairs, borrowed, with the columns that they take. If `isDamped` is false, pairs
+  /// with real vectors may take one column.
   PointPairs pairs(std::vector<const linalg::DensePair*> some, bool isDamped) const {
     return {{point->at, associated}, Coordinates(std::move(some), isDamped, set->space)};
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The terms of a pencil, projected on a growing basis V. It stores the projections VᵀAV, and
-/// sketches of A V and AᵀV for the norms of residuals [M.39]. It stores the products A V only if A
-/// has few nonzero rows; each of the others would take as much memory as V.
+/// The terms of a pencil, projected on a growing basis V. Stored are the projections VᵀAV, and
+/// sketches of A V and AᵀV for the norms of residuals [M.39]. The product A V is stored only if A
+/// has few nonzero rows, since otherwise it would take as much memory as V.
 #include <vector>
 
 #include "algebra/linalg/block.hpp"
@@ -17,13 +17,13 @@ namespace squeal::reduction {
 using subspace::Basis;
 using subspace::PointSpace;
 
-/// The vectors of some eigenpairs, in coordinates of a basis, as columns of a real matrix. A pair
-/// with real vectors and an s on the imaginary axis, in a problem without damping, takes one
-/// column; all others take two.
+/// The vectors of some eigenpairs, in coordinates of a basis, as columns of a real matrix. In a
+/// problem without damping, a pair with real vectors and an imaginary s takes one column. All other
+/// pairs take two.
 class Coordinates {
  public:
   std::vector<const linalg::DensePair*> pairs;  ///< borrowed
-  std::vector<PetscInt> firstColumn;            ///< [pair], and `columns` at the end
+  std::vector<PetscInt> firstColumn;            ///< [pair], followed by `columns`
   PetscInt columns = 0;                         ///< columns of all pairs
 
   /// The vectors of the pairs are in the coordinates of a point with this space.
@@ -33,19 +33,19 @@ class Coordinates {
   /// Returns the real and imaginary parts of c s^power q, or of c conj(s)^power y for the left
   /// side, basis × columns. A pair of one column has only the real part.
   linalg::DenseMatrix times(pencil::Side side, int power, double c) const;
-  /// Sums values of columns, [column], over the columns of each pair, [pair].
+  /// Returns for each pair, [pair], the sum of the values of its columns, [column].
   std::vector<double> perPair(const std::vector<double>& ofColumns) const;
 
  private:
   const std::vector<Complex>& vectorOf(std::size_t pair, pencil::Side side) const;
-  // [pair] in the basis, if the point uses only a part of it
+  // [pair] vectors in coordinates of the basis, if the point uses only a part of it
   std::vector<std::vector<Complex>> right_, left_;
 };
 
 /// The weights of the terms of a pencil at a point.
 struct Weights {
   sweep::Parameters at;
-  bool associated = false;  ///< only K0 and M0 count
+  bool associated = false;  ///< only the terms of K0 and M0 have nonzero weights
 
   /// Returns the coefficient of a term.
   double of(const pencil::Term& term) const;
@@ -67,15 +67,15 @@ class ProjectedTerms {
   std::size_t count() const { return parts_.size(); }
   /// Collective. Extends the projections to the new vectors of the basis.
   void extend();
-  /// Not collective. Updates the projections for a basis that has become V · combinations, former
-  /// size × new size.
+  /// Not collective. Updates the projections for a basis that has become V · combinations.
+  /// `combinations` is former size × new size.
   void combine(const linalg::DenseMatrix& combinations);
   /// Not collective. Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the
   /// size of the basis.
   void addTo(const Weights& weights, linalg::DenseProblem& sum) const;
-  /// Collective. Adds combinations of the columns P(s) V q of all points in turn to `result`, this
-  /// rank's rows, with one product per term. `combinations` has one row per column P(s) V q and one
-  /// column per column of the result.
+  /// Collective. Adds to `result`, which has this rank's rows, combinations of the columns P(s) V q
+  /// of all points, with one product per term. `combinations` has one row per column P(s) V q,
+  /// point after point, and one column per column of the result.
   void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations,
              linalg::Block& result) const;
   /// Not collective. Adds the sketch of P(s) V q, or of P(s)ᴴ V y for the left side, to `sketch`, 2
@@ -86,9 +86,9 @@ class ProjectedTerms {
   struct Part {
     pencil::Term term;
     linalg::RowSet rows, leftRows;   // nonzero rows of A and Aᵀ
-    OwnedMat matrix, adjoint;        // these rows; no adjoint if A is symmetric
-    linalg::Block timesV;            // A V, by `rows`; empty if these are all rows
-    linalg::Block rowsOfV;           // these rows of V; empty if these are all rows
+    OwnedMat matrix, adjoint;        // A and Aᵀ in these rows; no adjoint if A is symmetric
+    linalg::Block timesV;            // A V in `rows`; empty if these are all rows
+    linalg::Block rowsOfV;           // V in `rows`; empty if these are all rows
     linalg::DenseMatrix sketch;      // sketch of A V
     linalg::DenseMatrix leftSketch;  // sketch of AᵀV; empty if A is symmetric
     linalg::DenseMatrix projection;  // VᵀAV

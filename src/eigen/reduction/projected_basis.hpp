@@ -32,20 +32,22 @@ class ProjectedBasis {
   /// Returns the number of unknowns of the full problem.
   PetscInt unknowns() const { return unknowns_; }
 
-  /// Collective. Adds the set of points with the boundary unknowns has[boundary unknown of all
-  /// ranks] and returns its number. The terms of the set are those of `pencil` that follow the
-  /// terms of all points and hold for all parameters. The set of a point that is only `passed`
-  /// has to be loaded before use. Throws Error if the stiffness is not positive definite.
+  /// Collective. Adds a set of points with the same boundary unknowns, those with has[boundary
+  /// unknown of all ranks] = 1, and returns its index. The terms of the set are those of `pencil`
+  /// that follow the terms of all points and hold for all parameters. A `passed` set occurs only
+  /// between points, and must be loaded before use. Throws Error if the stiffness is not positive
+  /// definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
-  /// Collective. Projects the terms of a passed set, unless this is done. The terms of all but the
-  /// `mostLoaded` passed sets that were used last are dropped, since a path has hundreds of sets.
+  /// Collective. Projects the terms of a passed set, unless they are loaded. Of the passed sets,
+  /// only the `mostLoaded` most recently used ones keep their terms, since a path has hundreds of
+  /// sets.
   void load(int set);
   PointSet& set(int number) { return *sets_[number]; }
   const PointSet& set(int number) const { return *sets_[number]; }
 
-  /// Collective. Returns an unsolved point with the projections of its own terms; the point is
-  /// borrowed.
+  /// Collective. Returns the state of an unsolved point with the projections of its own terms.
+  /// Borrows the point.
   PointState state(const PointProblem& point, const Norms& norms) const;
   /// Collective. Extends the projections of all terms to the new vectors of the basis.
   void extend(const std::vector<PointState*>& states);
@@ -61,15 +63,16 @@ class ProjectedBasis {
   linalg::DenseMatrix residualSketch(const PointState& state, const PointPairs& pairs,
                                      pencil::Side side) const;
   /// Collective. Returns the real and imaginary parts of P(s) x, or of P(s)ᴴ y, computed from the
-  /// matrices, by this rank's rows; for a pair of one column only the real part.
+  /// matrices, as this rank's rows; only the real part for a pair of one column.
   linalg::Block residualColumns(const PointState& state, const linalg::DensePair& pair,
                                 const linalg::ComplexVector& vector, pencil::Side side) const;
-  /// Collective. Returns combinations of the residuals of pairs of several points, by this rank's
-  /// rows. `combinations` has a row for each column of all pairs in turn.
+  /// Pairs of one point, both borrowed.
   struct PairsOfPoint {
     const PointState* state;
     const PointPairs* pairs;
   };
+  /// Collective. Returns this rank's rows of combinations of the residuals of several pairs.
+  /// `combinations` has one row per column of all pairs, point after point.
   linalg::Block residuals(const std::vector<PairsOfPoint>& points,
                           const linalg::DenseMatrix& combinations) const;
 
@@ -77,7 +80,7 @@ class ProjectedBasis {
   /// whose coefficients are the columns of `directions`.
   void combine(const linalg::DenseMatrix& directions);
   /// Collective. Writes the vectors that are new since the last call, or reads and appends them.
-  /// All sets must have been added. An archive being written borrows the basis.
+  /// All sets must have been added before. An archive that is being written borrows the basis.
   void serialise(checkpoint::Archive& archive);
 
  private:
@@ -89,7 +92,7 @@ class ProjectedBasis {
   PetscInt unknowns_ = 0;
   std::vector<std::unique_ptr<PointSet>> sets_;
   std::vector<int> loaded_;  // passed sets, the last one used at the end
-  PetscInt serialised_ = 0;  // vectors that the checkpoint contains
+  PetscInt serialised_ = 0;  // number of vectors that the checkpoint contains
 };
 
 }  // namespace squeal::reduction

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The reduced problem [4.19], corrected until its eigenvalues agree with those of the full one.
-/// docs/method.md has the equation in brackets, src/README.md explains the symbols, and
-/// subspace::Substructure defines interior and boundary unknowns.
+/// Numbers in brackets refer to equations in docs/method.md, src/README.md explains the symbols,
+/// and subspace::Substructure defines interior and boundary unknowns.
 #include <functional>
 #include <optional>
 #include <utility>
@@ -27,12 +27,13 @@
 
 namespace squeal::reduction {
 
-/// The result of ReducedProblem::improve(). Its lists have an entry for each entry of the argument.
+/// The result of ReducedProblem::improve(). Its lists have one entry per point of the argument.
 struct Improvement {
-  /// True if the basis has grown, or an estimate has become more accurate: compute the pairs again.
+  /// True if the basis has grown, or if the problem near the points has become more accurate: the
+  /// pairs must be computed again.
   bool changed = false;
-  /// Largest backward error of the pairs of the point in the full problem; NaN if the problem is
-  /// not defined at its friction. The list is empty if the reduced problem is the full one.
+  /// Largest backward error of the pairs of the point in the full problem; NaN if no problem exists
+  /// at its friction. The list is empty if the reduced problem is the full one.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
   /// reduced problem.
@@ -40,12 +41,13 @@ struct Improvement {
 };
 
 /// The Rayleigh–Ritz method in the space of the free modes and, unless `-flutter_basis modal`, of
-/// static responses to the friction forces and to the residuals of Ritz pairs. With only the modes
-/// it would miss unstable eigenvalues and report spurious ones. Each round adds K0⁻¹ r for the
-/// residuals r of all inaccurate pairs. One block solve computes all these vectors, with the real
-/// symmetric factorisation that the modes were computed with. A round reduces the errors to about a
-/// tenth. A pair is certified if its full-order backward error is at most `-flutter_accuracy` and
-/// the estimate of |δs|/|s| at most `-flutter_tolerance`. The whole sweep shares one basis.
+/// static responses to the friction forces and to the residuals of Ritz pairs. With only the modes,
+/// the method would miss unstable eigenvalues and report spurious ones. Each round adds K0⁻¹ r for
+/// the residuals r of all inaccurate pairs. One block solve computes all these vectors, with the
+/// real symmetric factorisation that was computed for the modes. A round reduces the errors to
+/// about a tenth. A pair is certified if its full-order backward error is at most
+/// `-flutter_accuracy` and the estimate of |δs|/|s| at most `-flutter_tolerance`. The whole sweep
+/// shares one basis.
 class ReducedProblem {
  public:
   /// Collective. Borrows the system of the interior unknowns during the lifetime of the object and
@@ -54,23 +56,23 @@ class ReducedProblem {
   ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                  const modes::Modes& modes, const Settings& settings,
                  Substructure substructure = {});
-  /// Collective. Adds a set of points with the same boundary unknowns: unknown i, numbered over all
-  /// ranks, is one of them if has[i] is 1. Returns the index of the set. The set shares the terms
-  /// of `pencil` that come after those passed to the constructor; they hold for all parameters.
-  /// The set of a point that is only `passed` has to be loaded before use. Throws Error if the
-  /// stiffness is not positive definite.
+  /// Collective. Adds a set of points with the same boundary unknowns: has[i] is 1 for the boundary
+  /// unknowns i, numbered over all ranks, that they have. Returns the index of the set. The set
+  /// shares the terms of `pencil` that come after those passed to the constructor; they hold for
+  /// all parameters. A `passed` set occurs only between points, and must be loaded before use.
+  /// Throws Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
   /// Collective. Makes a set ready for use (ProjectedBasis::load()).
   void load(int set) { basis_.load(set); }
-  /// Collective. Returns the free modes in the band of each of these sets, [set], corrected
-  /// together and in the same way as the complex modes. Their vectors have the entries of all
-  /// unknowns. Only K and M of `pencil` are used. The number of modes is verified if that of the
-  /// interior problem is and the two bounds of subspace::ModeCount agree. From then on, these modes
-  /// set the top of the band at the points of the set, so the list of solve() does not depend on
-  /// the other sets of the basis.
+  /// Collective. Returns the free modes in the band for each of these sets, [set]. They are
+  /// corrected together, in the same way as the complex modes. Their vectors have the entries of
+  /// all unknowns. Only K and M of `pencil` are used. Their number is confirmed if that of the
+  /// interior problem is confirmed and the two bounds of subspace::ModeCount agree. From then on,
+  /// these modes set the top of the band at the points of the set, so the list of solve() does not
+  /// depend on the other sets of the basis.
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
-  /// Collective. Solves all points together and returns their complex modes, [point]: the dense
+  /// Collective. Solves all points together and returns their complex modes, [point]. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
   /// responses are computed at the first point of the first batch. `trial` (T, N×n) maps shapes to
   /// nodal displacements.
@@ -80,19 +82,19 @@ class ReducedProblem {
   /// Makes solve() call `action`, which is collective, whenever the basis has grown.
   void afterEachRound(std::function<void()> action) { afterRound_ = std::move(action); }
   /// Collective. Writes or reads the results since the last call and the state of the current batch
-  /// of solve(). After reading, the next solve() must be of that batch. All sets must have been
-  /// added. An archive being written borrows the basis.
+  /// of solve(). After reading, the next solve() must have the same batch. All sets must have been
+  /// added before. An archive that is being written borrows the basis.
   void serialise(checkpoint::Archive& archive);
-  /// Collective. Returns the eigenpairs in the band and in the guard zone around it (see
-  /// pencil::WatchedBand), with left and right vectors, of the point with these parameters and
-  /// boundary unknowns. The coordinates are those of the basis when the point was solved. Pairs in
-  /// the band are those of solve(); pairs in the guard zone may be less accurate. Returns none if
-  /// the point has not been solved, or if there was not enough memory to store the pairs.
+  /// Collective. Returns the eigenpairs of the point with these parameters and this set: those in
+  /// the band and in the guard zone around it (see pencil::WatchedBand), with right and left
+  /// vectors. The coordinates are those of the basis at the time of the solve. Pairs in the band
+  /// are those of solve(); pairs in the guard zone may be less accurate. Returns none if the point
+  /// has not been solved, or if there was not enough memory to store the pairs.
   std::optional<std::vector<linalg::DensePair>> watchedPairs(const sweep::Parameters& at,
                                                              int set) const {
     return solved_.at(at, set);
   }
-  /// Collective. Returns the projection of the problem at this point on the basis as it is.
+  /// Collective. Returns the projection of the problem at this point on the current basis.
   linalg::DenseProblem project(const PointProblem& point) const;
   /// Collective. Returns the projection with all boundary unknowns, even if the point has only some
   /// of them. Its coordinates are the same for all points.
@@ -103,12 +105,12 @@ class ReducedProblem {
   }
   /// Collective. Returns the projection of the terms that belong only to the point.
   linalg::DenseProblem projectOwn(const PointProblem& point) const;
-  /// Collective. Returns the same of K0 and M0 only; without Z.
+  /// Collective. Returns the same projection of only K0 and M0; Z is empty.
   linalg::DenseProblem projectAssociated(const PointProblem& point) const;
   /// Returns the part of the basis that the points of a set use.
   const subspace::PointSpace& space(int set) const { return basis_.set(set).space; }
-  /// Collective. Adds K0⁻¹ F to the basis for static forces F on the interior unknowns, by this
-  /// rank's rows. Returns FᵀK0⁻¹F.
+  /// Collective. Adds K0⁻¹ F to the basis for static forces F on the interior unknowns; `forces`
+  /// has this rank's rows. Returns FᵀK0⁻¹F.
   linalg::DenseMatrix addResponses(linalg::Block forces);
   /// Collective. Returns K0⁻¹ F without changing the basis, with zeros at the boundary unknowns.
   linalg::Block responses(const linalg::Block& forces) { return basis_.basis().responses(forces); }
@@ -118,8 +120,7 @@ class ReducedProblem {
   /// infinite if the basis spans the whole space.
   const pencil::WatchedBand& band() const { return band_; }
   /// Collective. Adds to the basis, by one block solve, corrections from the residuals of these
-  /// pairs, which may belong to different points. Their vectors may belong to an earlier, smaller
-  /// basis.
+  /// pairs of several points. Their vectors may belong to an earlier, smaller basis.
   Improvement improve(
       const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 
@@ -152,7 +153,7 @@ class ReducedProblem {
   PointNorms norms_;
   SolvedPairs solved_;
   Pod pod_;
-  std::optional<subspace::ModeCount> count_;  // with boundary unknowns
+  std::optional<subspace::ModeCount> count_;  // none without boundary unknowns
   bool started_ = false;                      // the basis contains the static responses
   std::function<void()> afterRound_;
   std::optional<PendingBatch> pending_;  // between two rounds, or resumed from a checkpoint

@@ -11,7 +11,8 @@ struct Settings {
   bool compressed = false;  ///< `-flutter_basis` is pod
   double tolerance = 1e-8;  ///< `-flutter_tolerance`: target of the estimate of |δs|/|s|
   int rounds = 15;          ///< `-flutter_rounds`: largest number of correction rounds per batch
-  int growth = 1000;  ///< `-flutter_growth`: no round starts once a batch has added so many vectors
+  /// `-flutter_growth`: no round starts once a batch has added this many vectors.
+  int growth = 1000;
   pencil::Criteria criteria;
   pencil::BandLimits band;
   /// Not collective. Reads the options.

@@ -13,13 +13,15 @@
 
 namespace squeal::reduction {
 
-/// Stores the watched eigenpairs of solved points, each on one rank, within a limit of memory.
+/// Stores the watched eigenpairs of solved points within a limit of memory, those of a point on one
+/// rank.
 class SolvedPairs {
  public:
   explicit SolvedPairs(MPI_Comm comm) : comm_(comm) {}
-  /// Not collective. Stores the pairs of these points in a basis of this size.
+  /// Not collective. Stores the pairs of these points, which belong to a basis of this size.
   void store(const std::vector<PointState>& states, PetscInt basisSize);
-  /// Collective. Returns the pairs of a point with both vectors; none if they are not stored.
+  /// Collective. Returns the pairs of a point with right and left vectors; none if they are not
+  /// stored.
   std::optional<std::vector<linalg::DensePair>> at(const sweep::Parameters& at, int set) const;
   /// Not collective. Writes the pairs that are new since the last call, or reads and adds them.
   void serialise(checkpoint::Archive& archive);
@@ -27,7 +29,7 @@ class SolvedPairs {
  private:
   struct Entry {
     sweep::Parameters at;
-    int set;  // its number
+    int set;  // its index
     int owner;
     std::vector<linalg::DensePair> pairs;  // on the owner
   };

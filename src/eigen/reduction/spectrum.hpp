@@ -8,10 +8,10 @@
 
 namespace squeal::reduction {
 
-/// The watched eigenpairs of a point, with both right and left vectors, by ascending imaginary
-/// part. All eigenvalues are computed only for the first, small bases: a full solve takes most of
-/// the time of a large problem, and with damping the linearised problem is twice as large as the
-/// basis. In larger bases, the inaccurate pairs are improved instead.
+/// The watched eigenpairs of a point, with right and left vectors, by ascending imaginary part. All
+/// eigenvalues are computed only for the first, small bases: in a large problem full solves would
+/// take most of the time, and with damping the linearised problem is twice as large as the basis.
+/// In larger bases, the inaccurate pairs are improved instead.
 struct Spectrum {
   std::vector<linalg::DensePair> band;   ///< in the band
   std::vector<linalg::DensePair> guard;  ///< in the guard zone around the band
@@ -24,8 +24,7 @@ struct Spectrum {
 struct SpectrumRequest {
   const linalg::DenseProblem* problem;
   Spectrum* spectrum;
-  /// Error divided by tolerance, for each pair of the band. A pair with a ratio above 1 is
-  /// improved.
+  /// [pair of the band] error divided by tolerance. A pair with a ratio above 1 is improved.
   std::vector<double> errorRatio;
 };
 

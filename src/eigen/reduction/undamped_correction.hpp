@@ -12,12 +12,13 @@ namespace squeal::reduction {
 
 /// Returns the watched eigenpairs of
 ///   (s² M + K) q = 0,
-/// with both vectors, from `pairs`, those of a smaller basis, whose vectors are extended by zeros.
-/// `watched` must select all of a disc |s| < R except for strongly damped ones, so that it selects
-/// the eigenvalues t = −1/s² of K⁻¹M of largest magnitude. Their right and left vectors iterate
-/// together: the problem is projected on the vectors and on K⁻¹M times those of the open pairs, and
-/// the Ritz vectors are multiplied by K⁻¹M once more. This repeats until the residuals of the open
-/// pairs are as small as these require. Returns none if that fails.
+/// with right and left vectors. `pairs` are those of a smaller basis; their vectors are extended by
+/// zeros. `watched` must select all eigenvalues in a disc |s| < R except strongly damped ones, so
+/// that it selects the eigenvalues t = −1/s² of K⁻¹M of largest magnitude. Their right and left
+/// vectors are iterated together: the problem is projected on the vectors and on K⁻¹M times those
+/// of the pairs in `open`, and the Ritz vectors are multiplied by K⁻¹M once more. This is repeated
+/// until the residuals of these pairs are as small as UnconvergedPair requires. Returns none if
+/// that fails.
 std::optional<std::vector<linalg::DensePair>> correctedUndamped(
     const linalg::DenseProblem& problem, std::vector<linalg::DensePair> pairs,
     const std::vector<UnconvergedPair>& open, const linalg::EigenvalueFilter& watched);

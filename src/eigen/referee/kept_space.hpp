@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The space V of the proof: free modes, static responses and corrections, with the matrices on it
-/// and the Gram matrices of their couplings to the rest.
+/// The space V of the proof: free modes, static responses and corrections. KeptSpace also has the
+/// projected matrices, and the Gram matrices of their couplings to C, the space that V leaves out.
 #include "algebra/linalg/quadratic.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/proof/kept.hpp"
@@ -10,10 +10,12 @@
 
 namespace squeal::referee {
 
-/// Borrows the arguments of the constructor. The methods are collective.
+/// Borrows the arguments of the constructor except the modes. All functions with arguments are
+/// collective.
 class KeptSpace {
  public:
-  /// Starts with the modes and the responses to the other terms on them.
+  /// Starts with the modes and the static responses to the forces that the other terms exert on
+  /// them.
   KeptSpace(const SplitProblem& problem, const ShiftedSystem& shifted, const modes::Modes& modes);
   PetscInt size() const { return basis_.size(); }
   bool isWhole() const { return basis_.size() == shifted_.system.size(); }
@@ -24,14 +26,14 @@ class KeptSpace {
   /// Adds the corrections of these pairs: K0⁻¹ P(s) x and K0⁻¹ P(s)ᴴ y.
   void correct(const std::vector<linalg::DensePair>& pairs);
 
-  /// Returns the problem on V and its couplings, for regions up to `top`, rad/s.
+  /// Returns the problem on V and its couplings to C, for regions up to `top`, rad/s.
   proof::KeptProblem problem(double top);
-  /// Returns the bounds on the rest, after problem(): the first `count` modes, with eigenvalues up
-  /// to `last`, are all below θ = `below`.
+  /// Returns the bounds on C; call it after problem(). The pencil (K0, M) has `count` eigenvalues
+  /// below θ = `below`: those of the first `count` modes, of which `last` is the largest.
   proof::LeftOut leftOut(PetscInt count, double last, double below) const;
 
  private:
-  /// A matrix A = c_0 + s c_1 + s² c_2 of parts, transposed with the sign of its symmetry.
+  /// A symmetric or antisymmetric matrix A of the problem, with its power of s.
   struct Part {
     Mat matrix;
     int power;
@@ -49,7 +51,7 @@ class KeptSpace {
   linalg::Block v_;       // V, orthonormal in energy
   linalg::Block forces_;  // K0 V
   std::vector<Part> parts_;
-  double leak_ = 0;  // ‖M_CY‖ and ‖M_QY‖ of the modes Y
+  double leak_ = 0;  // norm of the coupling by M of the modes to all other vectors
   PetscInt modes_ = 0;
 };
 

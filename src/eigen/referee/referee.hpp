@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The referee: which entries of a list are eigenvalues of a problem, and which eigenvalues are
-/// missing in it, proved.
+/// The referee proves which entries of a list are eigenvalues of a problem, and which eigenvalues
+/// the list lacks.
 #include <array>
 #include <optional>
 #include <span>
@@ -17,10 +17,10 @@
 namespace squeal::referee {
 
 enum class Verdict {
-  right,     ///< an eigenvalue, within the tolerance and the radius
-  inexact,   ///< farther from it, but this is the only eigenvalue in a disc about both
+  right,     ///< an eigenvalue, up to the tolerance plus the radius of its disc
+  inexact,   ///< farther away, but in a disc with exactly one eigenvalue
   repeated,  ///< a second entry for a simple eigenvalue
-  artefact,  ///< no eigenvalue is there
+  artefact,  ///< no eigenvalue corresponds to this entry
   missing,   ///< an eigenvalue that the list does not contain
   unproved,  ///< nothing is proved here
   outside,   ///< not in the judged region
@@ -28,37 +28,39 @@ enum class Verdict {
 inline constexpr std::array allVerdicts{Verdict::right,    Verdict::inexact, Verdict::repeated,
                                         Verdict::artefact, Verdict::missing, Verdict::unproved,
                                         Verdict::outside};
-/// Returns the word of tables and texts.
+/// Returns the word for the verdict in tables and texts.
 const char* text(Verdict verdict);
 
-/// An entry of the list, or an eigenvalue that is missing in it.
+/// The verdict on an entry of the list, or on an eigenvalue that the list lacks.
 struct Row {
   std::optional<std::size_t> entry;  ///< index in the list
   Complex listed = 0;
   Verdict verdict = Verdict::unproved;
-  std::optional<Complex> proved;  ///< centre of the nearest disc of an eigenvalue
+  std::optional<Complex> proved;  ///< centre of the nearest disc if it is single
   double radius = 0;              ///< of this disc, rad/s
   double distance = 0;            ///< of the entry from the centre, rad/s
 };
 
 struct Judgement {
-  std::vector<Row> rows;  ///< the entries in the order of the list, then those missing
-  /// The eigenvalues with Im s ≥ 0 in the region, each in a disc of the inner radius, if single.
+  std::vector<Row> rows;  ///< the entries in the order of the list, then the missing eigenvalues
+  /// The eigenvalues with Im s ≥ 0 in the region; those that are single lie in their discs of the
+  /// inner radius.
   std::vector<proof::Enclosure> eigenvalues;
   proof::Region region;
   proof::CountProof count;
-  std::string why;  ///< reason why the count is not proved; empty if it is
+  std::string why;  ///< why the count is not proved; empty if it is
   PetscInt unknowns = 0, modes = 0, basis = 0;
   double shift = 0;      ///< σ, rad²/s²
-  double asymmetry = 0;  ///< of the stiffness
+  double asymmetry = 0;  ///< ‖K − Kᵀ‖ / ‖K‖ of the stiffness
   bool damped = false;
   long solves = 0;
 
   bool proved() const { return why.empty(); }
   long number(Verdict verdict) const;
-  /// Returns the number of proved discs of single eigenvalues in the upper half.
+  /// Returns the number of eigenvalues with Im s ≥ 0 that are proved to be single in a disc.
   long singles() const;
-  /// Returns true if the count is proved and every entry in the region is right, none is missing.
+  /// Returns true if the count is proved, every entry in the region is right and no eigenvalue is
+  /// missing.
   bool isComplete() const;
   /// Returns the region in words.
   std::string regionText() const;
@@ -72,9 +74,9 @@ struct Problem {
   sweep::Parameters at;
 };
 
-/// Collective. Judges a list of eigenvalues with Im s ≥ 0. The number of modes is that of the
-/// settings if it is given, otherwise all modes up to 1.7 times the top. Throws Error as
-/// SplitProblem, shiftedSystem() and modes::compute() do.
+/// Collective. Judges a list of eigenvalues with Im s ≥ 0. If the settings of the modes give a
+/// number, computes that many modes, otherwise all modes up to 1.7 times the top and a few more.
+/// Throws Error as SplitProblem, shiftedSystem() and modes::compute() do.
 Judgement judge(const Problem& problem, std::span<const Complex> list, const Settings& settings,
                 const modes::Settings& modes);
 

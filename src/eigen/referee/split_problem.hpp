@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The matrices of one point in symmetric and antisymmetric parts, and the energy of the proof.
+/// The matrices of one point, split into symmetric and antisymmetric parts, and the energy of the
+/// proof.
 #include <array>
 
 #include "algebra/factor/associated_system.hpp"
@@ -9,22 +10,21 @@
 
 namespace squeal::referee {
 
-/// P(s) = s² (M + M_a) + s (C + G) + K + K_a, the second matrix of each pair antisymmetric. A
-/// matrix of zeros is null.
+/// P(s) = s² (M + M_a) + s (C + G) + K + K_a, with symmetric M, C and K and antisymmetric M_a, G
+/// and K_a. The handle of a zero matrix is null.
 class SplitProblem {
  public:
-  /// Collective. Splits the matrices of the point. Throws Error without mass or stiffness, or
-  /// if the symmetric part of the mass is not positive semi-definite.
+  /// Collective. Splits the matrices of the point. Throws Error without mass or stiffness, or if
+  /// the symmetric part of the mass is not positive definite except for rows of zeros.
   SplitProblem(const pencil::Pencil& pencil, const sweep::Parameters& at);
   Mat symmetric(int power) const { return parts_[power][0]; }
   Mat skew(int power) const { return parts_[power][1]; }
   /// Returns true if there are terms in s.
   bool damped() const { return symmetric(1) || skew(1); }
-  /// Returns the antisymmetric part of the stiffness relative to the stiffness, in the Frobenius
-  /// norm.
+  /// Returns ‖K − Kᵀ‖ / ‖K‖ of the stiffness K in the Frobenius norm.
   double asymmetry() const { return asymmetry_; }
-  /// Collective. Returns the terms whose static responses start the basis: all but those of the
-  /// energy.
+  /// Collective. Returns all terms except the symmetric stiffness and mass, which form the energy.
+  /// The static responses to the forces of these terms start the basis.
   std::vector<pencil::Term> perturbations() const;
 
  private:
@@ -32,8 +32,8 @@ class SplitProblem {
   double asymmetry_ = 0;
 };
 
-/// K0 = K + σ M and M, both symmetric, with the smallest σ ≥ 0 of a sequence that makes K0 clearly
-/// positive definite.
+/// K0 = K + σ M and M, both symmetric, where σ ≥ 0 is twice the smallest shift of a sequence for
+/// which K + σ M is positive definite.
 struct ShiftedSystem {
   factor::AssociatedSystem system;
   double shift = 0;  ///< σ, rad²/s²

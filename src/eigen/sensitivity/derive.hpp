@@ -16,35 +16,35 @@ namespace squeal::sensitivity {
 using Forms = std::function<std::vector<pencil::Derivative>(const EigenTriple&)>;
 
 /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point.
-/// `pencil` contains the terms of the point. It first computes left vectors, starting in `start`,
-/// with the solver of `system`. The derivatives, if they exist, are the forms divided by −yᴴ P′ x
-/// [M.46]. Borrows the arguments only during this call.
+/// `pencil` contains the terms of the point. Left vectors are computed first, from the space
+/// `start`, with the solver of `system`. The derivatives, where they exist, are the forms divided
+/// by −yᴴ P′ x [M.46]. Borrows the arguments only during this call.
 void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                   const StartSpace& start, const factor::AssociatedSystem& system,
                   const Forms& forms);
 
-/// A point of a sweep at its critical friction, where i `angularFrequency` is an eigenvalue.
+/// A point at a critical friction, where i ω with ω = `angularFrequency` is an eigenvalue.
 struct CriticalPoint {
   sweep::Parameters at;
   double angularFrequency = 0;  ///< rad/s
-  bool isCrossing = true;       ///< one eigenvalue crosses the axis; otherwise two meet there, or
-                                ///< one is zero
+  bool isCrossing = true;  ///< one eigenvalue crosses the imaginary axis; otherwise two meet there,
+                           ///< or one is zero
 };
 
 /// Collective. Adds to the mode at a critical friction the derivatives of this friction [M.89] with
-/// respect to all parameters except the friction itself. Adds none if a vector is not found, or if
-/// the growth does not depend on the friction. `forms` must include the form of the parameter
-/// "friction". The other arguments are those of deriveShapes().
+/// respect to all parameters except the friction itself. Adds none if a right or left vector is not
+/// found, or if the growth does not depend on the friction. `forms` must include the form of the
+/// parameter "friction". The other arguments are those of deriveShapes().
 void deriveCritical(const CriticalPoint& point, const pencil::Pencil& pencil,
                     const StartSpace& start, const factor::AssociatedSystem& system,
                     const Forms& forms, pencil::CriticalMode& mode);
 
-/// Collective. Returns the forms of friction, speed and damping, if the coefficients of the terms
-/// depend on them. Borrows the pencil.
+/// Collective. Returns the forms of friction, speed and damping; those on which no coefficient of a
+/// term depends are zero. Borrows the pencil.
 Forms parameterForms(const pencil::Pencil& pencil, const sweep::Parameters& at);
 
-/// Collective. Does the same as deriveShapes() for friction, speed and damping, if the coefficients
-/// of the terms depend on them.
+/// Collective. Does the same as deriveShapes() for the parameters friction, speed and damping, with
+/// parameterForms().
 void deriveParameters(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                       const StartSpace& start, const factor::AssociatedSystem& system);
 

@@ -28,32 +28,33 @@ struct NullVector {
 struct StartSpace {
   OwnedBV columns;      ///< V: the free modes, or the basis of the reduced problem
   Mat inner = nullptr;  ///< the matrix in which V is nearly orthonormal, M0 or K0; borrowed
-  linalg::DenseProblem projected;  ///< Vᵀ P V at the point, if known, which saves products
+  linalg::DenseProblem projected;  ///< Vᵀ P V at the point if it is known, which saves products
                                    ///< with V; otherwise empty
 };
 
 /// Collective. Returns V c, scaled to the 2-norm 1.
 linalg::ComplexVector expanded(BV columns, const std::vector<Complex>& c);
 
-/// How null vectors are sought.
+/// The settings of the search for null vectors.
 struct Search {
-  double accuracy = 1e-10;  ///< backward error
-  bool simple = true;       ///< false: eigenvalues may meet at s, which is exact to its last digits
+  double accuracy = 1e-10;  ///< largest backward error
+  bool simple = true;  ///< true: s may be inexact and is corrected; false: eigenvalues may meet at
+                       ///< s, which must be exact
 };
 
 /// Collective. Returns the left vectors of all pairs, [pair], by Rayleigh–Ritz on a basis that
 /// starts with V and the right vectors. Each round extends it by
 ///   K0⁻¹ Re l, K0⁻¹ Im l,   l = P(s)ᴴ y,
 /// for the left residuals l of all pairs together, with `solver`, a borrowed factorisation of K0. A
-/// round gains about a decade. The rounds end when all backward errors are at most the requested
-/// one, when the basis no longer grows, or after 20 rounds. The caller must check the remaining
-/// error.
+/// round reduces the errors about tenfold. The rounds end when all backward errors are at most
+/// `search.accuracy`, when the basis no longer grows, or after 20 rounds. The caller must check the
+/// remaining errors.
 std::vector<NullVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                     const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs, const Search& search);
 
-/// Collective. Returns the right vector at an eigenvalue s in the same way, from V. Like the left
-/// vector, it is the one of the smallest singular value of P(s), so it is well defined where two
+/// Collective. Returns the right vector at an eigenvalue s in the same way, from V. Right and left
+/// vectors are those of the smallest singular value of P(s), so they are well defined where two
 /// eigenvalues and their vectors meet.
 NullVector rightVector(const pencil::Pencil& pencil, const sweep::Parameters& at,
                        const StartSpace& start, KSP solver, Complex s, const Search& search);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Derivatives of eigenvalues from left and right vectors [M.46],
-///   ds/dθ = −yᴴ (∂P/∂θ)(s) x / yᴴ P′(s) x,   P′ = dP/ds = 2 s M̄ + Z̄,
-/// as far as they depend only on the pencil.
+///   ds/dθ = −yᴴ (∂P/∂θ)(s) x / yᴴ P′(s) x,   P′ = dP/ds = 2 s M̄ + Z̄.
+/// The functions here compute the parts that depend only on the pencil.
 #include <string>
 #include <vector>
 
@@ -23,12 +23,12 @@ struct EigenTriple {
 /// Collective. Returns yᴴ P′(s) x.
 Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
                   const EigenTriple& triple);
-/// Collective. Returns yᴴ (∂P/∂θ)(s) x for the dependence of the coefficients of the terms on θ =
-/// `parameter`.
+/// Collective. Returns yᴴ (∂P/∂θ)(s) x for θ = `parameter`, on which the coefficients of the terms
+/// depend.
 Complex parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
                       const EigenTriple& triple, double sweep::Parameters::*parameter);
-/// Collective. Returns the condition number [M.50], Sensitivity::condition. `slope` is yᴴ P′(s) x,
-/// and `mass` is M0.
+/// Collective. Returns the condition number [M.50] for Sensitivity::condition. `slope` is yᴴ P′(s)
+/// x, and `mass` is M0.
 double condition(const EigenTriple& triple, Complex slope, Mat mass);
 
 }  // namespace squeal::sensitivity

@@ -14,7 +14,7 @@ class BracketedRoot {
   struct End {
     double at, value;
   };
-  /// The values at both ends have different signs.
+  /// The values at `a` and `b` must have different signs.
   BracketedRoot(End a, End b, double tolerance)
       : a_(a), b_(b), c_(a), part_(a.value / (a.value - b.value)), tolerance_(tolerance) {}
   double next() const { return a_.at + part_ * (b_.at - a_.at); }

@@ -11,8 +11,8 @@
 
 namespace squeal::stability {
 
-/// Locates the critical friction of an event in a basis that is improved between the calls. Not
-/// collective.
+/// Locates the critical friction of an event, in a basis that is improved between the calls of
+/// locate(). Not collective.
 class CriticalRoot {
  public:
   /// Borrows the event.
@@ -24,13 +24,13 @@ class CriticalRoot {
   /// Locates the critical friction in the present basis. `changed` is true if the basis differs
   /// from that of the last call.
   void locate(Family& family, bool changed);
-  /// Returns true if the friction no longer moves.
+  /// Returns true if the friction no longer moves, or if it was not found.
   bool settled() const { return settled_; }
-  /// Returns the friction with one pair at the mean of the eigenvalues: if two eigenvalues meet, so
-  /// do their vectors.
+  /// Returns the friction with one pair there, whose eigenvalue is the mean of the eigenvalues:
+  /// where two eigenvalues meet, so do their vectors.
   tracking::PairsAtFriction located() const;
-  /// Stores the backward error, NaN at a located friction without a problem, and the bound on the
-  /// round-off in yᴴP(s)x of unit vectors.
+  /// Stores the backward error and a bound on the round-off in yᴴP(s)x of unit vectors. The
+  /// backward error is NaN if no problem exists at the located friction.
   void setErrors(double backwardError, double roundOff);
 
   /// Returns the critical friction found so far.
@@ -54,7 +54,7 @@ class CriticalRoot {
   double roundOffError() const;
   double width() const { return event_.high - event_.low; }
   /// Returns the tolerance of a root in a basis that is not final. It is small compared with the
-  /// change of the root by the next basis.
+  /// change of the root in the next basis.
   double roughly() const { return 1e-7 * width(); }
 
   double searchFromEnds(Family& family);

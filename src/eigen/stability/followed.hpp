@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A whole sweep over friction: its eigenvalues tracked from point to point, their critical
-/// frictions, and a statement on the completeness of their number.
+/// A whole sweep over friction: its eigenvalues are tracked from point to point, with their
+/// critical frictions and a statement on the completeness of their number.
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,27 +23,27 @@ struct LinePiece {
   tracking::ProblemSource source;
   std::vector<double> frictions;  ///< ascending, with the ends of the piece
   int activeSet = 1;              ///< its number in the results
-  std::size_t like = 0;           ///< a steady point with this active set
+  std::size_t like = 0;           ///< index of a steady point with this active set
 };
 
 /// The points of one speed, pressure and damping.
 struct Line {
-  sweep::Parameters at;           ///< the other parameters; its friction has no meaning
+  sweep::Parameters at;           ///< the parameters; its friction has no meaning
   std::vector<double> swept;      ///< frictions of the sweep, ascending
   std::vector<LinePiece> pieces;  ///< ascending
-  /// Friction of the preceding point, which has another basis: the active set changes between the
-  /// two points.
+  /// Friction of the preceding point, if the active set changes between it and the first point and
+  /// the two have different bases.
   std::optional<double> before;
   const modes::Modes* modes = nullptr;  ///< free modes of the first piece, borrowed
 };
 
 /// The result for all frictions of one speed, pressure and damping that share a basis.
 struct TrackedLine {
-  sweep::Parameters line;      ///< the other parameters; its friction has no meaning
-  std::vector<int> activeSet;  ///< [piece of the path] its number in the results
-  double from = 0;    ///< friction below which another active set applies; 0: there is none
-  Branches branches;  ///< numbered from 1: renumber()
-  std::vector<Critical> criticals;  ///< critical frictions of these branches, ascending
+  sweep::Parameters line;           ///< the parameters; its friction has no meaning
+  std::vector<int> activeSet;       ///< [piece of the path] its number in the results
+  double from = 0;                  ///< friction below which another active set applies; 0: none
+  Branches branches;                ///< numbered from 1 by renumber()
+  std::vector<Critical> criticals;  ///< critical frictions of the branches, ascending
   std::vector<pencil::CriticalMode> criticalModes;  ///< [critical]
   bool countExact = false;  ///< the Sturm count confirms the number at the first friction, 0
   bool wholeSpace = false;  ///< the basis spans the whole space of the full problem
@@ -54,17 +54,17 @@ struct TrackedLine {
   std::string statement() const;
 };
 
-/// Returns true if a line is worth tracking: single frictions are not, unless tracking is
-/// `requested`.
+/// Returns true if a line is worth tracking: if it has several frictions or a preceding point or,
+/// if tracking is `requested`, a friction other than 0.
 bool worthTracking(const Line& line, bool requested);
-/// Returns the reason why no line can be tracked; empty if one can. Tracking is impossible in a
-/// basis of only the free modes.
+/// Returns the reason why no line can be tracked; empty if one can. In a basis of only the free
+/// modes, tracking is impossible.
 std::string whyNotTracked(const reduction::ReducedProblem& reduced, const std::vector<Line>& lines);
 
-/// Collective. Tracks the eigenvalues of the lines from friction 0 on, in the present basis, and
-/// solves for the critical frictions if the settings request them, which may extend the basis.
-/// Eigenvalues jump at a change of the active set and are joined across it. A line whose first
-/// friction is not 0 starts at friction 0 with its first active set.
+/// Collective. Tracks the eigenvalues of the lines from friction 0 on, in the current basis. If the
+/// settings request critical frictions, solves for them; this may extend the basis. Eigenvalues
+/// jump at a change of the active set and are joined across it. A line whose first friction is not
+/// 0 starts at friction 0 with its first active set.
 std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
                                     const std::vector<Line>& lines, const Settings& settings,
                                     MPI_Comm comm,

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 to a
-/// part in a thousand [M.28]:
+/// The growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 within
+/// about a thousandth [M.28]:
 ///   VᵀK0V ≈ I.
 /// If points have boundary unknowns, the constraint modes come first. They are orthogonal to all
 /// other vectors but not to each other.
 ///
 /// Free modes enter as d/ω, corrections as z = K0⁻¹ r [M.31]. The residuals r of a Galerkin
-/// solution on V have Vᵀr = 0, so their corrections are orthogonal to V. To the accuracy of K0⁻¹,
-/// the following quantities need no product with K0 [M.32]:
+/// solution on V have Vᵀr = 0, so their corrections are orthogonal to V in energy. Up to the errors
+/// of solves with K0, the following quantities need no product with K0 [M.32]:
 ///   VᵀK0z = Vᵀr,   zᵀK0z = zᵀr,   K0z = r.
 #include <optional>
 #include <vector>
@@ -26,11 +26,11 @@ namespace squeal::subspace {
 class Basis {
  public:
   /// Collective. Starts with the constraint modes of the boundary unknowns, if any, and the modes
-  /// of the system of the interior unknowns. Uses the modes only during this call, and borrows the
-  /// system during the lifetime of the object. Throws Error if K0 cannot be factorised.
+  /// of `system`, which has only the interior unknowns. Uses the modes only during this call, and
+  /// borrows the system during the lifetime of the object. Throws Error if K0 cannot be factorised.
   Basis(const modes::Modes& modes, const factor::AssociatedSystem& system,
         Substructure substructure = {});
-  /// Returns V by this rank's rows.
+  /// Returns this rank's rows of V.
   const linalg::Block& columns() const { return columns_; }
   PetscInt size() const { return columns_.columns(); }
   PetscInt localRows() const { return columns_.rows(); }
@@ -44,48 +44,49 @@ class Basis {
   /// Sets the rows of the boundary unknowns to zero. Not collective.
   void clearBoundary(linalg::Block& columns) const;
   OwnedBV vectors() const;
-  /// Not collective. Extends columns of the interior unknowns, by this rank's rows, by zeros at the
-  /// boundary.
+  /// Not collective. Returns columns of the interior unknowns extended by zeros at the boundary;
+  /// both have this rank's rows.
   linalg::Block prolonged(const linalg::DenseView& interior) const;
 
   /// Collective. Adds K0⁻¹ times the columns of `residuals`, by a block solve; combinations that
   /// depend linearly on others or on V are omitted. The rows of the boundary unknowns are ignored,
   /// since the constraint modes represent them. Returns the number of columns added.
   PetscInt add(linalg::Block residuals);
-  /// Collective. The same for static forces F. Returns FᵀK0⁻¹F of their interior rows.
+  /// Collective. Does the same for static forces F. Returns FᵀK0⁻¹F, from the interior rows of F.
   linalg::DenseMatrix addResponses(linalg::Block forces);
-  /// Collective. Appends the vectors that add() found in an earlier run, by this rank's rows, and
+  /// Collective. Appends this rank's rows of the vectors that add() found in an earlier run, and
   /// restores its state.
   void restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves);
-  /// Collective. Returns K0⁻¹ times the interior rows of the columns, by a block solve, with zeros
-  /// at the boundary.
+  /// Collective. Returns K0⁻¹ times the interior rows of the columns, by a block solve. The result
+  /// is zero at the boundary.
   linalg::Block responses(const linalg::Block& forces);
-  /// Collective. Replaces V by V · combinations, former size × new size. The columns of
-  /// `combinations` must be orthonormal.
+  /// Collective. Replaces V by V · combinations. `combinations` is former size × new size and must
+  /// have orthonormal columns.
   void combine(const linalg::DenseMatrix& combinations);
 
   /// Collective. Appends A times the columns [first, last) of V to the columns of `result`, which
   /// has this rank's rows of A.
   void appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
-  /// Return K0 times the columns last added, by this rank's rows, and VᵀK0 times these columns,
-  /// size() × columns. If they are not known without products, both have no columns.
+  /// Return this rank's rows of K0 times the columns last added, and VᵀK0 times these columns,
+  /// size() × columns. Both have no columns if they are not known without further products.
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
-  /// Collective. Returns V q, n entries, for several q, [q]. Missing entries of a q are zero.
+  /// Collective. Returns V q, n entries, for several q, [q]. Missing last entries of a q are
+  /// treated as zero.
   std::vector<linalg::ComplexVector> expand(const std::vector<std::vector<Complex>>& list) const;
-  /// Returns the random signs Ω for columns with n entries [M.39]. The weighted norm of their
-  /// sketches is √(rᵀ diag(K0)⁻¹ r).
+  /// Returns the random signs Ω for columns with n entries [M.39]. The weighted norm that sketches
+  /// estimate is √(rᵀ diag(K0)⁻¹ r).
   const Sketch& sketch() const { return *sketch_; }
   /// Returns the unweighted sketch of V.
   const linalg::DenseMatrix& sketched() const { return sketched_; }
-  /// Returns a sketch of D^½ V with D = diag(K0), few × size(), whose columns estimate the
-  /// round-off of the stiffness: ε √(yᵀDy) √(xᵀDx) bounds the round-off of yᵀK0x by the entries of
-  /// K0, up to the number of entries per row [M.26].
+  /// Returns a sketch of D^½ V with D = diag(K0), of few rows and size() columns. It serves to
+  /// estimate round-off: ε √(yᵀDy) √(xᵀDx) bounds the round-off in yᵀK0x that the entries of K0
+  /// cause, up to a factor of the number of entries per row [M.26].
   const linalg::DenseMatrix& sketchedRigidity() const { return rigidity_; }
   /// Collective. Returns for each block of columns the largest ratio of the energy norm √(rᵀ K0⁻¹
-  /// r) to √(rᵀ diag(K0)⁻¹ r) among its combinations, or 0 for a block without columns. For similar
-  /// columns, this ratio converts the second norm, which is cheap, into an estimate of the first.
-  /// One block solve serves all blocks.
+  /// r) to √(rᵀ diag(K0)⁻¹ r) among the combinations r of its columns, or 0 for a block without
+  /// columns. For similar columns, this ratio converts the second norm, which is cheap, into an
+  /// estimate of the first. One block solve serves all blocks.
   std::vector<double> energyRatios(const std::vector<linalg::Block>& blocks);
   /// Returns the energy ratio of the residuals of the last add(); 1 before the first one.
   double lastEnergyRatio() const { return ratio_; }

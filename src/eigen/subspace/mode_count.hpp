@@ -9,8 +9,8 @@
 ///   count = number of λ_i < σ + negative eigenvalues of G − C,
 ///   G = S − σ YᵀM Y − σ² Pᵀ (Λ − σ)⁻¹ P,   P = ΦᵀM Y,
 ///   0 ≤ C ≤ σ²/(1 − σ/β) D,   D = QᵀK0⁻¹Q − PᵀΛ⁻¹P,   Q = M Y in the rows of the interior.
-/// The two bounds of C bound the count, and for most σ both bounds agree. The solves of D are not
-/// always needed, since
+/// The two bounds of C bound the count, and for most σ both bounds agree. The solves for D are
+/// often not needed, since
 ///   D ≤ (YᵀM Y − PᵀP)/β.
 /// A point uses only the rows and columns of its own boundary unknowns.
 #include <optional>
@@ -24,15 +24,15 @@ namespace squeal::subspace {
 
 class ModeCount {
  public:
-  /// Collective. `basis` must still begin with its constraint modes and the modes. `mass` is M of
-  /// all unknowns. The arguments may be destroyed after the call.
+  /// Collective. `basis` must still begin with its constraint modes, followed by `modes`. `mass` is
+  /// M of all unknowns. The arguments may be destroyed after the call.
   ModeCount(const Basis& basis, const modes::Modes& modes, Mat mass);
   /// Collective. Replaces the bound of D by D itself, with a block solve for all constraint modes.
   void sharpen(Basis& basis, Mat mass);
   /// Returns true if sharpen() would not help.
   bool isSharp() const { return isSharp_; }
-  /// Not collective. Returns the number of modes below σ, rad²/s², of a point with the boundary
-  /// unknowns `own`, ascending; none if that is not certain.
+  /// Not collective. Returns the number of modes below σ, rad²/s², of a point whose boundary
+  /// unknowns are `own`, ascending; none if the number is not certain.
   std::optional<int> below(double sigma, const std::vector<PetscInt>& own) const;
 
  private:

@@ -19,21 +19,21 @@ namespace squeal::subspace {
 class Sketch {
  public:
   static constexpr PetscInt size = 64;  ///< k, the number of columns of Ω
-  /// A factor that raises a norm by three deviations.
+  /// A factor that raises a norm by three standard deviations.
   static constexpr double safety = 1.27;
 
-  /// Collective. Makes Ω for vectors distributed like `diagonal`, [local row], the diagonal D ≥ 0
-  /// of the weighted norm √(rᵀ D r). The signs depend only on the global row, not on the number of
-  /// ranks. Neither norm counts the local rows `leftOut`.
+  /// Collective. Creates Ω for vectors distributed like `diagonal`, [local row], which is the
+  /// diagonal D ≥ 0 of the weighted norm √(rᵀ D r). The signs depend only on the global row, not on
+  /// the number of ranks. Both norms ignore the local rows `leftOut`.
   Sketch(MPI_Comm comm, const std::vector<double>& diagonal,
          const std::vector<PetscInt>& leftOut = {});
-  /// Collective. Returns Ωᵀ X / √k above Ωᵀ D^½ X / √k, 2k × columns, the same on all ranks. X is
-  /// given by this rank's rows.
+  /// Collective. Returns the rows of Ωᵀ X / √k, followed by those of Ωᵀ D^½ X / √k, 2k × columns,
+  /// the same on all ranks. `x` has this rank's rows of X.
   linalg::DenseMatrix of(const linalg::DenseView& x) const;
   /// Collective. Returns only Ωᵀ X / √k, with the first `count` ≤ k columns of Ω, count × columns.
   linalg::DenseMatrix unweighted(const linalg::DenseView& x, PetscInt count = size) const;
-  /// Collective. Returns the same as the first `of` for an X given by `rows`, whose other rows are
-  /// zero.
+  /// Collective. Returns the same as the first overload. `x` has only the rows `rows` of X; the
+  /// others are zero.
   linalg::DenseMatrix of(const linalg::RowSet& rows, const linalg::DenseView& x) const;
 
  private:
@@ -54,17 +54,17 @@ std::vector<double> squaredLengths(const linalg::DenseView& unweighted);
 /// Not collective. Returns the coefficients of orthogonal combinations of columns, all × count,
 /// estimated from the sketches of the columns, 2k × all. Each column is first multiplied by its
 /// factor, [column]; the coefficients include the factors. The combinations are the right singular
-/// vectors of the unweighted half of the sketch with singular values above `small`; `count` is
-/// their number, a fraction of `all` for nearly dependent columns. If all singular values exceed
-/// `small`, returns the diagonal matrix of the factors. Returns nothing if nearly k singular values
-/// exceed `small`, since the sketch then cannot determine the number.
+/// vectors of the unweighted half of the sketch with singular values above `small`; `count` is the
+/// number of combinations, a fraction of `all` if the columns are nearly dependent. If all singular
+/// values exceed `small`, returns the diagonal matrix of the factors. Returns nothing if nearly k
+/// singular values exceed `small`, since the sketch then does not show how many are needed.
 std::optional<linalg::DenseMatrix> leadingCombinations(const linalg::DenseView& sketches,
                                                        const std::vector<double>& factors,
                                                        double small);
 
-/// Not collective. Returns the combinations [first, last) of columns with random signs, times the
-/// factor of each column, all × (last − first). A few more combinations than leading directions
-/// span the latter almost surely (Halko, Martinsson and Tropp 2011).
+/// Not collective. Returns the coefficients of the combinations [first, last) of all columns,
+/// all × (last − first): random signs, times the factor of each column. Slightly more combinations
+/// than there are leading directions span these almost surely (Halko, Martinsson and Tropp 2011).
 linalg::DenseMatrix randomCombinations(const std::vector<double>& factors, PetscInt first,
                                        PetscInt last);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Unknowns of the points of a sweep. All points have the interior unknowns y. Each point has some
-/// of the boundary unknowns w, such as the gaps of contact nodes that open in a part of the sweep;
-/// its other boundary unknowns are zero.
+/// The unknowns of the points of a sweep. All points have the interior unknowns y. Each point has
+/// some of the boundary unknowns w, such as the gaps of contact nodes that open in a part of the
+/// sweep; its other boundary unknowns are zero.
 ///
 /// As in the component modes of Craig and Bampton (AIAA J. 6, 1968), the basis starts with a
 /// constraint mode for each boundary unknown,
@@ -30,8 +30,9 @@ struct Substructure {
 /// orthonormal in energy, and all vectors after the constraint modes. Not collective.
 class PointSpace {
  public:
-  /// Takes S, boundary × boundary, and has[boundary unknown of all ranks]: 1 if it is an unknown of
-  /// the point. Throws Error if S of these is not positive definite.
+  /// `boundaryStiffness` is S, boundary × boundary, and has[boundary unknown of all ranks] is 1 for
+  /// the unknowns of the point. Throws Error if the part of S for these unknowns is not positive
+  /// definite.
   PointSpace(const linalg::DenseMatrix& boundaryStiffness, const std::vector<unsigned char>& has);
   /// Returns true if the point uses the whole basis unchanged.
   bool isWhole() const { return all_ == 0; }
@@ -43,17 +44,18 @@ class PointSpace {
   const std::vector<PetscInt>& boundary() const { return boundary_; }
   /// Converts the coordinates q of the point to coordinates of the basis.
   std::vector<Complex> lifted(const std::vector<Complex>& q) const;
-  /// Returns the problem of the point from its projections on the basis.
+  /// Returns the problem projected on the vectors of the point, from its projection on the whole
+  /// basis.
   linalg::DenseProblem restricted(linalg::DenseProblem problem) const;
-  /// Returns the products of rows with the vectors of the point from those with the vectors of the
-  /// basis; both have a column for each vector.
+  /// Returns the products of rows with the vectors of the point, from those with the vectors of the
+  /// basis. Both have one column per vector.
   linalg::DenseMatrix restrictedColumns(const linalg::DenseMatrix& a) const;
 
  private:
   linalg::DenseMatrix restricted(const linalg::DenseMatrix& a) const;
   PetscInt all_ = 0;                // boundary unknowns of all points
   std::vector<PetscInt> boundary_;  // boundary unknowns of this point, ascending
-  linalg::DenseMatrix turn_;        // L⁻ᵀ with S = L Lᵀ of these
+  linalg::DenseMatrix turn_;        // L⁻ᵀ, where L Lᵀ is the part of S for these
 };
 
 }  // namespace squeal::subspace

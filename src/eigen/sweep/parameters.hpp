@@ -10,15 +10,15 @@ namespace squeal::sweep {
 struct Parameters {
   double friction = 0;  ///< f, coefficient of friction
   double speed = 1;     ///< v, a factor on the base motions of all bodies and obstacles
-  double pressure = 1;  ///< p, a factor on surface pressures, held displacements and displacements
-                        ///< of obstacles
+  double pressure = 1;  ///< p, a factor on surface pressures, forces, moments, held displacements
+                        ///< and displacements of obstacles
   double damping = 1;   ///< c, a factor on the damping of materials, dashpots and modes, but not
                         ///< on friction damping
 
   bool operator==(const Parameters&) const = default;
 };
 
-/// A parameter by its name and its member.
+/// The name of a parameter, and its member.
 struct Parameter {
   const char* name;
   double Parameters::*value;
@@ -35,7 +35,7 @@ bool growsInFriction(const Parameters& before, const Parameters& at);
 std::string parameterColumns();
 /// Returns the values of one row of that table.
 std::string parameterValues(const Parameters& at);
-/// Returns a text for messages such as "friction 0.4, speed 2"; factors of 1 are omitted.
+/// Returns a text such as "friction 0.4, speed 2" for messages; factors of 1 are omitted.
 std::string parameterText(const Parameters& at, int digits = 6);
 
 }  // namespace squeal::sweep

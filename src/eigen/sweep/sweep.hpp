@@ -19,7 +19,7 @@ struct Sweep {
   /// Returns the points of the steady states, with damping 1. The friction varies fastest, the
   /// speed slowest.
   std::vector<Parameters> steadyPoints() const;
-  /// Returns all points: for each damping, those of all steady states.
+  /// Returns all points: for each damping, the points of all steady states.
   std::vector<Parameters> points() const;
   /// Returns the number of points.
   double pointCount() const;
@@ -33,14 +33,14 @@ inline constexpr double mostPoints = 100'000;
 /// Not collective. Returns the grid of the settings. Throws Error if it has more than `mostPoints`
 /// points.
 Sweep grid(const Settings& settings);
-/// Collective. Warns of a sweep of at least 1000 points, with a time estimate for its eigenvalue
-/// problems. `modes` is the number of free modes.
+/// Collective. Warns about a sweep of at least 1000 points, with an estimate of the time for its
+/// eigenvalue problems. `modes` is the number of free modes.
 void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
-/// Returns the indices of the points in the order of their solution with one growing basis, in
-/// batches of 5, 16, 16, … points. The first point has the largest friction. Each next point is the
-/// one farthest from all preceding points, with every parameter scaled to its range. In a sweep of
-/// only the friction, the first batch is the ends, the middle and the quarters. The order does not
-/// depend on the number of ranks.
+/// Returns the indices of the points in the order in which they are solved with one growing basis,
+/// in batches of 5, 16, 16, … points. The first point has the largest friction. Each next point is
+/// the one farthest from all preceding points, with every parameter scaled to its range. If only
+/// the friction is swept, the first batch consists of the ends, the middle and the quarters. The
+/// order does not depend on the number of ranks.
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
 
 }  // namespace squeal::sweep

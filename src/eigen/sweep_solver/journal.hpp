@@ -28,7 +28,8 @@ class Journal {
 
   /// Collective. Restores the segments of a finished sweep. Returns false if there are none.
   bool restoreFinished();
-  /// Collective. Returns the recorded free modes of the interior unknowns; none if there are none.
+  /// Collective. Returns the recorded free modes of the interior unknowns; none if none are
+  /// recorded.
   std::optional<modes::Modes> restoredModes();
   /// Collective. Restores the points and the basis; `basis` is null with the direct method.
   void restorePoints(reduction::ReducedProblem* basis);
@@ -36,8 +37,8 @@ class Journal {
   /// Collective. Records the results since the last entry, if an entry is due: first the free modes
   /// of the interior unknowns, then points and basis.
   void record(modes::Modes& freeModes, reduction::ReducedProblem* basis);
-  /// Collective. Saves the finished segments, so an interrupted run need not repeat them, if their
-  /// cost justifies an entry.
+  /// Collective. Saves the finished segments if their cost justifies an entry, so that an
+  /// interrupted run need not repeat them.
   void recordFinished();
 
  private:
@@ -52,7 +53,7 @@ class Journal {
   SweepState& state_;
   double begin_;  // s
   bool modesRecorded_ = false, setModesRecorded_ = false;
-  std::size_t serialised_ = 0;  // solved points that the checkpoint contains
+  std::size_t serialised_ = 0;  // number of solved points that the checkpoint contains
 };
 
 }  // namespace squeal::sweep_solver

@@ -14,13 +14,13 @@ namespace squeal::sweep_solver {
 
 /// A solved point.
 struct ListedPoint {
-  std::size_t range;                ///< of the problem
+  std::size_t range;                ///< index in SweepProblem::ranges
   reduction::PointProblem problem;  ///< with all terms
   pencil::ComplexModes* list;       ///< borrowed
 };
 
-/// Collective. Sets what is proved about the lists of the points, and extends the basis for it.
-/// `modes` are the free modes of the interior unknowns. Returns a line for each list that lacks an
+/// Collective. Sets ComplexModes::completeness of the points. Extends the basis for this. `modes`
+/// are the free modes of the interior unknowns. Returns a line of text for each list that lacks an
 /// eigenvalue.
 std::vector<std::string> proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
                                     const modes::Modes& modes, std::vector<ListedPoint> points,

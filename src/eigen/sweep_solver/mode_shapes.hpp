@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Free modes in the reported unknowns and displacements.
+/// Free modes as nodal displacements, and as vectors of all unknowns.
 #include <vector>
 
 #include "base/petsc/owned.hpp"

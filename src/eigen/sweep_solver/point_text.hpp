@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// What a run says about the eigenvalues of a point. Not collective.
+/// The lines that a run prints on the eigenvalues of a point. Not collective.
 #include <string>
 
 #include "eigen/pencil/complex_modes.hpp"

@@ -15,17 +15,17 @@ namespace squeal::sweep_solver {
 struct ModalSegment {
   PetscInt openNodes = 0;  ///< contact nodes that are not active, over all ranks
   PetscInt unknowns = 0;   ///< n
-  modes::Modes modes;      ///< empty with the direct method; only those of the band if the basis is
-                           ///< shared with other active sets
+  modes::Modes modes;  ///< empty with the direct method; only the modes in the band if other active
+                       ///< sets share the basis
   /// The first Request::reportedModes modes in nodal displacements, N entries each, with a largest
   /// entry of magnitude 1.
   std::vector<OwnedVec> shapes;
   /// The shares of the components in the free modes of the band, [mode]; empty for matrices from
   /// files.
   std::vector<std::vector<pencil::Component>> components;
-  std::vector<pencil::ComplexModes> points;  ///< for each damping factor all steady points
-  /// One entry for each speed, pressure and damping whose first point is one of `points`, if
-  /// eigenvalues are tracked.
+  std::vector<pencil::ComplexModes> points;  ///< for each damping factor, all steady points
+  /// If eigenvalues are tracked, one entry for each speed, pressure and damping whose first point
+  /// is in `points`.
   std::vector<stability::TrackedLine> trackedLines;
   long solves = 0;  ///< number of right-hand sides for corrections of the basis and error estimates
 };

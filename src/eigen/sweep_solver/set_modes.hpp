@@ -10,10 +10,9 @@
 
 namespace squeal::sweep_solver {
 
-/// Collective. Returns the free modes of each range, [range], in the entries of all unknowns; none
-/// for a range without points. `interior` are the modes of the interior unknowns, and
-/// numbers[range] is the number of the set in the reduced problem. Only K and M of `pencil` are
-/// used.
+/// Collective. Returns the free modes of each range, [range], as vectors of all unknowns; none for
+/// a range without points. `interior` are the modes of the interior unknowns, and numbers[range] is
+/// the index of its set in the reduced problem. Only K and M of `pencil` are used.
 std::vector<modes::Modes> modesOfSets(reduction::ReducedProblem& reduced,
                                       const pencil::Pencil& pencil, const SweepProblem& problem,
                                       const modes::Modes& interior,

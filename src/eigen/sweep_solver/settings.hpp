@@ -22,7 +22,7 @@ struct Settings {
   stability::Settings stability;
   completeness::Settings proof;  ///< of the reduced method
   sensitivity::Settings sensitivity;
-  /// Not collective. Reads the options, those of a method only if it is chosen.
+  /// Not collective. Reads the options; those of a method only if it is selected.
   static Settings given(const pencil::Settings& problem);
 };
 

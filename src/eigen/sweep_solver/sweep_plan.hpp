@@ -10,16 +10,16 @@ namespace squeal::sweep_solver {
 
 /// The place of a point of the sweep.
 struct PointPlace {
-  std::size_t steadyPoint;  ///< of the problem
-  std::size_t range;        ///< of the problem
-  std::size_t inRange;      ///< among all points of the range
+  std::size_t steadyPoint;  ///< index in SweepProblem::steadyPoints
+  std::size_t range;        ///< index in SweepProblem::ranges
+  std::size_t inRange;      ///< index among all points of the range
 };
 
 /// The points of all dampings at all steady points.
 struct SweepPlan {
   std::vector<sweep::Parameters> points;
   std::vector<PointPlace> places;                 ///< [point]
-  std::vector<std::vector<std::size_t>> batches;  ///< of points that are solved together, in order
+  std::vector<std::vector<std::size_t>> batches;  ///< points that are solved together, in order
   std::vector<std::size_t> order;                 ///< all points in this order
 };
 

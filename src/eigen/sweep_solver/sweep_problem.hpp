@@ -34,11 +34,12 @@ struct PathPiece {
   double from = 0, to = 0;           ///< friction
 };
 
-/// The data of a point between those of the sweep.
+/// The data of a point between two points of the sweep.
 struct PointBetween {
   std::vector<pencil::Term> terms;  ///< that belong only to this point
   /// Collective. Returns the forms yᴴ (∂P/∂θ) x of all parameters θ. Borrows the pencil, which
-  /// contains the terms of the point, during the life of the forms. Empty: no derivatives.
+  /// contains the terms of the point, during the lifetime of the forms. If the function is empty,
+  /// there are no derivatives.
   std::function<sensitivity::Forms(const pencil::Pencil&)> forms;
 };
 
@@ -49,13 +50,13 @@ class SweepProblem {
   virtual ~SweepProblem() = default;
 
   const factor::AssociatedSystem* system = nullptr;  ///< K0 and M0 of the interior unknowns
-  /// The boundary unknowns: the gaps, and tangential displacements, of the contact nodes that are
+  /// The boundary unknowns: the gaps and tangential displacements of the contact nodes that are
   /// active at only some of the points.
   subspace::Substructure substructure;
   Mat trial = nullptr;                          ///< T: maps all unknowns to the reported vectors
   std::vector<sweep::Parameters> steadyPoints;  ///< points with a steady state; their damping is 1
   std::vector<PointRange> ranges;               ///< one for each active set
-  std::optional<pencil::Pencil> pencil;         ///< the terms that hold at all points; always set
+  std::optional<pencil::Pencil> pencil;  ///< the terms that hold at all points; always has a value
   /// [steady point] the path to it from the preceding point, if the two differ only in friction.
   /// The last piece has the active set of the point. Empty if all points have one active set.
   std::vector<std::vector<PathPiece>> steps;
@@ -75,8 +76,9 @@ class SweepProblem {
     factors.missing = "the factors of the friction terms are not known";
     return factors;
   }
-  /// Collective. Returns a point between those of the sweep; none if it has no steady state, or
-  /// another active set than steadyPoints[like]. Its forms borrow this problem.
+  /// Collective. Returns the data of a point between two points of the sweep; none if it has no
+  /// steady state, or an active set other than that of steadyPoints[like]. The forms borrow this
+  /// problem.
   virtual std::optional<PointBetween> between(const sweep::Parameters& /*at*/,
                                               std::size_t /*like*/) {
     return PointBetween();
@@ -87,7 +89,7 @@ class SweepProblem {
   virtual void examine(std::size_t i, const pencil::Pencil& pencil,
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
   /// Collective. Returns, for each of these complex modes, its name and the shares of the free
-  /// modes in it. The vectors of `motions` consist of the unknowns.
+  /// modes in it. The vectors of `motions` are in the unknowns.
   virtual std::vector<pencil::CriticalMode> describe(
       const std::vector<pencil::ComplexMotion>& motions, const modes::Modes& /*modes*/) const {
     return std::vector<pencil::CriticalMode>(motions.size());

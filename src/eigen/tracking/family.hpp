@@ -23,18 +23,20 @@ class Family {
  public:
   virtual ~Family() = default;
   virtual MPI_Comm comm() const = 0;
-  /// Collective. Makes the problems available until some other families of the path have been
-  /// loaded. Required before any other call.
+  /// Collective. Makes the problems available; they remain so until several other families of the
+  /// path have been loaded. Must be called before all other functions.
   virtual void load() {}
-  /// Collective. Returns the problem at one friction in the present basis, the same on all ranks;
-  /// none where it does not exist, for example because the contact opens.
+  /// Collective. Returns the problem at one friction in the current basis, the same on all ranks;
+  /// none if it does not exist there, for example because the contact opens.
   virtual std::optional<linalg::DenseProblem> at(double friction) = 0;
-  /// Collective. Returns the watched eigenpairs of at(friction), with both vectors, if they are
-  /// known. If the basis has grown since, the last entries of the vectors are missing.
+  /// Collective. Returns the watched eigenpairs of at(friction), with right and left vectors, if
+  /// they are known. If the basis has grown since they were computed, the last entries of the
+  /// vectors are missing.
   virtual std::optional<std::vector<linalg::DensePair>> watchedPairs(double) { return {}; }
-  /// Not collective. Returns the same problem. If at() is collective, the matrices are interpolated
-  /// between the known frictions. At these they are exact in the basis at that time; rows and
-  /// columns of later vectors are zero. improve() removes the interpolation error at a root.
+  /// Not collective. Returns the same problem as at(), or an approximation if at() must be
+  /// collective: the matrices of single points are interpolated between known frictions. At a known
+  /// friction they are exact, except that the rows and columns of vectors added to the basis later
+  /// are zero. improve() removes the interpolation error at a root.
   virtual std::optional<linalg::DenseProblem> near(double friction) { return at(friction); }
   /// Collective. Returns the pairs of at(friction) in coordinates common to all families of a path,
   /// for comparison.
@@ -45,7 +47,7 @@ class Family {
   virtual void addFrictions(const std::vector<double>&) {}
   /// Reports progress; called on all ranks.
   virtual void progress(const std::string&) {}
-  /// Collective. Corrects the basis by the residuals of these pairs, all together, and makes their
+  /// Collective. Corrects the basis by the residuals of all these pairs together, and makes their
   /// frictions known to near().
   virtual reduction::Improvement improve(const std::vector<PairsAtFriction>&) { return {}; }
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Signs of growth rates, and their changes over the friction.
+/// Signs of growth rates, and their changes as the friction changes.
 #include <vector>
 
 #include "algebra/linalg/quadratic.hpp"
@@ -9,12 +9,12 @@ namespace squeal::tracking {
 
 /// Returns the sign of Re s; 0 for a neutral eigenvalue.
 int sign(Complex s, bool damped);
-/// Returns the sign of the growth of pair k. If all pairs are equal, it is the sign of their mean,
-/// since round-off splits equal eigenvalues like a square root.
+/// Returns the sign of the growth of pair k. If all eigenvalues are equal, it is the sign for their
+/// mean, since a round-off δ separates equal eigenvalues by about √δ.
 int growthOf(const std::vector<linalg::DensePair>& pairs, std::size_t k, bool damped);
-/// Returns true if exactly one of the two signs of growth is unstable.
+/// Returns true if exactly one of these two signs is that of an unstable eigenvalue.
 bool changes(int before, int after);
-/// Returns true if equal eigenvalues s may split into a growing and a decaying one: they are
+/// Returns true if two eigenvalues equal to s may split into a growing and a decaying one: if s is
 /// neutral or, in a problem in s², real.
 bool meetingPoint(Complex s, bool damped);
 /// Returns the number of unstable eigenvalues.

@@ -20,27 +20,28 @@ bool splitPair(const std::vector<linalg::DensePair>& two, bool damped);
 /// Returns true if all eigenvalues are equal within round-off.
 bool coincide(const std::vector<linalg::DensePair>& pairs);
 
-/// A group of eigenvalues at one friction ("here") and a group at another ("there") whose subspaces
-/// overlap.
+/// A group of eigenvalues at one friction ("here") and a group at another ("there") with
+/// overlapping subspaces.
 struct Group {
   std::vector<std::size_t> here, there;  ///< indices of pairs
-  double share = 0;  ///< |Σ tr(Π_i Π_j) − number here|, small if the subspaces are the same
+  double share = 0;  ///< |Σ tr(Π_i Π_j) − here.size()|, small if the subspaces are equal
   /// Returns true if both groups have the same number of members and nearly the same subspace.
   bool joined() const { return here.size() == there.size() && share < 0.25 * here.size(); }
 };
 
-/// Not collective. Returns the smallest groups between which all |tr(Π_i Π_j)| are at most 0.1. The
-/// list includes groups with members on only one side.
+/// Not collective. Divides the eigenvalues into the smallest groups such that |tr(Π_i Π_j)| is at
+/// most 0.1 for eigenvalues of different groups. Some groups have members at only one of the
+/// frictions.
 std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& there);
 
-/// Not collective. Returns the place in `group.there` of the partner of each member of
-/// `group.here`, assigned in the order of descending overlaps. The place is the size of
-/// `group.there` if no partner is left.
+/// Not collective. Returns for each member of `group.here` the index of its partner in
+/// `group.there`. Partners are assigned in the order of descending overlaps. The index is the size
+/// of `group.there` if no partner is left.
 std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Spectrum& there,
                                   const Group& group);
-/// Returns the same for two lists of equal length by their order: ascending frequency, then
-/// descending growth rate. At a change between neutral and split this is the convention of
-/// track().
+/// Returns partners for two lists of equal length by their order: ascending frequency, then
+/// descending growth rate. Where two neutral eigenvalues become a split pair, or the reverse, this
+/// is the convention of track().
 std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here,
                                  const std::vector<linalg::DensePair>& there);
 
@@ -51,25 +52,25 @@ struct ProblemAt {
   const linalg::DenseProblem* problem;
 };
 
-/// Collective. Returns the watched eigenvalues with Im s ≥ 0, by ascending Im s, with both vectors,
-/// of these problems. It takes known pairs from the family and distributes the other problems over
-/// the ranks. In a problem in s², where −s is an eigenvalue with every s, it omits negative real
-/// ones.
+/// Collective. Returns for each problem its watched eigenvalues with Im s ≥ 0, by ascending Im s,
+/// with right and left vectors. Known pairs come from the family; the other problems are
+/// distributed over the ranks. In a problem in s², −s is an eigenvalue whenever s is, so negative
+/// real ones are omitted.
 std::vector<std::vector<linalg::DensePair>> watchedPairs(MPI_Comm comm,
                                                          const std::vector<ProblemAt>& list,
                                                          const pencil::WatchedBand& band);
 
-/// Not collective. Returns the eigenvalues of this problem that continue those of `from`, one or
-/// two at a neighbouring friction. It searches in their own subspace, from `expected` and
-/// `isolation` (see clusterNear()). If that fails or converges to other eigenvalues, it chooses
-/// from all eigenvalues. Returns nothing if none continue those of `from`. Throws Error if LAPACK
-/// fails.
+/// Not collective. `from` has one or two eigenvalues at a neighbouring friction. Returns the
+/// eigenvalues of `problem` that continue them; none if there are no such eigenvalues. They are
+/// first sought in their own subspace: `expected` is the estimate of their mean, and `isolation`
+/// its distance from other eigenvalues (see clusterNear()). If that fails or converges to other
+/// eigenvalues, they are chosen from all eigenvalues. Throws Error if LAPACK fails.
 std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
                                             const linalg::Spectrum& from, Complex expected,
                                             double isolation);
 
-/// Collective. Returns the same at a friction of the family, computed on rank 0, so round-off
-/// cannot make the ranks disagree. It also returns nothing at a friction without a problem.
+/// Collective. Does the same at a friction of the family, on rank 0, so round-off cannot make the
+/// ranks disagree. Also returns none if the family has no problem at this friction.
 std::optional<linalg::Spectrum> continuedTo(Family& family, double friction,
                                             const linalg::Spectrum& from, Complex expected,
                                             double isolation);
@@ -81,7 +82,7 @@ std::vector<linalg::DensePair> chosen(const std::vector<linalg::DensePair>& all,
 /// Returns a function of two eigenvalues that is analytic in the friction, positive for two
 /// different neutral eigenvalues and negative for a split pair [M.44, M.45]:
 ///   Re[ −((s1 − s2)/2)² ],   or in a problem in s²   Re[ ((s1² − s2²)/4)² ] / |(s1 + s2)/2|².
-/// Both have the same zero.
+/// Both forms have the same zero.
 double discriminant(const std::vector<linalg::DensePair>& two, bool damped);
 Complex mean(const std::vector<linalg::DensePair>& pairs);
 

@@ -17,12 +17,12 @@ struct PairAt {
   const std::vector<linalg::DensePair>& pairs() const { return spectrum.pairs(); }
 };
 
-/// Two eigenvalues at both ends of a step; the ends are borrowed.
+/// Two eigenvalues at both ends of a step. Borrows the ends.
 struct TraceRequest {
   const PairAt& low;
   const PairAt& high;
   std::vector<int> ids;  ///< [pair at `low`] its branch
-  double isolation;      ///< distance from other eigenvalues, rad/s
+  double isolation;      ///< distance of their mean from other eigenvalues, rad/s
   double smallest;       ///< smallest step
 };
 
@@ -33,7 +33,7 @@ struct Trace {
   std::vector<Gap> gaps = {};
 };
 
-/// Halves a step until two eigenvalues are identified.
+/// Halves a step until each of two eigenvalues is identified.
 class PairTracer {
  public:
   /// Borrows the family.
@@ -41,7 +41,7 @@ class PairTracer {
   /// Collective. Returns the continuation; none if the subspace is lost.
   std::optional<Trace> trace(const TraceRequest& request) const;
 
-  static constexpr double closer = 1. / 16;  ///< part of a step, to approach equal eigenvalues
+  static constexpr double closer = 1. / 16;  ///< fraction of a step, to approach equal eigenvalues
 
  private:
   struct Approach;

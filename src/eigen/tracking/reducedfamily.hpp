@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A sweep over the friction in the reduced basis, as a Family.
+/// A sweep over friction in the reduced basis, as a Family.
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,19 +15,19 @@
 
 namespace squeal::tracking {
 
-/// The common terms of all points, and the terms of single points.
+/// The terms common to all points of a line, and those of single points.
 struct ProblemSource {
-  const pencil::Pencil& shared;  ///< the terms of all points of the line, borrowed
+  const pencil::Pencil& shared;  ///< the common terms, borrowed
   /// Returns the problem of a point; none if there is no steady state with this active set.
   /// Collective, unless `local`.
   std::function<std::optional<reduction::PointProblem>(const sweep::Parameters&)> at;
   bool local = false;  ///< no point has terms of its own
-  int set = 0;         ///< boundary unknowns of the points
+  int set = 0;         ///< index of the points' set of boundary unknowns
 };
 
-/// All frictions of one speed, pressure and damping. If points have terms of their own, each new
-/// friction takes a steady state and a projection on all ranks; near() then interpolates the
-/// projections of these terms.
+/// The problems at all frictions of one speed, pressure and damping. If points have terms of their
+/// own, at() computes a steady state and a projection on all ranks for each new friction, and
+/// near() interpolates the projections of these terms.
 class ReducedFamily : public Family {
  public:
   using Progress = std::function<void(const std::string&)>;
@@ -48,7 +48,7 @@ class ReducedFamily : public Family {
   reduction::Improvement improve(const std::vector<PairsAtFriction>& located) override;
 
  private:
-  /// The terms of one friction, projected on the basis at the time.
+  /// The terms of the point at one friction, projected on the basis at the time of the projection.
   struct Node {
     double friction;
     PetscInt basisSize;

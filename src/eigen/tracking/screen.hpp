@@ -7,7 +7,7 @@
 
 namespace squeal::tracking {
 
-/// An eigenvalue that is joined on its own over a step.
+/// An eigenvalue that is joined over a step by itself, not in a group.
 struct ContinuedPair {
   int branch = 0;
   linalg::DensePair below, above;  ///< at the lower and at the upper end
@@ -20,12 +20,12 @@ struct StepEnd {
   const linalg::DenseProblem& problem;
 };
 
-/// Collective. Appends the events found within the step between `low` and `high`. A cubic through
-/// the values and slopes at both ends selects candidates: pairs of neutral eigenvalues that may
-/// meet, and growth rates that may change sign twice. The candidates are examined within the step,
-/// in their own subspace. This finds mergers wider than about 1e-5 of the step, and double sign
-/// changes of the growth rate whose cubic falls to a tenth of the values at the ends. If an
-/// examination fails or is undecided, appends a gap.
+/// Collective. Appends the events that are found within the step between `low` and `high`. A cubic
+/// through the values and slopes at both ends selects candidates: pairs of neutral eigenvalues that
+/// may meet, and growth rates that may change sign twice. The candidates are examined within the
+/// step, in their own subspace. This finds mergers wider than about 1e-5 of the step, and double
+/// sign changes of a growth rate whose cubic falls below a tenth of the values at the ends. If an
+/// examination fails or gives no decision, appends a gap.
 void screen(Family& family, const StepEnd& low, const StepEnd& high,
             const std::vector<ContinuedPair>& singles, std::vector<Event>& events,
             std::vector<Gap>& gaps);

@@ -17,8 +17,8 @@ struct Link {
   double overlap;
 };
 
-/// The result of one step, discarded if the step is halved. Until all earlier steps are finished,
-/// its branches are indices of pairs at the lower end.
+/// The result of one step, which is discarded if the step is halved. Until all earlier steps are
+/// finished, its branch numbers are indices of pairs at the lower end.
 struct StepResult {
   std::vector<Link> links;
   std::vector<Event> events;
@@ -35,15 +35,16 @@ struct SolvedStation {
   std::optional<StepResult> step = {};  ///< from the preceding station
   bool whole = false;                   ///< the step from the preceding station must not be halved
   double smallest = 0;                  ///< smallest step here
-  std::size_t place = 0;  ///< among those of the path; of its lower neighbour if it is inserted
+  /// Index among the frictions of the path; for an inserted station, that of its lower neighbour.
+  std::size_t place = 0;
 };
 
 /// Returns the event of an eigenvalue that changes its stability by itself, or of two equal
 /// eigenvalues that change together. `event` has the pairs and frictions at both ends; `before` and
-/// `after` are the signs of the growth there. Returns none if the stability does not change.
+/// `after` are the signs of the growth rate there. Returns none if the stability does not change.
 std::optional<Event> crossing(Event event, int before, int after);
-/// Returns the event of equal eigenvalues that split at a friction, for one eigenvalue. `event` has
-/// its branch and its pairs. With `loss` it loses stability, otherwise it regains it.
+/// Returns the event of one of several equal eigenvalues that split at a friction. `event` has its
+/// branch and its pairs. If `loss` is true it loses stability, otherwise it regains it.
 Event splitting(Event event, bool loss, double friction);
 
 }  // namespace squeal::tracking

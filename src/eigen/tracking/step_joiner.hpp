@@ -19,8 +19,8 @@ class StepJoiner {
   StepJoiner(Family& family, const pencil::WatchedBand& band) : family_(family), band_(band) {}
   /// Collective. Joins two stations of the family.
   StepResult join(const SolvedStation& a, const SolvedStation& b) const;
-  /// Collective. Joins the last station of one piece of a path, whose family is `before`, and the
-  /// first one of the next piece.
+  /// Collective. Joins the last station of one piece of a path, whose family is `before`, to the
+  /// first station of the next piece.
   StepResult jump(Family& before, const SolvedStation& a, const SolvedStation& b) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Eigenvalues tracked over the friction, through crossings and mergers, by their left and right
-/// vectors.
+/// Eigenvalues tracked as the friction changes, through crossings and mergers, by their left and
+/// right vectors.
 #include <string>
 #include <vector>
 
@@ -21,7 +21,7 @@ struct Station {
   std::vector<double> overlap = {};  ///< [pair] |tr(Π Π')| with the preceding station; 1 if a group
                                      ///< was joined as a whole; 0 at the start of the branch
   std::vector<unsigned char> inBand = {};  ///< [pair] 1 if it is in the band
-  std::size_t piece = 0;                   ///< of the path
+  std::size_t piece = 0;                   ///< index in the path
 };
 
 /// A change of stability between two frictions.
@@ -30,20 +30,21 @@ struct Event {
   enum class Kind { coalescence, crossing, divergence, contact } kind = Kind::crossing;
   int branch = 0, partner = -1;
   bool loss = true;          ///< stability is lost with rising friction; false: it is regained
-  double low = 0, high = 0;  ///< bracket of the friction; if equal, the event is at this friction,
-                             ///< as where a double eigenvalue splits at once
-  /// The pairs concerned at `low` and at `high`. A crossing or divergence has two pairs if equal
-  /// eigenvalues change their stability together; each then has an event with the mean of both.
+  double low = 0, high = 0;  ///< bracket of the friction. If both are equal, the event is at this
+                             ///< friction, for example where a double eigenvalue splits
+  /// The pairs involved at `low` and at `high`. A crossing or divergence has two pairs if two equal
+  /// eigenvalues change their stability together. Each of them then has an event for the mean of
+  /// both.
   std::vector<linalg::DensePair> below = {}, above = {};
   double isolation = 0;   ///< distance from other eigenvalues, rad/s
-  std::size_t piece = 0;  ///< of the path; at a jump the one that begins at the jump
+  std::size_t piece = 0;  ///< index in the path; at a jump, of the piece that begins there
 };
 
 /// A range of frictions with an uncertain continuation.
 struct Gap {
   double from = 0, to = 0;
   std::string reason;
-  bool identityOnly = false;  ///< no eigenvalue is missing, but they cannot be distinguished
+  bool identityOnly = false;  ///< no eigenvalue is missing, but some cannot be distinguished
 };
 
 /// The result of tracking.
@@ -53,17 +54,17 @@ struct Branches {
   std::vector<Event> events;
   std::vector<Gap> gaps;
   int count = 0;              ///< number of branches
-  int entered = 0, left = 0;  ///< numbers of eigenvalues that have crossed the edge of the band
-  int omitted = 0;            ///< pieces of the path that were not examined
+  int entered = 0, left = 0;  ///< numbers of eigenvalues that have entered and left the band
+  int omitted = 0;            ///< number of pieces of the path that were not examined
   int inBandAt(const Station& station) const;
 };
 
 struct TrackLimits {
   /// Smallest step with a full solve, as a fraction of a step of the sweep.
   double smallest = 1. / 1024;
-  /// The largest number of frictions that may be omitted between two needed ones and yet are all
-  /// examined. Of more, only those are examined that a bisection of the path needs until each
-  /// continuation is certain and without a change of stability.
+  /// If at most this many frictions that may be omitted (Piece::needed) lie between two needed
+  /// ones, all are examined. If there are more, the path between the needed ones is bisected until
+  /// each continuation is certain and without a change of stability.
   std::size_t examined = 32;
 };
 
@@ -71,23 +72,25 @@ struct TrackLimits {
 struct Piece {
   Family* family = nullptr;       ///< borrowed
   std::vector<double> frictions;  ///< ascending; the next piece begins where this one ends
-  /// [friction] 0 if it may be omitted (TrackLimits::examined); empty: none may
+  /// [friction] 0 if it may be omitted (TrackLimits::examined); empty: all are needed
   std::vector<unsigned char> needed = {};
 };
 
-/// Collective. Tracks all eigenvalues of the band over ascending frictions. A continuation is
+/// Collective. Tracks all eigenvalues of the band through ascending frictions. A continuation is
 /// certain if the trace of the product of the spectral projectors at both ends, tr(Π Π') [M.41], is
-/// close to the number of eigenvalues joined. Other steps are halved. For two eigenvalues that mix,
-/// this is done only in their common subspace, otherwise with all eigenvalues.
+/// close to the number of eigenvalues joined. Otherwise the step is halved. If two eigenvalues mix,
+/// only their common subspace is followed on the smaller steps; in other cases all eigenvalues are
+/// computed there.
 ///
 /// By convention, where two neutral branches merge, the one of lower frequency becomes the growing
 /// one; where a growing and a decaying branch become neutral, the growing one gets the lower
-/// frequency. Equal eigenvalues are ordered by frequency, then by growth rate.
+/// frequency. Branches of equal eigenvalues continue in the order of frequency, then of growth
+/// rate.
 Branches track(Family& family, const std::vector<double>& frictions,
                const pencil::WatchedBand& band, const TrackLimits& limits = {});
-/// Collective. Does the same along a path. Eigenvalues jump from one piece to the next. The same
-/// projectors join them, in common coordinates of the families, without frictions in between. A
-/// jump across the imaginary axis is an event, and an uncertain jump is a gap.
+/// Collective. Does the same along a path. Eigenvalues jump from one piece to the next. They are
+/// joined by the same projectors, in common coordinates of the families, without frictions in
+/// between. A jump across the imaginary axis is an event, and an uncertain jump is a gap.
 Branches track(const std::vector<Piece>& path, const pencil::WatchedBand& band,
                const TrackLimits& limits = {});
 

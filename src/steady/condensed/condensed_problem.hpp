@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Solution of steady sliding in the unknowns of the contact, since all other equations are linear
-/// or nearly so [3.10–3.13, M.59].
+/// Solution of steady sliding in the unknowns of the contact; all other equations are linear or
+/// nearly so [3.10–3.13, M.59].
 #include <functional>
 #include <memory>
 #include <vector>
@@ -22,22 +22,22 @@ struct ChosenSet {
   sweep::Parameters at;
   /// [contact node of this rank] 1 if it is closed; the others are open
   contact::Mask closed;
-  /// The holds of sticking nodes; by default, closed ones are held.
+  /// The holds of the sticking nodes.
   Sticking sticking;
 };
 
 /// The complementarity problem in the gaps only,
 ///   0 ≤ g ⟂ F(g) ≥ 0,
-/// where F(g) are the normal contact forces R at given gaps, in equilibrium with the friction f R
-/// that they cause. One factorisation of the closed contact serves all frictions, pressures and
-/// sets of open nodes. Points that are solved together share the computed responses of the contact
-/// and use block solves, which take a fraction of the time of single solves. The forces and the
-/// slip that convective terms cause are added by corrections from the residual of all equations (a
-/// modified Newton method).
+/// where F(g) are the normal contact forces at the gaps g, in equilibrium with the friction that
+/// they cause. One factorisation of the closed contact serves all frictions, pressures and sets of
+/// open nodes. Points that are solved together share the computed responses of the contact and use
+/// block solves, which take a fraction of the time of single solves. The effects of convective
+/// terms on the forces and on the slip enter through corrections from the residual of all equations
+/// (a modified Newton method).
 class CondensedProblem {
  public:
-  /// Returns true if the problem is linear at each point except for the contact. The result of
-  /// solveOnSets() is then already a solution, up to corrections of round-off.
+  /// Returns true if the problem at each point is linear except for the contact. The result of
+  /// solveOnSets() is then a solution except for round-off, which corrections reduce.
   static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
   /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and all
   /// sticking nodes held, during the lifetime of the object.
@@ -46,37 +46,37 @@ class CondensedProblem {
   /// Offers TᵀKT with all contact open and all sticking nodes released (Impedance::offer()).
   void offer(std::function<Mat()> openStiffness);
   /// Collective. Solves at all points as Problem::solve() does, starting from the gaps and holds of
-  /// the last solution of the last call. During the call, memory holds some vectors of all unknowns
-  /// per point.
+  /// the last solution of the last call. During the call, the memory contains several vectors of
+  /// all unknowns for each point.
   std::vector<Solution> solveTogether(const std::vector<sweep::Parameters>& points) {
     return solveTogether(points, false);
   }
-  /// Collective. The same at one point.
+  /// Collective. Does the same at one point.
   Solution solve(const sweep::Parameters& at) { return std::move(solveTogether({at}).front()); }
-  /// Collective. The same at one point; if SNES does not converge, complementary pivoting finds the
-  /// gaps.
+  /// Collective. Does the same at one point; if SNES does not converge, the gaps are sought by
+  /// complementary pivoting.
   Solution solveWithPivots(const sweep::Parameters& at) {
     return std::move(solveTogether({at}, true).front());
   }
   /// Collective. Returns, for each set, the forces and gaps with its nodes closed and all others
-  /// open. Their signs are not checked, and convective terms are omitted. Sets of one call share
-  /// block solves.
+  /// open. Their signs are not checked, and convective terms are omitted. The sets of one call
+  /// share block solves.
   std::vector<impedance::ContactSolution> solveOnSets(const std::vector<ChosenSet>& sets);
-  /// Collective. The same of one set.
+  /// Collective. Does the same for one set.
   impedance::ContactSolution onSet(const ChosenSet& set) {
     return std::move(solveOnSets({set}).front());
   }
-  /// Makes the next solve() start from these holds and gaps ([contact node] gap unknown h, m).
+  /// Makes the next solve() start from these holds and gaps: [contact node] gap unknown h, m.
   void startFrom(std::vector<double> gaps, Sticking sticking) {
     gaps_ = std::move(gaps);
     sticking_ = std::move(sticking);
   }
-  /// Makes the next solve() start from the contact of a solution, with its released nodes held
-  /// again.
+  /// Makes the next solve() start from the contact of a solution, with all its closed sticking
+  /// nodes held.
   void continueFrom(const Solution& solution);
   const contact::Contact& contact() const { return contact_; }
-  /// Returns the force that opens the gap of a contact node of this rank by a unit, N/m; 0 if it
-  /// has never been open.
+  /// Returns the force that opens the gap of a contact node of this rank by a unit, N/m; 0 if the
+  /// gap has never been open.
   double gapStiffness(std::size_t node) const { return solver_->gapStiffness(node); }
   MPI_Comm comm() const { return impedance_->comm(); }
   /// Returns the total number of right-hand sides of all solves so far.
@@ -85,7 +85,7 @@ class CondensedProblem {
  private:
   struct Start;
   struct Trial;
-  /// Returns the problem without holds.
+  /// Returns the problem in which no sticking node is held.
   const Problem& open() const { return free_ ? *free_ : problem_; }
   const Loads& loads();
   impedance::ContactConditions conditions(const sweep::Parameters& at,
@@ -106,11 +106,10 @@ class CondensedProblem {
   std::unique_ptr<impedance::Impedance> impedance_;
   std::unique_ptr<impedance::ContactSolver> solver_;
   std::vector<double> gaps_;  // of the last solution, [contact node], m
-  Sticking sticking_;         // of the last solution, with released nodes held again
-  OwnedMat
-      direct_;  // effect of the friction of released nodes on themselves; null if none is released
-  Sticking directOf_;             // the holds of `direct_`
-  std::unique_ptr<Loads> loads_;  // of the problem without holds, created on first use
+  Sticking sticking_;         // of the last solution, with its closed nodes held
+  OwnedMat direct_;    // direct effect of friction on released nodes; null if none is released
+  Sticking directOf_;  // the holds of `direct_`
+  std::unique_ptr<Loads> loads_;  // of open(), created on first use
 };
 
 }  // namespace squeal::condensed

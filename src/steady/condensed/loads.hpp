@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The closed frictionless contact under the loads of a point.
+/// The state of closed, frictionless contact under the loads of a point.
 #include <array>
 #include <vector>
 
@@ -9,12 +9,12 @@
 
 namespace squeal::condensed {
 
-/// The state at a point is a sum of three states: without loads, and the contributions of p = 1 and
-/// of v = 1.
+/// The state at a point is a sum of three: the state at p = v = 0, p times the contribution of
+/// p = 1, and v² times the contribution of v = 1.
 class Loads {
  public:
   /// Collective. Computes the three states, each by one solve for its residual. `open` is the
-  /// problem without holds, borrowed during the lifetime of the object.
+  /// problem in which no sticking node is held, borrowed during the lifetime of the object.
   Loads(const steady::Problem& open, const impedance::Impedance& impedance);
   /// Returns (R, F) at a point.
   impedance::ContactVector forces(const sweep::Parameters& at) const;

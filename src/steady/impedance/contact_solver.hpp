@@ -13,12 +13,12 @@ namespace squeal::impedance {
 
 /// The free unknowns and the friction of a condensed problem.
 struct ContactConditions {
-  /// [released unknown] 1 if F = 0, as at open gaps and at nodes that are not held; w = 0 at the
-  /// others
+  /// [released unknown] 1 if F = 0, as for open gaps and for nodes that are not held; for the
+  /// others w = 0
   std::vector<unsigned char> free;
   std::vector<double> coefficient;  ///< [contact node] c
-  /// Direct forces on w, N, per friction magnitude t, released unknowns × contact nodes: the
-  /// friction of released nodes; borrowed; null: none.
+  /// The direct effect of friction magnitudes t on F, released unknowns × contact nodes: the
+  /// friction on nodes that slide (steady::Hold::released). Borrowed; null if there is none.
   Mat direct = nullptr;
 };
 
@@ -26,8 +26,8 @@ struct ContactConditions {
 struct ContactCase {
   ContactConditions conditions;
   ContactVector given;  ///< (R, F)0
-  /// Reference of the relative accuracy of the friction, N, if it exceeds the effect of the given
-  /// forces: a correction needs fewer digits than the quantity that it corrects.
+  /// Friction to which the accuracy is relative, N, unless that due to the given forces is larger:
+  /// a correction needs fewer digits than the quantity that it corrects.
   double frictionUnit = 0;
 };
 
@@ -36,26 +36,26 @@ struct ContactSolution {
   ContactVector causes;   ///< (t, w)
   ContactVector effects;  ///< (R, F), including the given ones
   /// False if friction cannot be balanced, or if forces act on a rigid-body mode of the free
-  /// unknowns: F is not zero then.
+  /// unknowns, where F is then not zero.
   bool found = false;
 };
 
 /// Solves [M.59]
 ///   (R, F) = (R, F)0 + Z (t, w),   t = c R,   F = 0 or w = 0
-/// for any choice of the unknowns that are free, any coefficients c and any given forces (R, F)0. Z
-/// are the responses of an Impedance. All later calls reuse the computed parts of Z: the columns of
+/// for any choice of free unknowns, any coefficients c and any given forces (R, F)0. Z contains the
+/// responses of an Impedance. All later calls reuse the computed parts of Z: the columns of
 /// unknowns that have been free, and a space of friction magnitudes t. As in GMRES without restart,
-/// this space grows by each residual that it does not contain. Cases that are solved together
-/// extend it in blocks.
+/// each residual that this space does not contain extends it. Cases that are solved together extend
+/// it in blocks.
 class ContactSolver {
  public:
   /// Collective. Borrows the impedance during the lifetime of the object.
   explicit ContactSolver(const Impedance& impedance);
   ~ContactSolver();
-  /// Collective. Solves the problem within round-off.
+  /// Collective. Solves the problem up to round-off.
   ContactSolution solve(const ContactCase& one) { return solve({&one, 1}).front(); }
-  /// Collective. Solves all cases. The friction may stay unbalanced by the fraction `accuracy` of
-  /// its causes.
+  /// Collective. Solves all cases. At most the fraction `accuracy` of the friction remains
+  /// unbalanced.
   std::vector<ContactSolution> solve(std::span<const ContactCase> cases,
                                      double accuracy = balanced);
   /// Collective. Solves one case with all gaps given, [contact node], regardless of `free`.
@@ -64,8 +64,8 @@ class ContactSolver {
   /// other gaps closed; 0 if the gap has never been open.
   double gapStiffness(std::size_t node) const;
 
-  /// An accuracy of the friction equivalent to round-off: the residual of all equations, which
-  /// refinement reduces if necessary, has fewer digits.
+  /// An accuracy of the friction equivalent to round-off. It is finer than that of the residual of
+  /// all equations, which refinement reduces if necessary.
   static constexpr double balanced = 1e-12;
 
  private:
@@ -85,13 +85,14 @@ class ContactSolver {
   bool extend(const linalg::DenseMatrix& directions);
 
   const Impedance& impedance_;
-  PetscInt first_ = 0;                              // number of this rank's first released unknown
-  std::unordered_map<PetscInt, PetscInt> place_;    // of a released unknown in the next
-  linalg::DenseMatrix columns_;                     // Z (0, e), [n + m]×[known column]
-  std::vector<PetscInt> frictional_;                // contact nodes with c in some case so far
-  linalg::DenseMatrix frictionalColumns_;           // R of them, [frictional node]×[known column]
+  PetscInt first_ = 0;  // index of this rank's first released unknown
+  // [released unknown of all ranks] its column in columns_
+  std::unordered_map<PetscInt, PetscInt> place_;
+  linalg::DenseMatrix columns_;            // Z (0, e), [n + m]×[known column]
+  std::vector<PetscInt> frictional_;       // contact nodes with c ≠ 0 in some case so far
+  linalg::DenseMatrix frictionalColumns_;  // R of these nodes, [frictional node]×[known column]
   linalg::DenseMatrix magnitudes_, responses_;      // t, orthonormal, and Z (t, 0)
-  std::vector<std::shared_ptr<FreeBlock>> blocks_;  // of the last conditions, the newest first
+  std::vector<std::shared_ptr<FreeBlock>> blocks_;  // for the last conditions, the newest first
 };
 
 }  // namespace squeal::impedance

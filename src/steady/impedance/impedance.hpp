@@ -3,17 +3,19 @@
 /// Static condensation of the bodies to the unknowns of the contact. It uses the factorised
 /// stiffness K0 of the closed, frictionless contact [M.58].
 ///
-/// The unknowns x of the open contact consist of y and w. The unknowns of the closed contact are y.
-/// The gaps and the tangential displacements of sticking nodes are w. The slip rows S and the rows
-/// N of the normal forces are those of [M.10]. With the friction magnitudes t = f R and the loads
-/// q, equilibrium in the rows of y, the normal forces R and the forces F in the rows of w are
+/// The unknowns x of the open contact consist of y and w: y are the unknowns of the closed contact,
+/// and w, the released unknowns, are the gaps and the tangential displacements of sticking nodes.
+/// The slip rows S and the rows N of the normal forces are those of [M.10]. With the friction
+/// magnitudes t = f R and the loads q, equilibrium in the rows of y, the normal forces R and the
+/// forces F in the rows of w are
 ///   K0 y + K_yw w + S_yᵀ t = q,   R = N K T (y, w),   F = K_wy y + K_ww w + S_wᵀ t,
-/// except for constant terms, so one solve with K0 gives the responses (R, F) at the contact to
-/// causes (t, w). These depend neither on the friction nor on the set of open or held nodes.
+/// except for constant terms. One solve with K0 therefore gives the responses (R, F) at the contact
+/// to causes (t, w). The responses depend neither on the friction nor on the set of open or held
+/// nodes.
 ///
 /// The responses to w are the columns of the Schur complement of the contact,
 ///   S_c = K_ww − K_wy K0⁻¹ K_yw,   F = S_c w,   R = F in the rows of the gaps.
-/// One factorisation of K with all contact open computes S_c. It costs as much as some hundreds of
+/// One factorisation of K with all contact open gives S_c. It costs as much as some hundreds of
 /// solves.
 #include <functional>
 #include <vector>
@@ -24,24 +26,24 @@
 namespace squeal::impedance {
 
 /// Causes (t, w) or effects (R, F) on this rank. First come the entries of the contact nodes, t or
-/// R in newtons. Then come those of the released unknowns, w in metres or F in newtons.
+/// R in newtons, then those of the released unknowns, w in metres or F in newtons.
 using ContactVector = std::vector<double>;
 
 class Impedance {
  public:
-  /// Collective. `open` is the transformation with all gaps unknown and no sticking nodes,
+  /// Collective. `open` is the transformation with all gaps unknown and no sticking node held,
   /// `stiffness` is K, symmetric, `slipRows` is S, and `closed` is the system with all nodes closed
   /// and held. Borrows `closed` and `contact` during the lifetime of the object.
   Impedance(const contact::Contact& contact, const contact::Transformation& open, Mat stiffness,
             Mat slipRows, const contact::CoupledSystem& closed);
-  /// Number of requested responses after which the Schur complement is computed. It costs as much
-  /// as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact). With the threshold at
-  /// half of the lower figure, solves and complement together cost at most 3 to 5 times as much as
-  /// the cheaper of the two would.
+  /// Number of requested responses after which the Schur complement is computed. The complement
+  /// costs as much as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact). With a
+  /// threshold of half of the lower figure, solves and complement together cost at most 3 to 5
+  /// times as much as the cheaper of the two ways.
   static constexpr long worthwhile = 300;
-  /// Collective. Accepts a function that returns TᵀKT with all contact open and all sticking nodes
-  /// released, in the unknowns of `open`. After more than `after` requested responses to units of
-  /// w, further ones are taken from the Schur complement of this matrix.
+  /// Collective. Takes a function that returns TᵀKT with all contact open and no sticking node
+  /// held, in the unknowns of `open`. Once more than `after` responses to units of w have been
+  /// requested, further ones are taken from the Schur complement of this matrix.
   void offer(std::function<Mat()> openStiffness, long after = worthwhile) {
     openStiffness_ = std::move(openStiffness);
     after_ = after;
@@ -55,23 +57,24 @@ class Impedance {
     return contact_.interfaces.nodes.size();
   }  ///< contact nodes of this rank
   /// Returns the contact node of each entry of w, [released unknown of this rank]. The first
-  /// nodes() entries are the gaps of all nodes in their order.
+  /// nodes() entries of w are the gaps of all nodes in their order.
   const std::vector<PetscInt>& nodeOf() const { return nodeOf_; }
   /// Returns the number of entries of a ContactVector.
   PetscInt length() const { return nodes() + std::ssize(nodeOf_); }
   /// Collective. Returns the responses, one column per cause.
   linalg::DenseMatrix responses(const linalg::DenseView& causes) const;
-  /// Collective. Returns the responses to units of w, numbered over all ranks.
+  /// Collective. Returns the responses to units of these entries of w, which are numbered over all
+  /// ranks.
   linalg::DenseMatrix responsesToUnits(const std::vector<PetscInt>& released) const;
-  /// Collective. Adds the displacements due to each column of causes to the x of the same index: w
-  /// is that of the column, y the response to its (t, w). x has the unknowns of the open contact.
+  /// Collective. Adds the effect of each column of causes to the x of the same index: to w the w of
+  /// the column, and to y the response to its (t, w). x has the unknowns of the open contact.
   void addUnknowns(const linalg::DenseView& causes, const std::vector<Vec>& x) const;
-  /// Collective. Each residual r has the rows of x, and with them the parts r_y and r_w. Balances
-  /// r_y: adds y = −K0⁻¹ r_y to the x of the same index. Returns one column per residual, with
-  /// N K T_y y for the contact nodes and r_w + K_wy y for w.
+  /// Collective. Each residual r has the rows of x, and so the parts r_y and r_w. Balances r_y by
+  /// adding y = −K0⁻¹ r_y to the x of the same index. Returns one column per residual, with
+  /// N K T_y y in the rows of the contact nodes and r_w + K_wy y in those of w.
   linalg::DenseMatrix relax(const std::vector<Vec>& residuals, const std::vector<Vec>& x) const;
   /// Collective. Returns S_wᵀ, released unknowns × contact nodes: the direct effect of friction on
-  /// released nodes. The slip rows S must have no entries for y.
+  /// nodes that slide (steady::Hold::released). The slip rows S must have no entries for y.
   OwnedMat directFriction(Mat slipRows) const;
   long solves() const { return solves_; }  ///< total number of right-hand sides so far
 
@@ -96,7 +99,7 @@ class Impedance {
   long after_ = worthwhile;
   mutable linalg::DenseMatrix schur_;  // S_c, own rows × all columns
   mutable bool isCondensed_ = false;   // S_c is in use
-  mutable bool refused_ = false;       // S_c was not accurate
+  mutable bool refused_ = false;       // S_c was too inaccurate
 };
 
 }  // namespace squeal::impedance

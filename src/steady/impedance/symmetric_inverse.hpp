@@ -8,8 +8,8 @@
 namespace squeal::impedance {
 
 /// The inverse of a symmetric matrix that should be positive definite. If it is not positive
-/// definite, the inverse is that of its positive part. Directions with less than 1e-12 of the
-/// largest stiffness are omitted, such as rigid-body modes of open parts.
+/// definite, the inverse of its positive part is used. Eigenvectors with less than 1e-12 of the
+/// largest eigenvalue are then omitted, such as rigid-body modes of open parts.
 class SymmetricInverse {
  public:
   explicit SymmetricInverse(linalg::DenseMatrix a);

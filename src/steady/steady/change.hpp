@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The first-order change of the steady state with its data, from the derivatives of the equations
-/// of steady.hpp on one active set [M.48, M.49].
+/// of steady.hpp with a fixed active set [M.48, M.49].
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -17,7 +17,7 @@ struct Cause {
   Vec force = nullptr;
   Vec held = nullptr;   ///< change of p u0, N entries; borrowed; null: none
   double friction = 0;  ///< df
-  double speed = 0;     ///< dv, only as it enters the friction law
+  double speed = 0;     ///< dv, only for its effect through the friction law
 };
 
 /// The first-order change of the steady state with a fixed active set.
@@ -26,9 +26,9 @@ struct Change {
   std::vector<double> normalForce;  ///< dR_N, [contact node]
 };
 
-/// Collective. Returns the change of the converged `solution` with dF = 0 on the active set of
-/// `system` [M.48], by iterative refinement with GMRES, preconditioned by the factorised K0. Throws
-/// Error if the refinement does not converge.
+/// Collective. Returns the change of the converged `solution` such that dF = 0 on the active set of
+/// `system` [M.48]. It is computed by iterative refinement with GMRES, preconditioned by the
+/// factorised K0. Throws Error if the refinement does not converge.
 Change change(const Problem& problem, const Solution& solution,
               const contact::CoupledSystem& system, const Cause& cause);
 

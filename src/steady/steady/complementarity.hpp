@@ -12,24 +12,25 @@ using OwnedSNES = Owned<SNES, SNESDestroy>;
 
 /// The attainable accuracy of a steady state.
 struct Accuracy {
-  double forceUnit = 1;  ///< 2-norm of the residual without displacements, N
+  double forceUnit = 1;  ///< 2-norm of the residual at zero displacements, N
   double target = 0;     ///< η0 [M.16], a fraction of forceUnit
 };
 /// Collective. Returns the attainable accuracy near the unknowns x.
 Accuracy accuracyNear(const Problem& problem, const sweep::Parameters& at, Vec x);
-/// Collective. Returns the 2-norm of the natural residual, N: F(x), with min(R_N, 0) in the rows of
-/// gaps g ≤ 0.
+/// Collective. Returns the 2-norm of the natural residual, N. This residual is F(x), except in the
+/// rows of gaps g ≤ 0: there it is min(R_N, 0), or 0 at nodes that do not separate.
 double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec x);
 
 /// Collective. Returns SNES VI with bounds g ≥ 0 (prefix -steady_), for forces and gaps in units of
 /// about 1. The caller must set its function, Jacobian and KSP before solveSnes().
 OwnedSNES newSnes(MPI_Comm comm, double target);
-/// Collective. Applies the options and solves from x, which becomes the solution. Sets reason and
-/// tolerance of `solution` and adds to its iterations. Returns true if SNES reports convergence.
+/// Collective. Applies the options and solves from x, which becomes the solution. Sets the reason
+/// and the tolerance of `solution` and adds to its iterations. Returns true if SNES reports
+/// convergence.
 bool solveSnes(SNES snes, Vec x, Solution& solution);
-/// Sets residual and convergence of `solution` from the 2-norm of its natural residual, N. SNES
-/// also stops if steps have no effect; only the residual decides on success. If the residual of a
-/// state that SNES reports as converged is too large, the reason contains the residual and the
+/// Sets `residual` and `converged` of `solution` from `left`, the 2-norm of its natural residual,
+/// N. Only this residual decides on success, since SNES also stops if steps have no effect. If SNES
+/// has not diverged but the residual is too large, the reason contains the residual and the
 /// accepted value.
 void accept(Solution& solution, double left, const Accuracy& accuracy);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Nodal forces of a steady state, N entries each, N (moments on reference nodes N·m).
+/// Nodal forces of a steady state: N entries each, in newtons (moments on reference nodes in N·m).
 #include "base/petsc/owned.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "model/elasticity/elasticity.hpp"
@@ -8,7 +8,7 @@
 
 namespace squeal::steady {
 
-/// Collective. Returns b with the pressures and the centrifugal forces of this point.
+/// Collective. Returns the loads b at this point.
 OwnedVec loadAt(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                 const sweep::Parameters& at);
 

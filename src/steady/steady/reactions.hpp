@@ -29,14 +29,14 @@ class Reactions {
   Reactions(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
             const contact::Contact& contact);
   /// Collective. Returns the reactions of a converged solution, the same on all ranks. The last one
-  /// is the sum over all forces from outside: supports, equations, springs and bushings to the
-  /// ground, obstacles and loads. It includes the moments of internal forces that act at distant
-  /// points: those of periodicity, and of interfaces whose surfaces do not coincide.
+  /// is the sum of all external forces: supports, equations, springs and bushings to the ground,
+  /// obstacles and loads. The sum includes the moments of internal forces whose points of action
+  /// are apart: those of periodicity, and of interfaces whose surfaces do not coincide.
   std::vector<Reaction> of(const Solution& solution) const;
 
  private:
   class List;
-  /// The resultants of a load on this rank.
+  /// The resultants of one load over the nodes of this rank.
   struct Load {
     std::string name;
     Wrench hydraulic, constant, squared;  // squared: grows with the square of the speed

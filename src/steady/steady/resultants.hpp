@@ -9,13 +9,14 @@
 namespace squeal::steady {
 
 /// Collective. Returns the tangential forces on the pads at the contact nodes, [contact node], N:
-/// friction by the law, and the reactions on sticking nodes. In the rows of A without an unknown of
-/// T, these reactions balance the nodal forces r (N entries, in newtons) and the friction along the
-/// surface. `slip` includes the slip of released nodes.
+/// friction by the law, and the reactions on sticking nodes. The reactions balance the nodal forces
+/// r (N entries, in newtons) and the friction in those tangential rows of Aᵀ that have no unknown
+/// in T. `slip` includes the slip of released nodes.
 std::vector<Point> tangentialForces(const contact::Contact& contact, const Solution& solution,
                                     const std::vector<contact::Slip>& slip, Vec nodalForces);
 
-/// Collective. Sets the forces of sticking nodes from `tangential`, in the basis of the gaps.
+/// Collective. Sets the tangential forces of sticking nodes from `tangential`, converted to the
+/// basis of the gaps.
 void setStickingForces(const contact::Contact& contact, const std::vector<Point>& tangential,
                        Solution& solution);
 
@@ -24,16 +25,16 @@ void setStickingForces(const contact::Contact& contact, const std::vector<Point>
 std::vector<Point> forcesOnPads(const contact::Contact& contact, const Solution& solution,
                                 std::vector<Point> tangential);
 
-/// Collective. Returns the resultants of an interface. J distributes the forces on the nodes of the
-/// slave over the master and over slave nodes without a condition. The sums over the master are the
-/// transmitted forces.
+/// Collective. Returns the resultants of an interface. Jᵀ distributes the forces on slave nodes
+/// over the master and over slave nodes without a condition. The resultants are the sums over the
+/// side of the pad.
 Resultant resultantOf(const contact::Contact& contact, int interface, const Solution& solution,
                       const std::vector<Point>& onPads);
 
 /// Collective. Returns `contactForces`, N entries, with the forces of ties and couplings added: the
 /// slaves get the forces that balance the nodal forces of the bodies, and the masters get the
-/// opposite forces. The slaves of the highest level come first, since no other slave depends on
-/// them.
+/// opposite forces. The slaves of the highest level are treated first, since no other slave depends
+/// on them.
 OwnedVec withTieForces(const contact::Contact& contact, Vec nodalForces, OwnedVec contactForces);
 
 }  // namespace squeal::steady

@@ -4,9 +4,9 @@
 ///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4],
 /// where g is the gap, R_N and R_T the normal and the friction force, f the coefficient of
 /// friction, φ the friction law and τ the sliding direction. src/README.md explains the other
-/// symbols, and docs/method.md has the equations in brackets. Nodal vectors have N entries, one per
-/// component of each node. [contact node] marks a list with one entry per contact node of this
-/// rank.
+/// symbols. Numbers in brackets refer to equations in docs/method.md. Nodal vectors have N entries,
+/// one per component of each node. [contact node] marks a list with one entry per contact node of
+/// this rank.
 #include <string>
 #include <vector>
 
@@ -23,7 +23,7 @@ namespace squeal::steady {
 /// The steady state of one contact node.
 struct ContactState {
   double gap = 0;  ///< n·(u_P − u_D), m
-  /// Gap unknown h, m, ≥ 0. It differs from the gap only on faces tri6 and quad8 (gap_basis.hpp).
+  /// Gap unknown h, m, ≥ 0. It differs from the gap only on tri6 and quad8 faces (gap_basis.hpp).
   double coefficient = 0;
   double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
   double pressure = 0;     ///< R_N over the nodal area, Pa
@@ -34,19 +34,19 @@ struct ContactState {
 struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
-  Point moment{};  ///< of both forces on the pad about the origin, N·m (in plane problems: along z)
-  /// Largest |R_T| / R_N of the closed nodes of a sticking interface that stick under pressure: the
-  /// least coefficient of friction that they need. Zero on other interfaces.
+  Point moment{};  ///< of both forces on the pad about the origin, N·m (in plane problems, about z)
+  /// Largest |R_T| / R_N of those nodes of a sticking interface that stick under pressure: the
+  /// smallest coefficient of friction that holds them. Zero on other interfaces.
   double leastFriction = 0;
-  Point worst{};  ///< position of the node with this ratio, m
+  Point worst{};  ///< position of the node with the largest ratio, m
   std::optional<double>
       stickingLimit;       ///< coefficient of friction of a sticking interface, if given
   PetscInt overLimit = 0;  ///< sticking nodes above the limit of the interface
-  PetscInt pulled = 0;     ///< sticking nodes under tension, for which no coefficient suffices
+  PetscInt pulled = 0;     ///< of these, nodes under tension, for which no coefficient suffices
   PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
   PetscInt unheld = 0;     ///< closed nodes of a sticking interface without tangential force
-  /// Magnitude of the sum of the moments on both sides, N·m. It is not zero if there is a distance
-  /// between surfaces whose meshes do not match.
+  /// Magnitude of the sum of the moments on both sides, N·m. It is nonzero if surfaces whose meshes
+  /// do not match are a distance apart.
   double momentDefect = 0;
 };
 
@@ -60,20 +60,21 @@ struct Solution {
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES
   int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
-  /// Relative residual: its 2-norm divided by that at zero displacements [M.15].
+  /// Relative residual: the 2-norm of the natural residual, divided by that of the residual at zero
+  /// displacements [M.15].
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
   std::vector<ContactState> contact;  ///< [contact node]
   std::vector<contact::Slip> slip;    ///< [contact node] slip of sliding interfaces
-  contact::Mask closed;               ///< [contact node] 1: closed, with R_N > negligibleForce
-  Sticking sticking;                  ///< stick state of the nodes of sticking interfaces
-  int revisions = 0;                  ///< number of revisions of `sticking` for this state
-  double negligibleForce = 0;         ///< contact forces below this are round-off, N
-  PetscInt openNodes = 0;             ///< contact nodes that are not closed, over all ranks
+  contact::Mask closed;        ///< [contact node] 1: R_N > negligibleForce, or it does not separate
+  Sticking sticking;           ///< holds of the nodes of sticking interfaces
+  int revisions = 0;           ///< number of revisions of `sticking` for this state
+  double negligibleForce = 0;  ///< smaller contact forces are round-off, N
+  PetscInt openNodes = 0;      ///< contact nodes that are not closed, over all ranks
   double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
-  /// Largest resultant of the forces on a connected part (contact, supports and load), divided by
-  /// the sum of the magnitudes of all nodal forces.
+  /// Largest resultant of the forces on a connected part of the mesh (contact, supports and loads),
+  /// divided by the sum of the magnitudes of all nodal forces.
   double imbalance = 0;
   /// Number of contact nodes, over all ranks, whose state differs from that in another known
   /// solution at the same parameters; 0 if no other solution is known.
@@ -84,39 +85,41 @@ struct Solution {
 contact::ActiveSet activeSet(const Solution& solution);
 
 /// The complementarity problem [3.3–3.4, M.13], with u = T x + p u0 + u_g:
-///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
+///   r = (K + v² K^R) u − b,   b = p b_p + b_0 + v² b_c,
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
 /// T maps the unknowns x to displacements, N extracts normal forces from nodal forces, and S gives
-/// the slip weighted by φ. The factors v and p scale speed and pressure.
+/// the slip weighted by φ. The factors v and p scale speed and pressure. The loads are b_p, which
+/// scale with p, the constant loads b_0 and the centrifugal forces b_c. u_g is the displacement due
+/// to gaps that exist without load [M.54].
 ///
 /// Convective terms arise because moving matter carries its displacement along. Without them
 /// (-motion_convective off, approximation A of Moirot and Nguyen) the problem is linear except for
 /// the inequalities. With them, S depends on u through the relative velocity w = −v (V + D u_D),
-/// where V is the base velocity of the disc and D u_D = (V·∇) u_D the convected part.
+/// where V is the base velocity of the disc and D u_D = (V·∇) u_D the convective part.
 ///
 /// A node of a sticking interface may be held (it sticks), free or released. A free node has
-/// tangential unknowns and no friction. A released node has tangential unknowns and slides: its row
-/// in S has the friction limit of the interface as coefficient.
+/// tangential unknowns and no friction. A released node has tangential unknowns and slides; its row
+/// in S has the sticking limit of the interface as coefficient of friction.
 class Problem {
  public:
   /// Collective. Borrows mesh, bodies and contact during the lifetime of the object.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
-  /// Collective. The same, with a given state of the nodes of sticking interfaces.
+  /// Collective. The same with given holds of the nodes of sticking interfaces.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
           Sticking sticking);
-  /// Collective. Solves with SNES VI (-steady_snes_*). The initial guess is the
-  /// solution on the active set of `system`, computed with its factorisation. Nodes of sticking
-  /// interfaces stick at first; nextHolds() then updates their state until it no longer changes.
-  /// `converged` and `reason` report whether there is a solution. Throws Error if |w| = 0 at a node
-  /// with friction.
+  /// Collective. Solves with SNES VI (-steady_snes_*). The initial guess is the solution on the
+  /// active set of `system`, computed with its factorisation. At first, the nodes of sticking
+  /// interfaces have the holds of this problem; nextHolds() then updates the holds until they no
+  /// longer change. `converged` and `reason` report whether a solution was found. Throws Error if
+  /// |w| = 0 at a node with friction.
   Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
   /// Collective. Sets f = F(x), n entries.
   void residual(const sweep::Parameters& at, Vec x, Vec f) const;
-  /// Collective. Returns the exact derivative dF/dx [M.14], n×n, as a new matrix whose pattern is
-  /// the same at every x.
+  /// Collective. Returns the exact derivative dF/dx [M.14], n×n, as a new matrix with the same
+  /// pattern at every x.
   OwnedMat jacobian(const sweep::Parameters& at, Vec x) const;
   /// Collective. Returns u = T x + p u0 + u_g, N entries, m.
   OwnedVec displacement(const sweep::Parameters& at, Vec x) const {
@@ -126,16 +129,14 @@ class Problem {
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
   /// Collective. Throws Error if f > 0 and |w| = 0 at a node with friction.
   void requireSlip(const sweep::Parameters& at) const;
-  /// Collective. Returns the updated stick state of the nodes, or none if it has not changed. If an
-  /// update is needed but impossible, or if the final state has friction under tension, the
-  /// solution is marked as not converged.
+  /// Collective. Returns the updated holds, or none if they do not change. If an update is needed
+  /// but impossible, or if the final state has friction under tension, marks the solution as not
+  /// converged and returns none.
   std::optional<Sticking> nextHolds(Solution& solution) const;
   /// Collective. Sets the remaining members of a solution from the unknowns x. `left` is the
-  /// 2-norm, in newtons, of the natural residual at x, which is F except in the rows of gaps g ≤ 0;
-  /// these have min(R_N, 0).
+  /// 2-norm, in newtons, of the natural residual at x (naturalResidual()).
   void conclude(Vec x, double left, Solution& solution) const;
-  /// Collective. Returns b with the pressures and the centrifugal forces of this point: N entries,
-  /// in newtons.
+  /// Collective. Returns the loads b at this point: N entries, in newtons.
   OwnedVec load(const sweep::Parameters& at) const;
   /// Collective. Returns (K + v² K^R) u: N entries, in newtons.
   OwnedVec springForces(double speed, Vec displacement) const;
@@ -149,11 +150,11 @@ class Problem {
 
   const mesh::Mesh& mesh() const { return mesh_; }
   const contact::Contact& contact() const { return contact_; }
-  /// Returns the T whose unknowns include all gaps, and the tangential displacements of the
-  /// free and released nodes of sticking interfaces.
+  /// Returns T. Its unknowns include all gaps, and the tangential displacements of free and
+  /// released nodes of sticking interfaces.
   const contact::Transformation& transformation() const { return transformation_; }
   const elasticity::Bodies& bodies() const { return bodies_; }
-  /// Collective on the first call. Returns Tᵀ K T and N K T, with this transformation T.
+  /// Collective on the first call. Returns Tᵀ K T and N K T with T of transformation().
   const contact::Projection& stiffness() const;
 
  private:
@@ -181,7 +182,7 @@ class Problem {
   const contact::Contact& contact_;
   contact::Mask all_;  // [contact node] 1 for every node
   Sticking sticking_;
-  bool anyReleased_ = false;                                   // of all ranks
+  bool anyReleased_ = false;                                   // on any rank
   contact::Transformation transformation_;                     // all gaps unknown
   mutable contact::Projection stiffness_, rotationStiffness_;  // created on first use
   OwnedVec diagonal_;                                          // diagonal of K, N entries

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Holds of the nodes of sticking interfaces along their master. The steady state frees nodes that
-/// open, and nodes that may slide if the reaction exceeds their limit of friction.
+/// The holds of the nodes of sticking interfaces: whether a node sticks to its master. The steady
+/// state frees nodes that open and, where sliding is permitted (`_release`), nodes whose tangential
+/// reaction exceeds the friction limit.
 #include <optional>
 #include <vector>
 
@@ -13,44 +14,46 @@ using mesh::Point;
 
 struct Solution;
 
-/// The state of a node of a sticking interface along the surface.
+/// The state of a node of a sticking interface in the directions along the surface.
 enum class Hold : unsigned char {
   held,     ///< no jump
-  open,     ///< free, without a force: the node is open, or separates or slides if it is held
-  released  ///< free, with the friction −f R_N d on the pad
+  open,     ///< free, without tangential force: the node is open, or would open or slide if it were
+            ///< held
+  released  ///< free, and slides with the friction −f R_N d on the pad
 };
 
-/// The holds of all contact nodes. They have no meaning on other interfaces.
+/// The holds of all contact nodes. On interfaces that are not sticking they have no meaning.
 struct Sticking {
   std::vector<Hold> holds;       ///< [contact node]
-  std::vector<Point> direction;  ///< [contact node] d, unit, if released
-  contact::Mask heldAgain;       ///< [contact node] 1 after it has been held again
+  std::vector<Point> direction;  ///< [contact node] unit vector d, if released
+  contact::Mask heldAgain;       ///< [contact node] 1 if it has been held again
 
-  /// Returns the holds with all nodes held.
+  /// Returns holds with all nodes held.
   static Sticking allHeld(const contact::Contact& contact);
-  /// Returns the holds with all nodes free.
+  /// Returns holds with all nodes free.
   static Sticking allFree(const contact::Contact& contact);
   /// Returns 1 for the nodes that are not held, [contact node].
   contact::Mask free() const;
 };
 
-/// Returns the slip, [contact node], with that of the released nodes: the direction d and
-/// their limit as a fixed coefficient.
+/// Returns `slip`, [contact node], in which released nodes have their direction d, and their
+/// friction limit as a fixed coefficient.
 std::vector<contact::Slip> withReleased(const contact::Contact& contact,
                                         std::vector<contact::Slip> slip, const Sticking& sticking);
 
-/// Returns true if the normal force is tensile at node i, which does not separate.
+/// Returns true if node i does not separate and its normal force is tensile.
 bool isPulled(const contact::Contact& contact, const Solution& solution, std::size_t i);
 
-/// Returns true if the reaction on the closed node i exceeds f R_N, or zero under tension, beyond
-/// round-off; false without a limit.
+/// Returns true if node i is closed and held, and its tangential reaction exceeds the limit f R_N
+/// beyond round-off. Under tension the limit is zero. Returns false if the interface has no limit.
 bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std::size_t i);
 
 /// Collective. Returns the revised holds of a solution; none if they do not change. A held or
-/// released node that has opened is freed, and one that has closed is held. On interfaces with
-/// `_release`, a node above its limit is released, and a node that slides along its friction
-/// instead of against it is held again. Each node is held again at most once, so that the revisions
-/// end. After that it stays free and without a force, even if it closes.
+/// released node that has opened is freed, and a free node that has closed is held again. On
+/// interfaces with `_release`, a node above its limit is released, and a node that slides in the
+/// direction of its friction is held again. Each node is held again at most once, so that the
+/// revisions end. If it is freed once more, it stays free, without tangential force, even if it
+/// closes.
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution);
 
 }  // namespace squeal::steady

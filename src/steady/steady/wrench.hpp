@@ -14,7 +14,7 @@ using mesh::Point;
 /// A force and a moment about the origin of the global axes.
 struct Wrench {
   Point force{};   ///< N
-  Point moment{};  ///< N·m; in the plane about z
+  Point moment{};  ///< N·m; in plane problems, only about z
 
   void add(const Wrench& other, double factor = 1) {
     force = mesh::plus(force, other.force, factor);
@@ -25,12 +25,13 @@ struct Wrench {
     force = mesh::plus(force, value, factor);
     moment = mesh::plus(moment, mesh::cross(place, value), factor);
   }
-  /// Adds a moment in the components of a reference node: in the plane that about z is the first.
+  /// Adds a moment given by the components of a reference node: in plane problems, the first
+  /// component is the moment about z.
   void addMoment(const Point& value, int dimension, double factor = 1) {
     moment = mesh::plus(moment, dimension == 3 ? value : Point{0, 0, value[0]}, factor);
   }
-  /// Adds a force on the components of an owned node, which is a moment on the rotation of a
-  /// reference node.
+  /// Adds the force given by the components of an owned node. If this node is the rotation of a
+  /// reference node, it is a moment.
   void addNode(const mesh::Mesh& mesh, PetscInt node, const Point& value, double factor = 1) {
     if (mesh.isRotation(mesh.firstNode + node))
       addMoment(value, mesh.dimension, factor);
@@ -39,13 +40,13 @@ struct Wrench {
   }
 };
 
-/// Collective. Returns the resultant of the nodal forces on the nodes of this rank, N entries.
+/// Collective. Returns the resultant of `forces`, N entries, over the nodes of this rank.
 Wrench ownWrench(const mesh::Mesh& mesh, Vec forces);
 
-/// Collective. Sums over all ranks.
+/// Collective. Sums the wrenches over all ranks.
 void reduce(MPI_Comm comm, const std::vector<Wrench*>& wrenches);
 
-/// Not collective. Returns the components of an owned node; zeros after the dimension.
+/// Not collective. Returns the components of an owned node; those beyond the dimension are zero.
 Point componentsAt(const mesh::Mesh& mesh, const double* values, PetscInt node);
 
 }  // namespace squeal::steady

@@ -3,12 +3,14 @@
 /// The steady problem condensed to the contact [3.10–3.18]: the gaps that nodal normal forces open.
 ///
 /// All gaps are unknowns of u = T x + p u0, and K_o = Tᵀ K T is the stiffness with the contact
-/// open. K is K + v² K^R here. R are the normal forces, e the columns of the identity at the gaps,
-/// and U the slip rows as columns: Sᵀ N r = U R. Equilibrium L(f)ᵀ (K u − b) = e R is [M.17]
+/// open. K denotes K + v² K^R here. R are the normal forces, e the columns of the identity at the
+/// gaps, and U the slip rows as columns: Sᵀ N r = U R. Equilibrium, L(f)ᵀ (K u − b) = e R, reads
+/// [M.17]
 ///   K_o x + f U R = Tᵀ (b − K p u0) + e R,
 /// and the gaps are
 ///   g = eᵀ x = A(f) R + F0,   A(f) = A0 + f A1,   A0 = eᵀ K_o⁻¹ e,   A1 = −eᵀ K_o⁻¹ U   [M.18].
-/// Interfaces with a fixed coefficient add −eᵀ K_o⁻¹ U_0 with their slip rows U_0.
+/// Interfaces with a fixed coefficient of friction add −eᵀ K_o⁻¹ U_0 to A, with their slip rows
+/// U_0.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
@@ -42,7 +44,8 @@ class OpenContact {
   MPI_Comm comm() const { return contact_.mesh->comm; }
   PetscInt size() const { return size_; }            ///< number of contact nodes of all ranks
   PetscInt ownedSize() const { return ownedSize_; }  ///< number of contact nodes of this rank
-  /// Returns true if an interface has a fixed coefficient, which the products below omit.
+  /// Returns true if an interface has a fixed coefficient. dense() includes it; multiplyA0() and
+  /// multiplySymmetricA1() do not.
   bool hasFixedFriction() const { return fixedFriction_ != nullptr; }
   /// Collective. Returns A(f), by block solves for all columns.
   Compliance dense() const;
@@ -69,16 +72,16 @@ class OpenContact {
   OwnedMat fixedFriction_;    // U_0, n×n_c; null without fixed coefficients
   OwnedKSP solver_;
   bool factorised_ = false;
-  OwnedVec part_;                                       // n_c
-  OwnedMat rhs_, solution_;                             // n×2: e v and U v, and K_o⁻¹ of them
-  OwnedVec single_, answer_;                            // n
+  OwnedVec part_;             // n_c
+  OwnedMat rhs_, solution_;   // n×2: e v and U v, and K_o⁻¹ times these
+  OwnedVec single_, answer_;  // n
   OwnedMat closedStiffness_, coupling_, gapStiffness_;  // K_ii, K_ig, K_gg
   OwnedKSP closedSolver_;
   OwnedVec inner_, innerAnswer_;
 };
 
-/// Collective. Throws Error for a -steady_uniqueness_* option that is unknown to all solvers. With
-/// `dense`, options of the unused eigenvalue solver count as known.
+/// Collective. Throws Error for a -steady_uniqueness_* option that is unknown to all solvers. If
+/// `dense` is true, options of the eigenvalue solver, which is then unused, are accepted.
 void rejectUnusedUniquenessOptions(bool dense);
 
 }  // namespace squeal::uniqueness

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Tests of the small dense condensed matrix A of the contact for the solutions of the linear
-/// complementarity problem
+/// Tests of the dense condensed matrix A of the contact. They decide on existence and uniqueness of
+/// solutions of the linear complementarity problem
 ///   g = A R + F,   g ≥ 0,   R ≥ 0,   g·R = 0.
 /// Not collective; matrices are the same on every rank.
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace squeal::uniqueness {
 
-/// The result of the tests at one friction, which holds for all loads.
+/// The result of the tests at one friction, valid for all loads.
 struct Judgement {
   double friction = 0;
-  double smallest = 0;  ///< smallest eigenvalue of sym(A(f)), m/N; NaN where unknown
+  double smallest = 0;  ///< smallest eigenvalue of sym(A(f)), m/N; NaN if unknown
   std::string verdict;  ///< "one solution", "a solution exists" or "not decided"
   std::string reason;   ///< the deciding test, or why no test decided
 };
@@ -33,18 +33,18 @@ bool pMatrix(const linalg::DenseMatrix& a);
 /// is sufficient for strict copositivity, and therefore for a solution for every F.
 bool surelyCopositive(const linalg::DenseMatrix& a);
 
-/// Returns the verdict on A(f), m/N. If sym(A) is not positive definite, it applies the P-matrix
-/// test up to n = `pMatrixLimit`.
+/// Returns the verdict on A(f), m/N. If sym(A) is not positive definite, the P-matrix test is
+/// applied up to n = `pMatrixLimit`.
 Judgement examineMatrix(const linalg::DenseMatrix& a, double friction, int pMatrixLimit);
 
-/// Returns the friction where positive definiteness is lost [M.19],
+/// Returns the friction at which positive definiteness is lost [M.19],
 ///   f = −1/μ,
-/// for the smallest eigenvalue μ of sym(A1) v = μ A0 v; infinite unless μ is negative beyond
-/// round-off.
+/// where μ = `smallestRatio` is the smallest eigenvalue of sym(A1) v = μ A0 v; infinite unless μ is
+/// negative beyond round-off.
 double lossOfPositivity(double smallestRatio);
 
-/// Returns the smallest f > 0 where sym(A0 + f A1) is not positive definite; infinite if there is
-/// none, and 0 if A0 is not positive definite. Throws Error if LAPACK fails.
+/// Returns the smallest f > 0 at which sym(A0 + f A1) is not positive definite; infinite if there
+/// is none, and 0 if A0 is not positive definite. Throws Error if LAPACK fails.
 double lossOfPositivity(const linalg::DenseMatrix& a0, const linalg::DenseMatrix& a1);
 
 }  // namespace squeal::uniqueness

@@ -9,7 +9,7 @@ struct Settings {
   int dense = 1000;  ///< largest number of contact nodes for which the condensed matrix A is formed
   int pMatrix = 18;  ///< largest number n of contact nodes for the P-matrix test, with 2^n pivots
 
-  /// Reads the options; the limits only if the examination is enabled.
+  /// Reads the options; reads the limits only if the examination is enabled.
   static Settings given();
 };
 
