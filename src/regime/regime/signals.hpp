@@ -9,10 +9,11 @@ namespace squeal::regime {
 
 using linalg::DenseMatrix;
 
-/// One line of a spectrum: frequency, and amplitude of the velocity, 0 to peak.
+/// One line of a spectrum, with the amplitude of the velocity (0 to peak). A quarter of the square
+/// of `whole` is the mean kinetic energy of the line.
 struct SpectralLine {
   double frequency = 0;  ///< Hz
-  double whole = 0;      ///< of the whole model: √(2 kinetic energy), √kg·m/s
+  double whole = 0;      ///< mass-weighted amplitude of the whole model, √kg·m/s
 };
 
 /// Stores the latest samples of the modal velocities.
