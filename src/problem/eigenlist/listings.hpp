@@ -2,12 +2,15 @@
 #pragma once
 /// Eigenvalues in the printed results of Abaqus, CalculiX, Nastran and Ansys.
 ///
-/// Abaqus (.dat, "COMPLEX EIGENVALUE OUTPUT"): mode, Re s, Im s in rad/s (not in all versions), Im
-/// s / 2π, damping ratio −2 Re s / |Im s|. CalculiX (.dat, "EIGENVALUE OUTPUT" of a complex step):
-/// mode, Re ω, Re ω / 2π, Im ω for motions e^(iωt), so that s = i ω. Nastran (.f06, "COMPLEX
-/// EIGENVALUE SUMMARY"): root, order, Re s, Im s, |Im s| / 2π, damping −2 Re s / |Im s|. Ansys
-/// ("COMPLEX FREQUENCY (HERTZ)"): mode, Re s / 2π, Im s / 2π, "j", damping ratio −Re s / |s|; the
-/// conjugate follows in a row without a mode number.
+/// The columns of a row are, by program:
+///   Abaqus (.dat, "COMPLEX EIGENVALUE OUTPUT"): mode, Re s, Im s in rad/s (not in all versions),
+///     Im s / 2π, damping ratio −2 Re s / |Im s|;
+///   CalculiX (.dat, "EIGENVALUE OUTPUT" of a complex step): mode, Re ω, Re ω / 2π, Im ω for
+///     motions e^(iωt), so that s = i ω;
+///   Nastran (.f06, "COMPLEX EIGENVALUE SUMMARY"): root, order, Re s, Im s, |Im s| / 2π, damping
+///     −2 Re s / |Im s|;
+///   Ansys ("COMPLEX FREQUENCY (HERTZ)"): mode, Re s / 2π, Im s / 2π, "j", damping ratio
+///     −Re s / |s|; the conjugate follows in a row without a mode number.
 #include <vector>
 
 #include "problem/eigenlist/lines.hpp"

@@ -59,7 +59,7 @@ class Components {
   const BodyMac& bodyMac() const { return mac_; }
   /// Returns the frequencies and names of the elastic modes of each body by itself, [body].
   const std::vector<std::vector<NamedMode>>& ownModes() const { return motions_->ownModes(); }
-  /// Returns the index in the list of each interface, [interface]; none for ties.
+  /// Returns the index of each interface in list(), [interface]; none for ties.
   const std::vector<std::optional<std::size_t>>& ofInterfaces() const { return ofInterface_; }
 
  private:

@@ -27,7 +27,7 @@ struct Principal {
 ///   in-plane bending   e = 1, a = 2, of a flat body,
 ///   cross bending      e = 2, a = 3,
 ///   torsion            e = 1,
-///   cross torsion      e = 2, from its second order on: the first is that of e = 1,
+///   cross torsion      e = 2; if its number is 1, it is called torsion 1,
 ///   axial              e = 1.
 /// A body is flat if its radius of gyration along axis 3 is less than 0.4 of that along axis 2.
 class Sections {
@@ -41,7 +41,7 @@ class Sections {
   NamedMotion name(const double* values) const;
 
  private:
-  /// A family of motions whose cross-sections lie along one axis.
+  /// The motions of one kind, with cross-sections perpendicular to one axis.
   struct Family {
     enum class Kind { bending, torsion, axial } kind;
     std::string name;

@@ -16,15 +16,16 @@ namespace squeal::terms {
 /// may be destroyed after the call.
 pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system);
 
-/// Collective. Returns the friction terms of affineTerms() for the contact nodes i with slides[i] =
-/// 1, which may be open in `system`; no terms if the slip differs between points.
+/// Collective. Returns the friction terms of affineTerms() for the contact nodes i for which
+/// slides[i] is 1; these may be open in `system`. Returns no terms if the slip differs between
+/// points.
 std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
                                        const contact::CoupledSystem& system,
                                        const std::vector<unsigned char>& slides);
 
 /// Collective. Returns the factors of the friction terms of affineTerms() for the contact nodes i
-/// with slides[i] = 1. FrictionFactors::rowsOf is not set. If the slip differs between points,
-/// FrictionFactors::missing contains this reason.
+/// for which slides[i] is 1. FrictionFactors::rowsOf is not set. If the slip differs between
+/// points, FrictionFactors::missing contains this reason.
 completeness::FrictionFactors frictionFactors(const contact::Contact& contact,
                                               const contact::CoupledSystem& system,
                                               const std::vector<unsigned char>& slides);

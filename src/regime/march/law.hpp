@@ -11,9 +11,9 @@ namespace squeal::march {
 /// Not collective. Returns μ [M.79], the largest eigenvalue of
 ///   −(h K_z + C_z)⁻¹ B   and   (h K_z/2 + C_z)⁻¹ B,   B = R_N df/d|w| ττᵀ,
 /// in the rows that are free in steady sliding. `slopes` are df/d|w|, [node], s/m, and h is the
-/// time step, s. The coefficient of friction of a step is that of the speed in the step before. If
-/// μ < 1, the slips of the massless boundary do not grow nevertheless. With h = 0, only the first
-/// matrix is used: μ is the ratio of the slope of a falling law to the damping, and infinite
+/// time step, s. The coefficient of friction of a step is that of the speed in the step before.
+/// Nevertheless, the slips of the massless boundary do not grow if μ < 1. With h = 0, only the
+/// first matrix is used: μ is the ratio of the slope of a falling law to the damping, and infinite
 /// without damping.
 double lawGain(const ReducedModel& model, double h, const std::vector<double>& slopes);
 

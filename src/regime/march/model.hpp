@@ -78,7 +78,7 @@ struct LinearMode {
 /// Not collective. Returns an eigenpair of the model linearised about steady sliding, found by
 /// Newton's method starting from s. In the linearised model, closed nodes stay closed, and sliding
 /// ones obey
-///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7],
+///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7].
 /// Sticking nodes stick, and open nodes are free. Throws Error if the method does not converge.
 /// Throws Interrupted, only on this rank, once stopRequested() is true.
 LinearMode nearestMode(const ReducedModel& model, Complex s,

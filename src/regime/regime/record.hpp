@@ -77,7 +77,7 @@ class Recorder {
   void inspect(const Scheme& scheme);
   /// Returns true if a window has ended since the last call.
   bool windowEnded();
-  /// Returns true if the regime has settled, or the motion has decayed.
+  /// Returns true if the means no longer change, or if the motion has decayed.
   bool settled() const;
   int cycles() const { return std::ssize(peaks_.values()); }
   /// Returns the number of latest windows that are averaged: two thirds of the windows after the

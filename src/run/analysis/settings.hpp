@@ -21,8 +21,8 @@ namespace squeal::analysis {
 /// Settings of the steady states of a sweep.
 struct SteadySettings {
   bool full = false;  ///< `-steady_full`: solve in all unknowns
-  int path = 20;  ///< `-steady_path`: largest number of nodes that may differ between two points
-                  ///< for the path between them to be followed; 0: none is
+  int path = 20;      ///< `-steady_path`: the path between two points is followed if at most this
+                      ///< number of nodes differ; 0: no path
 };
 
 /// Settings of a problem given by a mesh.

@@ -14,8 +14,8 @@ namespace squeal::audit {
 /// interfaces.
 struct FaceLabel {
   int body = 0;
-  std::vector<int> interfaces;  ///< ascending; index i into Interfaces::options, or options.size()
-                                ///< + index of a coupling
+  std::vector<int> interfaces;  ///< index into Interfaces::options, for a coupling options.size() +
+                                ///< its index; ascending
   std::vector<int> groups;      ///< index into LabelledFaces::groups; ascending
   auto operator<=>(const FaceLabel&) const = default;
 };
