@@ -13,19 +13,20 @@ struct Line {
   std::string title;               ///< the line without blanks, in capitals
   std::vector<std::string> words;  ///< separated by blanks, tabs, commas and semicolons
 
-  /// Returns true if the title contains this text, in capitals and without blanks.
+  /// Returns true if the title contains `text`, which must be in capitals and without blanks.
   bool has(std::string_view text) const { return title.find(text) != std::string::npos; }
 };
 
 /// Returns all lines that are not blank.
 std::vector<Line> linesOf(std::string_view text);
 
-/// Returns the number of a word; none if it is not a number. Exponents may be Fortran's D.
+/// Returns the number that a word contains; none if the word is not a number. An exponent may begin
+/// with D, as in Fortran.
 std::optional<double> number(std::string_view word);
-/// Returns the number of a word in a row. Throws Error, naming the line, if it is not a number or
-/// not finite.
+/// Returns the number in the word with the index `word`. Throws Error, naming the line, if there is
+/// no such word or if it is not a finite number.
 double finiteNumber(const Line& line, std::size_t word);
-/// Returns the whole number ≥ 1 of a word; none if it is none.
+/// Returns the number that a word contains if it is a whole number ≥ 1; otherwise none.
 std::optional<long> count(std::string_view word);
 
 }  // namespace squeal::eigenlist

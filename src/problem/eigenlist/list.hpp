@@ -12,22 +12,22 @@
 
 namespace squeal::eigenlist {
 
-/// Eigenvalues of a real problem, each with Im s ≥ 0; its conjugate counts as listed.
+/// Eigenvalues of a real problem, each with Im s ≥ 0; the list implies their conjugates. They are
+/// in the order of the file, except that the mirrored ones come last.
 struct List {
-  std::vector<Complex>
-      values;           ///< growth rate + i angular frequency, 1/s, in the order of the file
-  std::string layout;   ///< program, unit and sign, for messages
-  long conjugates = 0;  ///< entries that were dropped as conjugates of others
-  long mirrored = 0;    ///< entries with Im s < 0 that their conjugates replace
+  std::vector<Complex> values;  ///< growth rate + i angular frequency, 1/s
+  std::string layout;           ///< program, units and signs, for messages
+  long conjugates = 0;          ///< dropped entries, whose conjugates are listed too
+  long mirrored = 0;            ///< entries with Im s < 0, replaced by their conjugates
 };
 
-/// Returns the list in this text. Throws Error, without the name of the file, if there is none or
-/// more than one, for an entry that is not finite, for figures of an entry that contradict each
-/// other, and for columns whose unit is not known.
+/// Returns the list in this text. Throws Error, without the name of the file, if the text contains
+/// no list or several, if an entry is not finite, if figures of an entry contradict each other, and
+/// if the unit of columns is not known.
 List parse(std::string_view text, Format format, std::optional<Unit> unit);
 
-/// Collective. Returns the list of the settings, which rank 0 reads. Throws Error as parse() does,
-/// naming the option and the file.
+/// Collective. Returns the list in the file of the settings, which rank 0 reads. Throws Error as
+/// parse() does, naming the option and the file.
 List read(MPI_Comm comm, const Settings& settings);
 
 }  // namespace squeal::eigenlist

@@ -2,14 +2,15 @@
 #pragma once
 /// Eigenvalues in the printed results of Abaqus, CalculiX, Nastran and Ansys.
 ///
-/// Abaqus (.dat, "COMPLEX EIGENVALUE OUTPUT"): mode, Re s, Im s in rad/s (not in all versions),
-/// Im s / 2π, damping ratio −2 Re s / |Im s|.
-/// CalculiX (.dat, "EIGENVALUE OUTPUT" of a complex step): mode, Re ω, Re ω / 2π, Im ω of motions
-/// e^(iωt), so that s = i ω.
-/// Nastran (.f06, "COMPLEX EIGENVALUE SUMMARY"): root, order, Re s, Im s, |Im s| / 2π, damping
-/// −2 Re s / |Im s|.
-/// Ansys ("COMPLEX FREQUENCY (HERTZ)"): mode, Re s / 2π, Im s / 2π, "j", damping ratio
-/// −Re s / |s|; a conjugate follows without its number.
+/// The columns of a row are, by program:
+///   Abaqus (.dat, "COMPLEX EIGENVALUE OUTPUT"): mode, Re s, Im s in rad/s (not in all versions),
+///     Im s / 2π, damping ratio −2 Re s / |Im s|;
+///   CalculiX (.dat, "EIGENVALUE OUTPUT" of a complex step): mode, Re ω, Re ω / 2π, Im ω for
+///     motions e^(iωt), so that s = i ω;
+///   Nastran (.f06, "COMPLEX EIGENVALUE SUMMARY"): root, order, Re s, Im s, |Im s| / 2π, damping
+///     −2 Re s / |Im s|;
+///   Ansys ("COMPLEX FREQUENCY (HERTZ)"): mode, Re s / 2π, Im s / 2π, "j", damping ratio
+///     −Re s / |s|; the conjugate follows in a row without a mode number.
 #include <vector>
 
 #include "problem/eigenlist/lines.hpp"
@@ -17,13 +18,14 @@
 
 namespace squeal::eigenlist {
 
-/// Returns the format of the first title; columns if there is none.
+/// Returns the format of the first title that is recognised; `columns` without such a title.
 Format formatOf(const std::vector<Line>& lines);
 
-/// Returns the eigenvalues of the only table of this program, conjugates included.
+/// Returns the eigenvalues in the table of this format, conjugates included. Throws Error if the
+/// text contains several tables, or for figures of a row that contradict each other.
 std::vector<Complex> listed(const std::vector<Line>& lines, Format format);
 
-/// Returns the name of the program, its unit and its sign.
+/// Returns a text with the name of the program and the units and signs of its eigenvalues.
 std::string layoutOf(Format format);
 
 }  // namespace squeal::eigenlist

@@ -6,7 +6,7 @@
 
 namespace squeal::eigenlist {
 
-/// The programs whose lists are known. `columns` is a table of real and imaginary parts.
+/// The programs whose lists can be read. `columns` is a table of real and imaginary parts.
 enum class Format { automatic, columns, abaqus, calculix, nastran, ansys };
 
 /// The unit of eigenvalues: s itself, or s / 2π.
@@ -15,10 +15,10 @@ enum class Unit { radians, hertz };
 struct Settings {
   std::string file;  ///< `-referee_list`
   Format format = Format::automatic;
-  std::optional<Unit> unit;  ///< `-referee_unit`; none: as the list states it
+  std::optional<Unit> unit;  ///< `-referee_unit`; none: the unit that the list states
 
-  /// Returns the settings that the options give; none without `-referee_list`. Throws Error for
-  /// other options of the list without it.
+  /// Returns the settings that the options give; none without `-referee_list`. Throws Error if
+  /// another option of the list is given without `-referee_list`.
   static std::optional<Settings> given();
 };
 

@@ -18,18 +18,19 @@
 
 namespace squeal::energies {
 
-/// The forms uᵀ X u of the matrices of one component.
+/// The quadratic forms uᵀ X u of the matrices X of one component.
 struct Forms {
   double stiffness = 0;  ///< uᵀ K u, twice the strain energy, J for u in m
   double mass = 0;       ///< uᵀ M u
   double damping = 0;    ///< uᵀ C u
 };
 
-/// A nodal vector u and its products with the matrices of all bodies, this rank's rows; borrowed.
+/// A nodal vector u and its products with the matrices of the whole model, this rank's rows;
+/// borrowed.
 struct NodalProducts {
   std::span<const double> u, mass;         ///< u, M u
-  std::span<const double> stiffness = {};  ///< K u; empty: the forms of K are not wanted
-  std::span<const double> damping = {};    ///< C u; empty: the forms of C are not wanted
+  std::span<const double> stiffness = {};  ///< K u; if empty, the forms of K are not computed
+  std::span<const double> damping = {};    ///< C u; if empty, the forms of C are not computed
 };
 
 /// The components that store or dissipate energy: bodies, springs, bushings, point masses, the
@@ -37,32 +38,32 @@ struct NodalProducts {
 /// couplings and equations are constraints and store no energy.
 class Components {
  public:
-  /// Collective. Borrows mesh, bodies and contact during the lifetime of the object. Where bodies
-  /// share nodes, it assembles the matrices of each of them once and keeps the rows of these nodes.
-  /// `nodes` are the owned nodes of each body, [body]. `own` are the elastic modes of each body by
-  /// itself, [body], which name motions; empty: none.
+  /// Collective. Borrows mesh, bodies and contact during the lifetime of the object. If bodies
+  /// share nodes, it assembles the matrices of each body once and stores the rows of the shared
+  /// nodes. `nodes` are the owned nodes of each body, [body]. `own` are the elastic modes of each
+  /// body by itself, [body], by which motions are named; empty: none.
   Components(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
              const contact::Contact& contact, const std::vector<std::vector<PetscInt>>& nodes,
              std::vector<OwnModes> own = {});
   /// Returns the components, without shares: bodies in the order of the mesh, then the others.
   const std::vector<pencil::Component>& list() const { return list_; }
-  /// Collective. Returns the forms of a nodal vector, [component]. Their sums are the forms of the
-  /// matrices of `bodies`.
+  /// Collective. Returns the forms of a nodal vector, [component]. Their sums over the components
+  /// are the forms of the matrices in `bodies`.
   std::vector<Forms> forms(const NodalProducts& products) const;
-  /// Collective. Returns the names of the motions of the bodies, [body], in the mode with these
-  /// parts: real, or real and imaginary nodal values, this rank's rows.
+  /// Collective. Returns the names of the motions of the bodies, [body], in a mode. `parts` are the
+  /// real, or the real and the imaginary nodal values of the mode, this rank's rows.
   std::vector<NamedMotion> motions(const std::vector<const double*>& parts) const {
     return motions_->names(parts);
   }
-  /// Returns the comparison of motions body by body.
+  /// Returns the object that compares motions body by body.
   const BodyMac& bodyMac() const { return mac_; }
   /// Returns the frequencies and names of the elastic modes of each body by itself, [body].
   const std::vector<std::vector<NamedMode>>& ownModes() const { return motions_->ownModes(); }
-  /// Returns the index in the list of each interface, [interface]; none for ties.
+  /// Returns the index of each interface in list(), [interface]; none for ties.
   const std::vector<std::optional<std::size_t>>& ofInterfaces() const { return ofInterface_; }
 
  private:
-  /// The rows of the nodes that several bodies share, of the matrices of one body.
+  /// Rows of the matrices of one body: those of the nodes that several bodies share.
   struct SharedRows {
     OwnedMat stiffness, mass, damping;
   };
@@ -86,7 +87,7 @@ class Components {
   std::vector<pencil::Component> list_;
   std::size_t firstGround_ = 0, firstForm_ = 0;
   std::vector<std::optional<std::size_t>> ofInterface_;  // [interface] component
-  std::vector<int> bodyOf_;  // [owned node] body; `none` in no cell, `several` where bodies meet
+  std::vector<int> bodyOf_;  // [owned node] body; `none` outside cells, `several` if shared
   std::optional<BodyMotions> motions_;  // always set
   std::vector<PetscInt> sharedNodes_;   // owned nodes of several bodies
   std::vector<SharedRows> shared_;      // [body]; empty unless nodes are shared

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Nodes of the profile of a motion.
+/// Sign changes in the profile of a motion.
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace squeal::energies {
 
-/// Returns the number of changes of sign of a profile, among its values above 5 % of the largest.
+/// Returns the number of sign changes of a profile, without the values below 5 % of the largest
+/// magnitude.
 inline int signChanges(const std::vector<double>& profile) {
   double most = 0;
   for (const double value : profile) most = std::max(most, std::abs(value));

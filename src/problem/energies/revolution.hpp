@@ -25,33 +25,33 @@ struct Axis {
   Point direction;  ///< unit
 };
 
-/// Collective. Returns true if the body looks the same at all angles about the axis, up to copies
-/// such as vanes: for the harmonics n = 1 … 6,
+/// Collective. Returns true if the body looks the same at all angles about the axis, except for
+/// repeated features such as vanes. The criterion is, for the harmonics n = 1 … 6,
 ///   |Σ m r² e^{inθ}| ≤ 0.1 Σ m r².
 bool isRevolved(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis);
 
-/// Collective. Returns true if a body of revolution is longer than 3 of its radii.
+/// Collective. Returns true if a body of revolution is longer than three times its outer radius.
 bool isBar(const mesh::Mesh& mesh, const LumpedBody& body, const Axis& axis);
 
 /// The name of the motion of a body.
 struct NamedMotion {
-  std::string name;  ///< such as "(0,4) out of plane"; empty if none is clear
-  double share = 0;  ///< share of this motion in the kinetic energy of the body
+  std::string name;  ///< such as "(0,4) out of plane"; empty if no motion dominates
+  double share = 0;  ///< share of the named motion in the kinetic energy of the body
 };
 
-/// The Fourier analysis of motions of a body of revolution. The cylindrical components of a motion
-/// are fitted, for each number n of nodal diameters, by
+/// The Fourier analysis of motions of a body of revolution. For each number n of nodal diameters,
+/// the cylindrical components of a motion are fitted by
 ///   Σ_ij P_i(ρ) P_j(ζ) (a_ij cos nθ + b_ij sin nθ)
-/// with Legendre polynomials of the scaled radius, i ≤ 5, and of the scaled position along the
-/// axis, j ≤ 1.
+/// with the Legendre polynomials P_i of the scaled radius ρ, i ≤ 5, and P_j of the scaled position
+/// ζ along the axis, j ≤ 1.
 class Revolution {
  public:
   /// Collective. Borrows the mesh during the lifetime of the object.
   Revolution(const mesh::Mesh& mesh, LumpedBody body, const Axis& axis);
-  /// Collective. Returns the name of the motion whose parts (real, or real and imaginary) have
-  /// these nodal values, this rank's rows: "(m,n) out of plane" with m nodal circles and n nodal
-  /// diameters, or "in plane, radial, n = …" or circumferential. Without a share of 0.6 it
-  /// has no name.
+  /// Collective. Returns the name of a motion. `parts` are its real, or its real and its imaginary
+  /// nodal values, this rank's rows. The name is "(m,n) out of plane" with m nodal circles and n
+  /// nodal diameters, "in plane, radial, n = …" or "in plane, circumferential, n = …". It is empty
+  /// if the largest share is below 0.6.
   NamedMotion name(const std::vector<const double*>& parts) const;
 
  private:
@@ -61,7 +61,7 @@ class Revolution {
 
   const mesh::Mesh& mesh_;
   LumpedBody body_;
-  std::array<Point, 3> axes_;          // e_x, e_y across the axis, and along it
+  std::array<Point, 3> axes_;          // two unit vectors across the axis, and one along it
   std::vector<double> cosine_, sine_;  // [node]
   linalg::DenseMatrix polynomials_;    // P_i(ρ) P_j(ζ), node × 12
   std::vector<int> ring_;              // [node] bin of the radius

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Motions of a body that move its cross-sections as a whole: bending, torsion, stretching.
+/// Motions of a body in which its cross-sections move rigidly: bending, torsion, stretching.
 #include <array>
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace squeal::energies {
 
-/// The principal axes of Σ m r rᵀ of a body about its centre of mass.
+/// The principal axes and values of Σ m r rᵀ of a body, with r from its centre of mass.
 struct Principal {
   std::array<double, 3> values;  ///< descending, kg m²
   std::array<Point, 3> axes;     ///< unit
@@ -20,27 +20,28 @@ struct Principal {
 ///   bending    u = p(ζ) a + q(ζ) (a·X) e,
 ///   torsion    u = p(ζ) (e × X),
 ///   axial      u = p(ζ) e,
-/// with polynomials p and q of degree 9 of the scaled position ζ along e, and X from the centre.
-/// With the principal axes, longest first, the names are
+/// with polynomials p and q of degree 9 in the scaled position ζ along e, and the position X
+/// relative to the centre. The principal axes have the numbers 1 to 3, the longest first. The names
+/// are
 ///   bending            e = 1, a = 3, or, unless the body is flat, a combination of 2 and 3,
 ///   in-plane bending   e = 1, a = 2, of a flat body,
 ///   cross bending      e = 2, a = 3,
 ///   torsion            e = 1,
-///   cross torsion      e = 2, from its second order on: the first is that of e = 1,
+///   cross torsion      e = 2; if its number is 1, it is called torsion 1,
 ///   axial              e = 1.
-/// A body is flat if its third radius of gyration is less than 0.4 of its second.
+/// A body is flat if its radius of gyration along axis 3 is less than 0.4 of that along axis 2.
 class Sections {
  public:
   /// Collective. Borrows the mesh during the lifetime of the object.
   Sections(const mesh::Mesh& mesh, LumpedBody body, const Point& centre, const Principal& axes);
-  /// Collective. Returns the name of an elastic motion, nodal values of this rank's rows, such as
-  /// "bending 1", with the share that it explains. The order is the number of nodal sections, less
-  /// one for bending, so that the lowest mode of a free bar has the order 1. Without a share of 0.7
-  /// the name is empty.
+  /// Collective. Returns the name of an elastic motion, such as "bending 1", and the share of the
+  /// motion that the fit explains. `values` are its nodal values, this rank's rows. The number in
+  /// the name is the number of nodal sections, minus one for bending, so that it is 1 for the
+  /// lowest mode of a free bar. The name is empty if the largest share is below 0.7.
   NamedMotion name(const double* values) const;
 
  private:
-  /// A family of motions along one axis.
+  /// The motions of one kind, with cross-sections perpendicular to one axis.
   struct Family {
     enum class Kind { bending, torsion, axial } kind;
     std::string name;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The shares of the components in the energies of a mode, and in its growth.
+/// The shares of the components in the energies and in the growth rate of a mode.
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,17 +12,18 @@
 
 namespace squeal::energies {
 
-/// Collective. Returns the components with their shares in the energies of a free mode u. The
-/// strain energy includes that of the steady stress, uᵀ K_σ u = `prestress`, if there is one.
+/// Collective. Returns the components with their shares in the energies of a free mode u. With a
+/// steady stress, `prestress` is uᵀ K_σ u, twice its part of the strain energy, and is included.
 std::vector<pencil::Component> sharesOfFreeMode(const Components& components,
                                                 const NodalProducts& mode,
                                                 std::optional<double> prestress);
 
-/// Collective. Returns the name of a motion u, nodal displacements, as of pencil::modeName().
+/// Collective. Returns the name of a motion as pencil::modeName() does. u are its nodal
+/// displacements.
 std::string nameOfMotion(const Components& components, const elasticity::Bodies& bodies,
                          const linalg::ComplexVector& u);
 
-/// A complex mode at a point of a sweep, all members borrowed.
+/// A complex mode at a point of a sweep. Its references are borrowed.
 struct ComplexMode {
   const terms::Motion& motion;
   const terms::MotionForces& force;
@@ -32,18 +33,18 @@ struct ComplexMode {
   double modalDamping = 0;
 };
 
-/// Collective. Returns the components with their shares in the energies of a complex mode, and in
-/// its growth [M.87]. Rows of the whole model follow where they apply: prestress, rotation (K^R and
-/// gyroscopic forces) and modal damping.
+/// Collective. Returns the components with their shares in the energies of a complex mode, and with
+/// their contributions to its growth rate [M.87]. Entries for the whole model follow, if they
+/// exist: prestress, rotation (K^R and gyroscopic forces) and modal damping.
 std::vector<pencil::Component> sharesOfComplexMode(const Components& components,
                                                    const elasticity::Bodies& bodies,
                                                    const contact::Contact& contact,
                                                    const ComplexMode& mode);
 
-/// Collective. Returns the contribution of modal damping C_m to the growth rate of a motion with
+/// Collective. Returns the contribution of modal damping C_m to the growth rate of a motion x with
 /// the energy E,
 ///   −|s|² c xᴴ C_m x / E,   1/s,
-/// computed as the damping terms of the pencil minus C of the bodies.
+/// computed from the damping terms of the pencil minus the damping matrix C of the bodies.
 double modalGrowth(const pencil::Pencil& pencil, const linalg::ComplexVector& unknowns,
                    const elasticity::Bodies& bodies, const terms::Motion& motion, double energy);
 

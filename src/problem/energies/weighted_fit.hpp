@@ -8,14 +8,15 @@
 
 namespace squeal::energies {
 
-/// Fits by functions p_k with the Gram matrix G_kl = Σ w p_k p_l and the weights w. For a field u
-/// with b_k = Σ w p_k u, the fit is u ≈ Σ c_k p_k with G c = b. It explains the part cᵀ b of Σ w
-/// u². Directions in which G is below 1e-9 of its largest eigenvalue are omitted, since the
-/// functions are dependent there.
+/// Fits a field u by functions p_k with weights w and the Gram matrix G:
+///   u ≈ Σ c_k p_k,   G c = b,   G_kl = Σ w p_k p_l,   b_k = Σ w p_k u.
+/// The fit explains the part cᵀ b of Σ w u². Eigenvectors of G with eigenvalues of at most 1e-9 of
+/// the largest are omitted, since the functions are linearly dependent in these directions.
 class WeightedFit {
  public:
   WeightedFit() = default;
-  /// Takes G, of which it reads the lower triangle. Throws Error if its eigenvalues are not finite.
+  /// Takes G and reads only its lower triangle. Throws Error if the eigenvalues of G are not
+  /// finite.
   explicit WeightedFit(linalg::DenseMatrix gram);
   /// Returns c.
   std::vector<double> coefficients(std::span<const double> b) const;
@@ -24,7 +25,7 @@ class WeightedFit {
 
  private:
   linalg::DenseMatrix vectors_;
-  std::vector<double> values_;  // 0: left out
+  std::vector<double> values_;  // eigenvalues; 0: omitted
 };
 
 }  // namespace squeal::energies

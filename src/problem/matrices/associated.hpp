@@ -9,22 +9,24 @@
 
 namespace squeal::matrices {
 
-/// The associated system: the sums of the stiffness and of the mass terms without exponents of
-/// friction, speed and damping, except terms marked as friction. If such a stiffness contains
-/// unmarked friction, the friction stays in the pencil.
+/// The associated system. K0 and M0 are the sums of the stiffness and of the mass terms without
+/// exponents of friction, speed and damping, except terms marked as friction. If a stiffness among
+/// them contains unmarked friction, K0 takes only the symmetric part of the sum; the pencil keeps
+/// all of it.
 struct SymmetricPart {
-  factor::AssociatedSystem system;  ///< K0 is the symmetric part of the sum
-  double asymmetry;   ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0 if it is 1e-10 or less
+  factor::AssociatedSystem system;  ///< K0 is the symmetric part of the stiffness sum
+  double asymmetry;   ///< ‖K − Kᵀ‖ / ‖K‖ of this sum K; 0 if it is 1e-10 or less
   PetscInt massless;  ///< number of unknowns without mass
 };
 
 /// Collective. Returns (A + Aᵀ)/2, marked as symmetric.
 OwnedMat symmetrised(Mat matrix);
 
-/// Collective. Returns the associated system of the terms. Throws Error, naming the matrices, if
-/// there is no such stiffness or mass, if the mass is not symmetric to 1e-10, and if the stiffness,
-/// or the mass without its rows of zeros, is not positive definite within round-off, as with a
-/// rigid-body mode. The stiffness determines unknowns without mass, such as reference nodes.
+/// Collective. Returns the associated system of the terms. Rows of zeros in the mass are accepted:
+/// they belong to unknowns without mass, such as reference nodes, which the stiffness determines.
+/// Throws Error, naming the matrices, in three cases: there is no stiffness or no mass without
+/// exponents; the mass is not symmetric to 1e-10; K0, or M0 without its rows of zeros, is not
+/// positive definite within round-off (K0 is not if a body has a rigid-body mode).
 SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms);
 
 }  // namespace squeal::matrices

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The friction-perturbed problem from files: each matrix has a role M, Z or K, a factor, and
-/// exponents of friction, speed and damping [M.23]. Exports of other programs and published models
-/// are reduced and certified like the models of meshes.
+/// The eigenvalue problem with friction, given by matrices from files. Each matrix has a role (M, Z
+/// or K), a factor, and exponents of friction, speed and damping [M.23]. Matrices exported by other
+/// programs, and published models, are reduced and certified like models made from a mesh.
 #include <string>
 #include <vector>
 
@@ -13,12 +13,12 @@ namespace squeal::matrices {
 
 /// A term of the pencil and its name.
 struct NamedTerm {
-  std::string name;  ///< <name> of its options
+  std::string name;  ///< the <name> in its options
   pencil::Term term;
 };
 
-/// Collective. Returns the terms of all `-matrices_<name>_file`. Throws Error as read() does,
-/// naming the option, and for matrices of different sizes.
+/// Collective. Returns the terms of all options `-matrices_<name>_file`. Throws Error as read()
+/// does, naming the option, and if the matrices have different sizes.
 std::vector<NamedTerm> readTerms(MPI_Comm comm, const Settings& settings);
 
 /// Collective. Returns the relative departure from symmetry in the Frobenius norm,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The settings of problems that are given by matrices: the files to read, and the folder to which
-/// the matrices of a problem are exported.
+/// The settings of the matrices of a problem: the files to read them from, and the folder to export
+/// them to.
 #include <map>
 #include <string>
 
@@ -11,12 +11,12 @@ namespace squeal::matrices {
 struct MatrixSettings {
   std::string file;          ///< path
   std::string dataset;       ///< variable or object in the file; empty: the only matrix there
-  int power = 0;             ///< of s
-  double factor = 1;         ///< on the matrix
-  int frictionExponent = 0;  ///< of the coefficient of friction
-  int speedExponent = 0;     ///< of the speed factor
-  int dampingExponent = 0;   ///< of the damping factor
-  bool ofFriction = false;   ///< it contains a fixed friction term
+  int power = 0;             ///< power of s that multiplies the matrix
+  double factor = 1;         ///< number that multiplies the matrix
+  int frictionExponent = 0;  ///< power of the coefficient of friction
+  int speedExponent = 0;     ///< power of the speed factor
+  int dampingExponent = 0;   ///< power of the damping factor
+  bool ofFriction = false;   ///< the matrix contains a fixed friction term
 };
 
 enum class ExportFormat { petsc, matrixMarket };
@@ -24,7 +24,7 @@ enum class ExportFormat { petsc, matrixMarket };
 /// The settings of the export, `-report_matrices*`.
 struct ExportSettings {
   std::string folder;         ///< empty: no export
-  bool folderOfCase = false;  ///< an options file names the folder
+  bool folderOfCase = false;  ///< the folder was named by an options file
   ExportFormat format = ExportFormat::petsc;
   bool wanted() const { return !folder.empty(); }
 
@@ -33,11 +33,11 @@ struct ExportSettings {
 };
 
 struct Settings {
-  std::map<std::string, MatrixSettings> files;  ///< by <name>; empty: the problem is of a mesh
+  std::map<std::string, MatrixSettings> files;  ///< by <name>; empty: a mesh is given
   bool ofMesh() const { return files.empty(); }
 
-  /// Returns the settings that the options give. Throws Error if options of the stages of a mesh
-  /// are given as well, and for another `-matrices_<name>_*` option of a name without a file.
+  /// Returns the settings that the options give. Throws Error if matrices and options that need a
+  /// mesh are given together, and for an option `-matrices_<name>_*` of a name that has no file.
   static Settings given();
 };
 

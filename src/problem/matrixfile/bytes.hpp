@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Numbers in binary files, of either byte order.
+/// Numbers in binary files of either byte order.
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -12,7 +12,8 @@ namespace squeal::matrixfile {
 
 constexpr bool littleEndian = std::endian::native == std::endian::little;
 
-/// Returns the number at `bytes`, from the other byte order if `swapped`.
+/// Returns the number at `bytes`. If `swapped`, its bytes are in the order opposite to this
+/// machine's.
 template <class Number>
 Number numberAt(const char* bytes, bool swapped) {
   char copy[sizeof(Number)];
@@ -23,7 +24,7 @@ Number numberAt(const char* bytes, bool swapped) {
   return number;
 }
 
-/// A file that is read in pieces.
+/// A binary file that is read piece by piece.
 class BinaryFile {
  public:
   /// Throws Error if the file cannot be opened.

@@ -9,13 +9,14 @@
 namespace squeal::matrixfile {
 
 /// Reads the object `name` of an HDF5 file. An empty name means the only matrix among the objects
-/// of the root, or the root itself; a 1 × 1 dataset counts only if there is no other. The object is
-/// a dataset of two dimensions, or a group with the datasets data, indices and indptr of a
-/// compressed matrix, as SciPy users and anndata write it. The attribute "format",
-/// "h5sparse_format" or "encoding-type" of the group, or its dataset "format", begins with csr or
-/// csc; without it, the matrix must be symmetric, so the order does not matter. MATLAB files of
-/// version 7.3 are read too: groups with data, ir and jc, and datasets of class double or single.
-/// Throws Error as readMatlab() does.
+/// of the root group, or the root group itself; a 1 × 1 dataset is considered only if there is no
+/// other matrix. The object is a dataset of two dimensions, or a group with the datasets data,
+/// indices and indptr of a compressed matrix, as SciPy users and anndata write it. The attribute
+/// "format", "h5sparse_format" or "encoding-type" of the group, or its dataset "format", must begin
+/// with csr or csc. Without this text the matrix must be symmetric: lists by rows and by columns
+/// are then the same. In MATLAB files of version 7.3, the object is a group with data, ir and jc,
+/// or a dataset of class double or single. Throws Error if there is no such matrix or more than
+/// one, and for complex or damaged content.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace squeal::matrixfile

@@ -10,10 +10,11 @@
 namespace squeal::matrixfile {
 
 /// Returns all variables in the order of the file. Throws Error for damaged headers, and if the
-/// sizes do not add up to the size of the file.
+/// sizes of the variables do not add up to that of the file.
 std::vector<Variable> variablesOfVersion5(BinaryFile& file);
 
-/// Reads a variable that is `real` and has two dimensions. Throws Error for damaged content.
+/// Reads a variable, which must be `real` and have two dimensions. Throws Error for damaged
+/// content.
 Entries readVersion5(BinaryFile& file, const Variable& variable);
 
 }  // namespace squeal::matrixfile

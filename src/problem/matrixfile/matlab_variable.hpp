@@ -12,16 +12,16 @@ namespace squeal::matrixfile {
 /// A variable as described by its header.
 struct Variable {
   std::string name;
-  std::string kind;                  ///< "double", "complex sparse", "struct": for messages
-  bool real = false;                 ///< a table of real numbers, in version 5 doubles or singles
-  bool sparse = false;               ///< full otherwise
-  std::vector<long long> shape;      ///< one number per dimension
+  std::string kind;              ///< "double", "complex sparse", "struct": for messages
+  bool real = false;             ///< a matrix of real numbers; in version 5 of doubles or singles
+  bool sparse = false;           ///< otherwise a full matrix
+  std::vector<long long> shape;  ///< one number per dimension
   std::uint64_t begin = 0, end = 0;  ///< its bytes in the file
   bool swapped = false, packed = false;
   int type = 0;  ///< type of the values in version 4
 };
 
-/// Returns the entries of a full matrix whose values are given by columns.
+/// Returns the entries of a full matrix from its values, which are given column by column.
 Entries full(const Variable& variable, const std::vector<double>& values);
 
 }  // namespace squeal::matrixfile

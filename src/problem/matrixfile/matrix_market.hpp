@@ -7,13 +7,14 @@
 
 namespace squeal::matrixfile {
 
-/// Reads Matrix Market: coordinate or array; general, symmetric or skew-symmetric; real, integer or
-/// pattern (ones). Exponents may begin with D. A symmetric or skew-symmetric file contains one
-/// triangle. Throws Error, with the number of the line, for anything else.
+/// Reads a file in Matrix Market format: coordinate or array; general, symmetric or skew-symmetric;
+/// real, integer or pattern (all values 1). Exponents may begin with D. A symmetric or
+/// skew-symmetric file must contain one triangle only. Throws Error, with the number of the line,
+/// for anything else.
 Entries readMatrixMarket(const std::filesystem::path& path);
 
-/// Writes all entries as Matrix Market. Throws output::WriteError, which names the file, if it
-/// cannot be written.
+/// Writes all entries in Matrix Market format. Throws output::WriteError, which names the file, if
+/// it cannot be written.
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries);
 
 }  // namespace squeal::matrixfile

@@ -5,9 +5,9 @@
 
 namespace squeal::matrixfile {
 
-/// Throws Error unless the file is one square real sparse matrix in PETSc's binary format with the
-/// indices of this build, complete, and with row lengths, columns and values that MatLoad() reads
-/// correctly. Only one row is in memory at a time.
+/// Throws Error unless the file is one complete, square, real, sparse matrix in PETSc's binary
+/// format, with the index size of this build, and with row lengths, columns and values that
+/// MatLoad() reads correctly. Only one row is in memory at a time.
 void requirePetscBinary(const std::filesystem::path& path);
 
 }  // namespace squeal::matrixfile

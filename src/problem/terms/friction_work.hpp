@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The work of friction on the motion of a mode, by contact node: the places where friction
+/// The work of friction on the motion of a mode at each contact node. It shows where friction
 /// destabilises the mode.
 #include <array>
 #include <vector>
@@ -20,7 +20,8 @@ using ComplexPoint = std::array<Complex, 3>;
 
 /// The nodal forces and the energy of a motion u e^{st}.
 struct MotionForces {
-  /// The nodal forces r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u, N entries.
+  /// The nodal forces r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u, with N = dimension · nodes
+  /// entries.
   linalg::ComplexVector forces;
   /// The terms K u, M u and C u, N entries; C u is null without damping.
   linalg::ComplexVector elastic = {}, inertia = {}, damped = {};
@@ -28,7 +29,7 @@ struct MotionForces {
   double energy = 0;
 };
 
-/// A motion u e^{st} at a point of the sweep; all members are borrowed.
+/// A motion u e^{st} at a point of the sweep. `at`, `u` and `prestress` are borrowed.
 struct Motion {
   const sweep::Parameters& at;
   Complex s;
@@ -42,29 +43,29 @@ MotionForces motionForces(const elasticity::Bodies& bodies, const Motion& motion
 struct ContactMotion {
   linalg::ComplexVector jump;       ///< [u] in the rows of the pad nodes, N entries
   linalg::ComplexVector convected;  ///< D u_D in the same rows; null without convective terms
-  /// The normal components of the nodal forces, E⁻ᵀ N r*, except those of open gaps, [owned contact
-  /// node].
+  /// The normal components E⁻ᵀ R_N* of the nodal forces, [owned contact node], with R_N* = N r* at
+  /// closed gaps and R_N* = 0 at open ones.
   std::vector<Complex> nodalForce;
 };
 /// Collective. Returns the values of a nodal vector in the rows of the pad nodes, [owned contact
 /// node].
 std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
                                      const linalg::ComplexVector& u);
-/// Collective. Returns the amplitudes of the motion u with the nodal forces `forces`; closed[k] is
-/// set for the closed gaps.
+/// Collective. Returns the amplitudes at the contact of the motion u with the nodal forces
+/// `forces`. closed[k] is 1 for a closed gap, 0 for an open one.
 ContactMotion contactMotion(const contact::Contact& contact,
                             const std::vector<unsigned char>& closed,
                             const linalg::ComplexVector& u, const linalg::ComplexVector& forces);
 
 /// The data of friction at one point of a sweep.
 struct FrictionState {
-  sweep::Parameters at;  ///< its friction applies to the part with the change of the normal force
+  sweep::Parameters at;             ///< its `friction` is used only for FrictionForm::pressing
   std::vector<contact::Slip> slip;  ///< [contact node]
   OwnedMat response;                ///< B at this state, N×N
   OwnedMat turning;                 ///< the part of B without the slope of the friction law, N×N
 };
-/// Collective. Returns the data of friction, with B of the normal forces `responseForce`, from
-/// responseForces().
+/// Collective. Returns the data of friction. B is computed from the normal forces `responseForce`,
+/// which responseForces() returns.
 FrictionState frictionState(const contact::Contact& contact, const sweep::Parameters& at,
                             std::vector<contact::Slip> slip,
                             const std::vector<double>& responseForce);
@@ -72,30 +73,30 @@ FrictionState frictionState(const contact::Contact& contact, const sweep::Parame
 FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution,
                             const Settings& settings);
 
-/// The form −[w]ᴴ R_T* of a contact node for a test jump [w] has two parts, with [4.7]
+/// The form −[w]ᴴ R_T* of a contact node for a test jump [w] has two parts, since [4.7]
 ///   R_T* = −f φ r_N* τ − B (s [u] − v D u_D).
 struct FrictionForm {
-  Complex pressing;  ///< part with the change of the normal force
-  Complex turning;   ///< part with the change of the relative velocity
+  Complex pressing;  ///< from the change of the normal force
+  Complex turning;   ///< from the change of the relative velocity
 };
-/// Collective. Returns the forms of the contact nodes for the test jumps, both [owned contact
-/// node].
+/// Collective. Returns the forms of the contact nodes for the jumps `test`. Both lists are [owned
+/// contact node].
 std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const FrictionState& state,
                                         Complex s, const std::vector<ComplexPoint>& test,
                                         const ContactMotion& motion);
 
-/// Collective. Returns the contribution of friction at each contact node to the growth rate of the
-/// mode by cause, [contact node]; closed[k] is set for the closed gaps. At open nodes it is
-/// zero, except on tri6 and quad8 faces that are partly closed. `force` contains the forces and the
-/// energy of the mode.
+/// Collective. Returns the contribution of friction to the growth rate of the mode, by cause,
+/// [contact node]. closed[k] is 1 for a closed gap, 0 for an open one. At open nodes the
+/// contribution is zero, except on tri6 and quad8 faces that are partly closed. `force` contains
+/// the forces and the energy of the mode.
 ///
 /// The mode u = T x satisfies Tᵀ r* = (J T)ᵀ R_T*. The real part of its product with (s x)ᴴ is,
 /// with σ = Re s and E of MotionForces [M.51],
 ///   σ E + |s|² c uᴴ C u = Σ_k Re((s [u]_k)ᴴ R_T*,k).
-/// G is skew and does no work. The value of node k is [M.52]
+/// G is skew-symmetric and does no work. The contribution of node k is [M.52]
 ///   Re((s [u]_k)ᴴ R_T*,k) / E.
-/// All values add up to σ + |s|² c uᴴ C u / E. The mean energy is E/4, and the work over a cycle is
-/// (π / Im s) E times the value.
+/// The contributions of all nodes add up to σ + |s|² c uᴴ C u / E. The mean energy of the mode is
+/// E/4. The work of friction at a node over a cycle is (π / Im s) E times its contribution.
 std::vector<pencil::GrowthParts> frictionGrowth(const contact::Contact& contact,
                                                 const std::vector<unsigned char>& closed,
                                                 const FrictionState& friction, const Motion& mode,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Derivatives of the eigenvalues with respect to the parameters of the point, and to the moduli
-/// and the density of each material, from the matrices of the pencil.
+/// Derivatives of the eigenvalues at a point of a sweep with respect to the swept parameters, and
+/// to the properties of materials, springs, bushings and point masses.
 #include <vector>
 
 #include "algebra/linalg/complex.hpp"
@@ -20,7 +20,7 @@
 
 namespace squeal::terms {
 
-/// A point of a sweep in terms of the bodies. System, solution and prestress are borrowed.
+/// The system and the steady state of a point of a sweep. All members except `at` are borrowed.
 struct BodyPoint {
   sweep::Parameters at;
   const contact::CoupledSystem& system;
@@ -28,7 +28,7 @@ struct BodyPoint {
   Mat prestress = nullptr;  ///< K_σ of the steady state; null: none
 };
 
-/// Computes total derivatives of eigenvalues.
+/// Computes total derivatives of eigenvalues, which include the change of the steady state.
 class Influences {
  public:
   /// Borrows mesh, bodies and contact during the lifetime of the object.
@@ -38,18 +38,18 @@ class Influences {
 
   /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point.
   /// `pencil` contains the terms of the point. The derivatives [M.46] include the terms that depend
-  /// on the steady state; the active set and the matrix of modal damping are constant. The
-  /// parameters are friction, speed, pressure and damping as in Parameters, a factor young_GROUP on
-  /// all moduli of a material group (ds/d ln E), a factor density_GROUP on its density
-  /// (ds/d ln ρ), a factor damping_GROUP on the damping of its material, if it has any, and factors
-  /// on the stiffness and damping of each spring and bushing and on each point mass. The search for
-  /// left vectors starts from `start`. Throws Error if the change of the steady state does not
-  /// converge.
+  /// on the steady state; the active set and the matrix of modal damping are held constant. The
+  /// parameters are friction, speed, pressure and damping as in sweep::Parameters, and factors on
+  /// material properties and on attachments: young_GROUP on all moduli of a material group (ds/d ln
+  /// E), density_GROUP on its density (ds/d ln ρ), damping_GROUP on its damping, if it has any, one
+  /// factor each on the stiffness and on the damping of each spring and bushing, and one on each
+  /// point mass. The search for left vectors starts from `start`. Throws Error if the change of the
+  /// steady state does not converge.
   void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
 
-  /// Collective. Returns the forms of the same parameters at a point. Borrows all arguments during
-  /// the life of the forms.
+  /// Collective. Returns the forms yᴴ (∂P/∂θ) x of the same parameters θ at a point, as a function
+  /// of the eigenvalue and its vectors. This function borrows the object and the arguments.
   sensitivity::Forms forms(const pencil::Pencil& pencil, const BodyPoint& state);
 
  private:

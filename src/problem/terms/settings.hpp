@@ -5,8 +5,8 @@
 namespace squeal::terms {
 
 struct Settings {
-  /// The friction force turns with the relative velocity and follows the friction law. If false, it
-  /// changes only by R_T* = −f φ R_N* τ.
+  /// If true, the friction force turns with the relative velocity and follows the friction law. If
+  /// false, it changes only with the normal force: R_T* = −f φ R_N* τ.
   bool frictionDamping = true;
 
   /// Returns the settings that the options give.

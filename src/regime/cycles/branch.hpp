@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Continuation of a branch of periodic motions over the friction, through folds, at which the
-/// branch turns back and its motions lose or regain stability [M.78].
+/// Continuation of a branch of periodic motions with friction as the parameter [M.78]. It passes
+/// through folds, where the branch turns back and its motions lose or regain stability.
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,21 +11,22 @@
 namespace squeal::cycles {
 
 struct ContinuationLimits {
-  double lowest = 0, highest = 0;  ///< friction
-  int most = 0;                    ///< number of motions in each direction
-  double tolerance = 0;            ///< of shoot()
+  double lowest = 0, highest = 0;  ///< range of frictions
+  int most = 0;                    ///< largest number of motions in each direction
+  double tolerance = 0;            ///< tolerance of shoot()
 };
 
-/// A branch in one direction.
+/// The part of a branch that was followed in one direction.
 struct Route {
   std::vector<double> folds;  ///< frictions at which the branch turns back, interpolated
   double end = 0;             ///< friction at its end
-  std::string reason;         ///< of its end
+  std::string reason;         ///< why it ends there
 };
 
-/// Collective. Follows the branch through a converged periodic motion by pseudo-arclength
-/// continuation, first towards larger friction if `upwards`. The step is adaptive, and halved if
-/// Newton's method fails. It calls `inspect` for each motion found, except the first.
+/// Collective. Follows the branch that contains the converged periodic motion `first`, by
+/// pseudo-arclength continuation. It starts towards larger friction if `upwards`, otherwise towards
+/// smaller. The step length is adaptive, and is halved if Newton's method fails. Calls `inspect`
+/// for each further motion that is found.
 Route continueBranch(const Period& period, const ShootingResult& first, bool upwards,
                      const ContinuationLimits& limits, const Progress& progress,
                      const std::function<void(const ShootingResult&)>& inspect);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A passage: a march over a single period, from the initial state of its first step to that of the
-/// step after its last one [M.77].
+/// A passage: a time integration over a single period, from the initial state of its first step to
+/// the initial state of the step after its last one [M.77].
 #include <mpi.h>
 
 #include <vector>
@@ -17,9 +17,9 @@ using march::ReducedModel;
 
 /// A motion over one period, periodic or not.
 struct Orbit {
-  InitialState start;   ///< of its first step
+  InitialState start;   ///< initial state of its first step
   double period = 0;    ///< s
-  double friction = 0;  ///< the swept coefficient
+  double friction = 0;  ///< swept coefficient of friction
 };
 
 /// Measures of a motion over one period.
@@ -27,44 +27,45 @@ struct Measures {
   double largestKinetic = 0;       ///< J
   double frictionPower = 0;        ///< heat of friction, W
   double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N
-  int opening = 0, sticking = 0;   ///< nodes that separate or stick at some time
-  bool linear = true;              ///< each node stays in its state of steady sliding
+  int opening = 0, sticking = 0;   ///< numbers of nodes that are open or stick at some time
+  bool linear = true;  ///< each node stays open, sticking or sliding as in steady sliding
 };
 
 /// The end of a period.
 struct Passage {
   InitialState end;
   Measures measures;
-  int quietest = 0;  ///< the number of steps after which the fewest nodes stick
+  int quietest = 0;  ///< number of steps after which the fewest nodes stick
 };
 
-/// The derivative of the end of a passage with respect to its start, in the entries of q, of v, and
-/// of the slips in z that stick at the start. The effect of other entries of z decays in a few
-/// steps.
+/// The derivative of the end of a passage with respect to its start. The variables are q, v, and
+/// the slips in z that stick at the start; the effect of other entries of z decays in a few steps.
 struct Monodromy {
   std::vector<PetscInt> stuck;  ///< rows of z
-  DenseMatrix end;              ///< of q, v and stuck z, square
-  DenseMatrix z;                ///< of all z, rows × columns of `end`
+  DenseMatrix end;              ///< derivative of q, v and the stuck z, square
+  DenseMatrix z;                ///< derivative of all z, rows × columns of `end`
 };
 
 /// Returns √(qᵀΛq + vᵀv + zᵀK_z z), √J.
 double norm(const ReducedModel& model, const InitialState& x);
-/// Returns norm(end − start) over norm(start).
+/// Returns norm(end − start) / norm(start).
 double change(const ReducedModel& model, const InitialState& start, const InitialState& end);
 
-/// Computes passages of one model at any friction. The model is as accurate at other frictions as
-/// at its own, because its displacements include static responses to friction.
+/// Computes passages of one model at any friction. The static part of the displacements is exact at
+/// all frictions, because it contains the static responses to friction. The unstable modes in the
+/// model are those of the friction at which it was made.
 class Period {
  public:
-  /// Copies the model, which was made at `friction`. A period has `steps` steps of the massless
-  /// scheme. All ranks of `comm` must have the same model; they divide the columns of derivatives.
+  /// Copies the model, which was made at `friction`. A period has `steps` steps of the scheme of
+  /// the massless boundary. All ranks of `comm` must have the same model; they share the work on
+  /// the columns of derivatives.
   Period(MPI_Comm comm, ReducedModel model, double friction, int steps);
   MPI_Comm comm() const { return comm_; }
   const ReducedModel& model() const { return model_; }
   int steps() const { return steps_; }
 
-  /// Collective. Returns the end of a period, or of its first `steps` steps. Throws Error if the
-  /// contact forces of a step do not converge or the motion is not finite.
+  /// Collective. Returns the end of a period, or the state after its first `steps` steps. Throws
+  /// Error if the contact forces of a step do not converge or the motion is not finite.
   Passage pass(const Orbit& orbit, int steps) const;
   Passage pass(const Orbit& orbit) const { return pass(orbit, steps_); }
   /// Collective. Returns the derivative of pass().

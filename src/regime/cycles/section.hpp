@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Starting points for shooting. If a march oscillates about an unstable periodic motion, two
-/// states are near that motion: the mean of the states at which the march passes a section, and the
-/// pass nearest to the preceding one.
+/// Starting points for shooting. If a time integration oscillates about an unstable periodic
+/// motion, two states are near that motion: the mean of the states at which the time integration
+/// passes a section, and the pass that differs least from the preceding pass.
 #include <utility>
 #include <vector>
 
@@ -11,22 +11,22 @@
 
 namespace squeal::cycles {
 
-/// A state at which a march passes a section.
+/// A state at which a time integration passes a section.
 struct Pass {
   InitialState state;
-  std::vector<double> acceleration;  ///< of the modes
-  double period = 0;                 ///< since the preceding pass, s
+  std::vector<double> acceleration;  ///< modal accelerations
+  double period = 0;                 ///< time since the preceding pass, s
 };
 
-/// The passes of a span of time.
+/// The passes within a span of time.
 struct Passes {
   int count = 0;
   Pass sum;
-  /// The pass with the smallest relative difference from the preceding one, in the energy norm.
-  /// Only passes between which a node has separated or stuck are compared, since slowly growing
-  /// linear motions would differ even less.
+  /// The pass with the smallest relative difference from the preceding one, in the energy norm. Two
+  /// passes are compared only if a node has separated or stuck between them, since those of a
+  /// slowly growing linear motion would differ even less.
   Pass nearest;
-  double change = -1;  ///< of `nearest`; -1: there is none
+  double change = -1;  ///< relative difference of `nearest` from the pass before it; −1: none
   void add(const Passes& other);
 };
 
@@ -34,10 +34,10 @@ struct Passes {
 void fields(Stream& stream, Passes& passes);
 void fields(Stream& stream, Pass& pass);
 
-/// The section at which the coordinate of a mode passes zero upwards.
+/// The section of the state space at which the coordinate of a mode passes zero upwards.
 class Section {
  public:
-  /// Borrows the model. The mode has the coordinates q and this period, s.
+  /// Borrows the model. `q` are the coordinates of the mode, and `period` is its period, s.
   Section(const ReducedModel& model, const std::vector<Complex>& q, double period);
   /// Call it after each step.
   void inspect(const march::Massless& scheme);
@@ -46,16 +46,17 @@ class Section {
 
  private:
   const ReducedModel& model_;
-  std::vector<double> weight_;  // of q, for the coordinate of the mode
+  std::vector<double> weight_;  // weights of q in the coordinate of the mode
   double period_, before_ = 0, lastTime_ = 0, lastPassTime_ = -1;
   bool linear_ = true;  // since the last pass
-  InitialState last_;   // of the last step
+  InitialState last_;   // state after the last step
   InitialState lastPass_;
   Passes passes_;
 };
 
-/// Returns the initial orbits, the mean and, if there is one, the nearest, for periods of this
-/// number of steps. `step` is the time step of the march, s. Their friction is not set.
+/// Returns the initial orbits for shooting: the one from the mean of the passes and, if there is
+/// one, the one from `nearest`. Each has periods of `steps` steps. `step` is the time step of the
+/// time integration, s. Does not set Orbit::friction.
 std::vector<Orbit> firstOrbits(const Passes& passes, double step, int steps);
 
 }  // namespace squeal::cycles

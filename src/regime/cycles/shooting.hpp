@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Periodic motions of the reduced model by shooting, and their Floquet multipliers [M.77]. Only
-/// stable motions persist in a brake.
+/// Periodic motions of the reduced model by shooting, and their Floquet multipliers [M.77]. In a
+/// real brake, only stable motions persist.
 #include <functional>
 #include <memory>
 #include <vector>
@@ -11,41 +11,43 @@
 
 namespace squeal::cycles {
 
-/// A direction in the unknowns (q, v, period, friction), all scaled to √J. The scale of q is the
-/// angular frequency. The scale of the period is the norm of the motion divided by the period, and
-/// likewise for the friction.
+/// A direction in the unknowns (q, v, period, friction), each multiplied by a scale that gives it
+/// the unit √J. The scale of q is the angular frequency, and v has this unit itself. The scale of
+/// the period is the norm of the motion divided by the period; that of the friction is the norm
+/// divided by the friction.
 using Direction = std::vector<double>;
 
-/// Floquet multipliers: the factors of disturbances of a periodic motion per period.
+/// Floquet multipliers: the factors by which disturbances of a periodic motion grow in a period.
 struct Multipliers {
   std::vector<Complex> values;  ///< by descending modulus
-  /// Index of the multiplier of a shift in time, identified by its vector. It is 1 within the error
-  /// of the time step.
+  /// Index of the multiplier that belongs to a shift in time, identified by its eigenvector. The
+  /// multiplier is 1 to within the error of the time step.
   std::size_t trivial = 0;
 };
 
 /// The equations of a periodic motion, linearised about an orbit:
 ///   (M − 1) δx + ∂x(T)/∂T δT + ∂x(T)/∂f δf = −(x(T) − x),   ẋᵀ δx = 0,   and δf = 0 or tᵀδ = 0,
-/// in entries x of q, v and slips that stick, with the scales of Direction.
+/// where x consists of q, v and the slips that stick at the start, with the scales of Direction,
+/// and M is the monodromy matrix.
 class Linearisation {
  public:
   /// Collective.
   Linearisation(const Period& period, const Orbit& at);
   const Monodromy& monodromy() const { return monodromy_; }
 
-  /// A change of the unknowns, and of all z at the end of a period.
+  /// A change of the unknowns, and the resulting change of all z at the end of a period.
   struct Step {
     Direction direction;
     std::vector<double> stuck;  ///< changes of the slips that stick at the start, m
     std::vector<double> z;      ///< m
   };
-  /// Not collective. Returns the step that makes the end of a period equal its start to first
-  /// order: orthogonal to the tangent if there is one, otherwise at the same friction.
+  /// Not collective. Returns the step that makes the end of a period equal to its start, to first
+  /// order. The step is orthogonal to the tangent; if this is empty, the step leaves the friction
+  /// unchanged.
   Step step(const InitialState& start, const InitialState& end, const Direction& tangent) const;
-  /// Not collective. Returns the direction of the branch over the friction, 2-norm 1, oriented
-  /// along `near`.
+  /// Not collective. Returns the tangent of the branch, with the 2-norm 1, oriented along `near`.
   Direction tangent(const Direction& near) const;
-  /// Returns the change of the friction along a direction of length 1, √J.
+  /// Returns the change of the friction per unit length, √J, along a direction.
   double frictionAlong(const Direction& direction) const {
     return direction.back() / frictionScale_;
   }
@@ -57,7 +59,7 @@ class Linearisation {
   Orbit changed(const Orbit& orbit, const InitialState& end, const Step& step, double factor) const;
 
  private:
-  /// A derivative of the end of a period.
+  /// The derivative of the end of a period with respect to the period or the friction.
   struct EndDerivative {
     std::vector<double> x;  // scaled, [entry of x]
     std::vector<double> z;  // of all z
@@ -70,8 +72,8 @@ class Linearisation {
 
   Monodromy monodromy_;
   std::vector<double> frequency_;       // √Λ, [mode]
-  std::vector<double> scale_;           // [entry of x] from its own unit to √J
-  double periodScale_, frictionScale_;  // from period and friction to √J
+  std::vector<double> scale_;           // [entry of x] factor from its own unit to √J
+  double periodScale_, frictionScale_;  // factors from period and friction to √J
   EndDerivative byPeriod_, byFriction_;
   std::vector<double> phase_;  // ẋ, scaled, [entry of x]
 };
@@ -81,29 +83,30 @@ struct ShootingResult {
   Orbit orbit;
   bool converged = false;
   int derivatives = 0;  ///< number of linearisations
-  double change = 0;    ///< over a period
+  double change = 0;    ///< relative change over a period
   Measures measures;
-  std::shared_ptr<const Linearisation> linearisation;  ///< about the orbit, if it has converged
+  std::shared_ptr<const Linearisation> linearisation;  ///< about the orbit; null unless converged
 };
 
 /// The state of Newton's method.
 struct Iteration {
-  double change = 0;    ///< over a period
+  double change = 0;    ///< relative change over a period
   int derivatives = 0;  ///< number of linearisations so far
 };
 /// Called on all ranks before each linearisation and after each step.
 using Progress = std::function<void(const Iteration&)>;
 
 struct ShootingRequest {
-  double tolerance = 0;    ///< of change()
+  double tolerance = 0;    ///< tolerance of change()
   Progress progress = {};  ///< empty: none
-  /// With a tangent, the friction is an unknown, and the search is orthogonal to the tangent.
+  /// If given, the friction is an unknown too, and the search is orthogonal to this tangent.
   Direction tangent = {};
-  /// A linearisation about a nearby orbit, to reuse.
+  /// A linearisation about a nearby orbit, for reuse; null: none.
   std::shared_ptr<const Linearisation> linearisation = nullptr;
 };
 
-/// Collective. Computes a periodic motion from one that nearly repeats itself.
+/// Collective. Computes a periodic motion by Newton's method from the nearly periodic motion
+/// `guess`.
 ShootingResult shoot(const Period& period, const Orbit& guess, const ShootingRequest& request);
 
 }  // namespace squeal::cycles

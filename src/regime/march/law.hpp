@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Bounds on friction laws for a massless boundary, which responds immediately to friction that
-/// depends on the sliding speed.
+/// Bounds on friction laws for a massless boundary. Such a boundary responds without delay to
+/// friction that depends on the sliding speed.
 #include <vector>
 
 #include "regime/march/model.hpp"
@@ -10,15 +10,17 @@ namespace squeal::march {
 
 /// Not collective. Returns μ [M.79], the largest eigenvalue of
 ///   −(h K_z + C_z)⁻¹ B   and   (h K_z/2 + C_z)⁻¹ B,   B = R_N df/d|w| ττᵀ,
-/// in the rows that are free in steady sliding, from slopes df/d|w|, [node], s/m. If μ < 1, the
-/// slips of the massless boundary do not grow although the coefficient is one step old. With h = 0,
-/// μ is the ratio of the slope of a falling law to the damping; infinite without damping.
+/// in the rows that are free in steady sliding. `slopes` are df/d|w|, [node], s/m, and h is the
+/// time step, s. The coefficient of friction of a step is that of the speed in the step before.
+/// Nevertheless, the slips of the massless boundary do not grow if μ < 1. With h = 0, only the
+/// first matrix is used: μ is the ratio of the slope of a falling law to the damping, and infinite
+/// without damping.
 double lawGain(const ReducedModel& model, double h, const std::vector<double>& slopes);
 
-/// Returns the slopes of the coefficients in steady sliding, [node].
+/// Returns the slopes df/d|w| in steady sliding, [node].
 std::vector<double> steadySlopes(const ReducedModel& model);
-/// Returns the steepest slopes between rest and twice the speed of steady sliding: the lowest or
-/// the highest ones.
+/// Returns the extreme slopes df/d|w| between rest and twice the speed of steady sliding, [node]:
+/// the lowest ones if `lowest`, otherwise the highest.
 std::vector<double> steepestSlopes(const ReducedModel& model, bool lowest);
 
 }  // namespace squeal::march

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The scheme of the massless boundary [M.72]: the leapfrog rule for q, the backward Euler rule for
-/// z. A step maps an initial state to the next one. The derivative of this map is available, for
-/// periodic motions and their stability.
+/// z. A step maps its initial state to that of the next step. Periodic motions and their stability
+/// are computed from the derivative of this map.
 #include <vector>
 
 #include "base/checkpoint/archive.hpp"
@@ -21,20 +21,21 @@ void fields(Stream& stream, InitialState& state);
 /// Returns the initial state of the first step, of length h.
 InitialState initialStateAt(const Start& start, double h);
 
-/// Columns of variations of an InitialState.
+/// Variations of an InitialState, one per column.
 struct Variations {
   DenseMatrix q, v, z;  ///< modes × columns, modes × columns, rows × columns
 };
 
 /// In step n,
 ///   K_z z_n + C_z (z_n − z_{n−1})/h + K_zq q_n + C_zq v_{n−1/2} = R*_n,   y_n = j q_n + z_n,
-/// with contact and friction for y_n and y_n − y_{n−1};
-/// then, with v̄_n = (v_{n−1/2} + v_{n+1/2})/2,
+/// where contact and friction impose conditions on y_n and y_n − y_{n−1}. Then
+///   v̄_n = (v_{n−1/2} + v_{n+1/2})/2,
 ///   v_{n+1/2} = v_{n−1/2} + h (jᵀR*_n − Λ q_n − C v̄_n − K_zqᵀ z_n − C_zqᵀ ż_n),
 ///   q_{n+1} = q_n + h v_{n+1/2}.
 class Massless : public Scheme {
  public:
-  /// Borrows the model; h is the time step, s.
+  /// Borrows the model. h is the time step, s. The swept coefficient of friction is that of the
+  /// model plus `sweptChange`.
   Massless(const ReducedModel& model, const InitialState& initial, double h,
            double sweptChange = 0);
   void step() override;
@@ -42,12 +43,14 @@ class Massless : public Scheme {
 
   /// Returns the initial state of the next step.
   InitialState next() const { return {q_, v_, z_}; }
-  /// Sets the accuracy of the contact forces of a step, relative to the mean steady force.
+  /// Sets the accuracy of the contact forces of a step, relative to the mean normal force of steady
+  /// sliding.
   void setAccuracy(double relative);
-  /// Returns the slips that stuck in the last step, [row].
+  /// Returns 1 for each slip that stuck in the last step, otherwise 0, [row].
   std::vector<unsigned char> stuck() const;
-  /// Maps variations of the initial state of the last step to those of the next one. Each node
-  /// stays open, sticking or sliding, and its coefficient of friction is constant.
+  /// Maps variations of the initial state of the last step to the resulting variations of the
+  /// initial state of the next one. It assumes that the variation leaves each node open, sticking
+  /// or sliding, and its coefficient of friction constant.
   void propagate(Variations& x) const;
 
  private:
@@ -68,7 +71,7 @@ class Massless : public Scheme {
   StepSolver solver_;
   DenseMatrix modalInverse_;  // (1 + h C/2)⁻¹
   std::vector<unsigned char> active_;
-  std::vector<double> q_, v_;     // q_n and v_{n−1/2} of the next step
+  std::vector<double> q_, v_;     // q_n and v_{n−1/2}, with n the next step
   std::vector<double> z_, jump_;  // z and y of the last step
   std::vector<double> damped_;    // C_z z
   std::vector<double> before_;    // R of the step before the last one

@@ -5,9 +5,10 @@
 ///   u = u_s + V q + Ψ z,   y = j q + z,
 ///   q̈ + C q̇ + Λ q + K_zqᵀ z + C_zqᵀ ż = jᵀ R*,
 ///   M_z z̈ + C_z ż + K_z z + K_zq q + C_zq q̇ = R*,
-/// with the jump y of gaps and slips and the contact forces R = R_s + R*. The motion of the contact
-/// consists of j q by the modes and of z, which the modes do not contain. Only the scheme of Moreau
-/// and Jean uses M_z. Without M_z the boundary is massless, and an impact has no impulse.
+/// where the jump y contains gaps and slips, and R = R_s + R* are the contact forces. The motion of
+/// the contact consists of j q, which the modes contain, and of z (the boundary), which they do
+/// not. Only the scheme of Moreau and Jean uses M_z. Without M_z the boundary is massless, and a
+/// contact that closes causes no impulse.
 #include <array>
 #include <functional>
 #include <vector>
@@ -21,22 +22,22 @@ namespace squeal::march {
 using linalg::DenseMatrix;
 using mesh::Point;
 
-/// A contact node of the reduced model with its steady state. Its rows of the jump are the gap and
-/// one slip along each tangent, in the coefficients E⁻¹ of contact::Contact.
+/// A contact node of the reduced model with its steady state. Its rows in the jump are the gap and
+/// one slip along each tangent, as coefficients E⁻¹ times nodal values (contact::Contact).
 struct Node {
   int interface = 0;
   Point position{};
   Point normal{};                    ///< unit, from disc to pad
-  std::array<Point, 2> tangents{};   ///< unit; the first along τ if the node slides
+  std::array<Point, 2> tangents{};   ///< unit; if the node slides, the first is τ
   double friction = 0;               ///< coefficient of friction in steady sliding
-  double lawCoefficient = 0;         ///< factor on the friction law; 0: no law applies
-  double frictionSlope = 0;          ///< derivative of `friction` by the sliding speed, s/m
-  double sweptFriction = 0;          ///< derivative of `friction` by the swept coefficient
+  double lawCoefficient = 0;         ///< factor on the friction law φ; 0: no law applies
+  double frictionSlope = 0;          ///< derivative of `friction` with respect to the speed, s/m
+  double sweptFriction = 0;          ///< derivative of `friction` with respect to the swept one
   double area = 0;                   ///< m²
   double gap = 0;                    ///< steady gap, m; 0 if it is closed
   double normalForce = 0;            ///< steady R_N, N, ≥ 0
   std::array<double, 2> shear{};     ///< steady friction force on the pad along the tangents, N
-  std::array<double, 2> velocity{};  ///< steady relative velocity of the pad, m/s; 0: it sticks
+  std::array<double, 2> velocity{};  ///< steady relative velocity of the pad, m/s; 0: sticks
   bool pressed() const { return normalForce > 0; }
   bool hasFriction() const { return friction > 0 || lawCoefficient > 0; }
   bool sticks() const { return velocity[0] == 0 && velocity[1] == 0; }
@@ -53,20 +54,20 @@ struct ReducedModel {
   DenseMatrix boundaryStiffness;  ///< K_z
   DenseMatrix couplingDamping;    ///< C_zq, rows × modes
   DenseMatrix couplingStiffness;  ///< K_zq
-  /// [row] false for a slip that supports hold or without friction: it has no z.
+  /// [row] 0 for a slip without z, because supports hold it or it has no friction; otherwise 1
   std::vector<unsigned char> moves;
-  /// The friction law φ of the sliding speed, m/s; empty: constant coefficients.
+  /// The friction law φ as a function of the sliding speed, m/s; empty: constant coefficients.
   std::function<double(double)> law;
 
   PetscInt modes() const { return std::ssize(stiffness); }
   PetscInt rows() const { return std::ssize(nodes) * dimension; }
 };
 
-/// Not collective. Returns the coefficient of friction of a node at a sliding speed, m/s, with the
-/// swept coefficient of the model plus `sweptChange`.
+/// Not collective. Returns the coefficient of friction of a node at a sliding speed, m/s. The swept
+/// coefficient is that of the model plus `sweptChange`.
 double coefficient(const ReducedModel& model, const Node& node, double speed, double sweptChange);
 
-/// A motion of the linearised model, e^{st} times these amplitudes.
+/// A motion of the linearised model: e^{st} times these amplitudes.
 struct LinearMode {
   Complex s;  ///< 1/s
   std::vector<Complex> q, z;
@@ -74,19 +75,20 @@ struct LinearMode {
   std::vector<Complex> force;  ///< R*, [row]
 };
 
-/// Not collective. Returns the eigenpair of the model linearised about steady sliding, by Newton's
-/// method from s. Closed nodes stay closed, and sliding ones obey
-///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7],
-/// sticking nodes stick, and open nodes are free. Throws Error if the method does not converge.
+/// Not collective. Returns an eigenpair of the model linearised about steady sliding, found by
+/// Newton's method starting from s. In the linearised model, closed nodes stay closed, and sliding
+/// ones obey
+///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7].
+/// Sticking nodes stick, and open nodes are free. Throws Error if the method does not converge.
 /// Throws Interrupted, only on this rank, once stopRequested() is true.
 LinearMode nearestMode(const ReducedModel& model, Complex s,
                        const StopRequested& stopRequested = {});
 
 /// Not collective. Returns the largest step, s, at which the leapfrog rule is stable with all nodes
-/// held: 2/ω of the highest frequency.
+/// held: 2/ω, with ω the highest angular frequency.
 double stableStep(const ReducedModel& model);
-/// Not collective. Returns the largest stable step, s, with all nodes free. More nodes in contact
-/// make the model stiffer, so a longer step is unstable in any state of the contact.
+/// Not collective. Returns the largest stable step, s, with all nodes free. Contact makes the model
+/// stiffer, so a longer step is unstable in every state of the contact.
 double longestStep(const ReducedModel& model);
 
 }  // namespace squeal::march

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The onset of nonlinearity: a growing mode is linear until the first contact node separates or
-/// sticks, or a sticking node slides [M.75].
+/// The onset of nonlinearity. The motion of a growing mode is linear until the first contact node
+/// separates or comes to rest, or a sticking node slides [M.75].
 #include <span>
 #include <string>
 #include <vector>
@@ -24,16 +24,18 @@ const char* text(OnsetEvent event);
 /// The first event of a growing mode u e^{st}.
 struct Onset {
   OnsetEvent event = OnsetEvent::none;
-  double factor = 0;     ///< on the given mode at the event
-  std::size_t node = 0;  ///< of the event, an index into the given nodes
-  double turning = 0;    ///< largest |w*_⊥| / |w| of the sliding nodes, at this factor
+  double factor = 0;     ///< factor on the given mode at which the event occurs
+  std::size_t node = 0;  ///< index of the node of the event among the given nodes
+  double turning = 0;    ///< largest |w*_⊥| / |w| of the sliding nodes at this factor
 };
 
-/// Not collective. Returns the first event: at a closed sliding node, |R_N*| = R_N or |τ·w*| = |w|;
-/// at a sticking node, |R_N*| = R_N or |R_T + R_T*| = f (R_N + R_N*) at some phase.
+/// Not collective. Returns the first event. A closed node opens at |R_N*| = R_N. A sliding node
+/// comes to rest at |τ·w*| = |w|. A sticking node slides when |R_T + R_T*| reaches f (R_N + R_N*)
+/// at some phase.
 Onset firstEvent(std::span<const Node> nodes, std::span<const NodeMotion> motion);
 
-/// Not collective. Returns the amplitudes of a mode of the reduced model.
+/// Not collective. Returns the amplitudes of a mode of the reduced model at its contact nodes,
+/// [node].
 std::vector<NodeMotion> motionAt(const ReducedModel& model, const LinearMode& mode);
 
 /// Returns the largest kinetic energy over a cycle of the mode of the reduced model, J.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Time integration of the reduced model, with the conditions of contact at the end of each step.
+/// Time integration of the reduced model. The conditions of contact are satisfied at the end of
+/// each step.
 #include <memory>
 #include <utility>
 #include <vector>
@@ -15,32 +16,32 @@ struct State {
   double time = 0;            ///< s
   std::vector<double> q, v;   ///< modal coordinates and velocities
   std::vector<double> jump;   ///< y, [row]
-  std::vector<double> rate;   ///< relative velocity w of the contact, including the steady part, in
-                              ///< the slips; rates of the gaps, [row]
+  std::vector<double> rate;   ///< [row] rate of a gap; w of a slip, with its steady part, m/s
   std::vector<double> force;  ///< R, [row], N
   double kinetic = 0;         ///< kinetic energy, J
 };
 
 /// Mechanical work since the start, J.
 struct MechanicalWork {
-  double contact = 0;   ///< of R* on the jump
+  double contact = 0;   ///< work of R* on the jump
   double friction = 0;  ///< heat of friction, −Σ R_T·w
   double damping = 0;   ///< dissipated in materials and dashpots
-  double moved = 0;     ///< sum of |R*·dy|, the scale of the other figures
+  double moved = 0;     ///< sum of |R*·dy|, a scale for the other members
 };
 
 /// A time integration scheme.
 class Scheme {
  public:
   virtual ~Scheme() = default;
-  /// Takes one step. Throws Error if the contact forces do not converge or the motion is not
-  /// finite. Throws Interrupted, only on this rank, once the function of setStop() returns true.
+  /// Computes one step. Throws Error if the contact forces do not converge or the motion is not
+  /// finite. Throws Interrupted, only on this rank, once the function given to setStop() returns
+  /// true.
   virtual void step() = 0;
-  /// Sets the function that requests a stop during a step.
+  /// Sets the function that returns true if a stop is requested during a step.
   void setStop(StopRequested stopRequested) { stopRequested_ = std::move(stopRequested); }
   const State& state() const { return state_; }
   const MechanicalWork& work() const { return work_; }
-  int sweeps() const { return sweeps_; }  ///< of the last step
+  int sweeps() const { return sweeps_; }  ///< Gauss–Seidel sweeps of the last step
   /// Returns the kinetic and elastic energy of the motion about steady sliding, J.
   virtual double energy() const = 0;
   /// Returns d of StepSolver in the last step, [row], m.
@@ -51,8 +52,8 @@ class Scheme {
   double lastDefect() const;
 
  protected:
-  /// The accuracy of the contact forces of a step, relative to the mean steady force. The
-  /// documentation states ten times this value.
+  /// The accuracy of the contact forces of a step, relative to the mean normal force of steady
+  /// sliding. The documentation states ten times this value.
   static constexpr double accuracy = 1e-6;
   /// The swept coefficient of friction is that of the model plus `sweptChange`.
   explicit Scheme(const ReducedModel& model, double sweptChange = 0);
@@ -63,28 +64,28 @@ class Scheme {
   State state_;
   MechanicalWork work_;
   int sweeps_ = 0;
-  double tolerance_;                                              // of the forces, N
-  std::vector<double> friction_;                                  // [node] coefficients of the step
-  std::vector<double> steadyForce_, steadyVelocity_, steadyGap_;  // [row], zero in the other rows
+  double tolerance_;                                              // tolerance of the forces, N
+  std::vector<double> friction_;                                  // [node] coefficients in the step
+  std::vector<double> steadyForce_, steadyVelocity_, steadyGap_;  // [row], zero elsewhere
   std::vector<double> increments_;                                // d of the last step
   std::vector<double> stiffness_;  // [node] weight of gaps in a defect, N/m
   StopRequested stopRequested_;    // empty: never
 };
 
-/// The start of a march: q, z and their rates at one instant, and the accelerations of q (empty:
-/// zero).
+/// The start of a time integration: q, z and their rates at one instant, and the accelerations of q
+/// (empty: zero).
 struct Start {
   std::vector<double> q, v, z, zRate, acceleration = {};
 };
-/// Returns the motion of a linear mode, times this factor, at phase 0.
+/// Returns the motion of a linear mode at phase 0, multiplied by `factor`.
 Start startOn(const LinearMode& mode, double factor);
 
 /// Returns the scheme of the massless boundary (Massless). It borrows the model; h is the time
 /// step, s.
 std::unique_ptr<Scheme> masslessScheme(const ReducedModel& model, const Start& start, double h);
-/// Returns the scheme of Moreau and Jean with θ = 1/2 and with the mass of the boundary [M.73]:
-/// contact conditions on velocities, no restitution. Rows without mass have conditions on
-/// positions.
+/// Returns the scheme of Moreau and Jean with θ = 1/2 and with the mass of the boundary [M.73]. Its
+/// contact conditions apply to velocities, without restitution, except in rows without mass, where
+/// they apply to positions.
 std::unique_ptr<Scheme> moreauScheme(const ReducedModel& model, const Start& start, double h);
 
 }  // namespace squeal::march

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Checks of the settings and marches of the regime stage.
+/// Checks of the settings and of the planned time integrations of the stage `regime`.
 #include <mpi.h>
 
 #include <span>
@@ -13,25 +13,28 @@
 
 namespace squeal::regime {
 
-/// Throws Error for impossible settings of the stage, and for settings of other stages that it does
-/// not support. `terms` is null for matrices from files.
+/// Throws Error for contradictory settings of this stage, and for settings of other stages that
+/// this stage does not support. `terms` is null for matrices from files.
 void checkOptions(const Settings& settings, const pencil::Settings& pencil,
                   const terms::Settings* terms);
 
-/// Throws Error if there is no contact, and for convective terms and prestress, which are not
-/// supported in time.
+/// Throws Error if there is no contact, and for properties that the time integration does not
+/// support: convective terms, prestress, interfaces that cannot separate, and a friction law
+/// together with periodic motions.
 void requireSupported(const Settings& settings, const elasticity::Bodies& bodies,
                       const contact::Contact& contact);
 
-/// Collective. Warns if the time steps exceed the stable one, and if a period has few steps.
+/// Collective. Warns if a time step exceeds `stableStep`, and if a period has fewer steps than the
+/// frames that are wanted.
 void warnAboutSteps(MPI_Comm comm, const Settings& settings, std::span<const Task> tasks,
                     double stableStep);
 
 /// Collective. Warns if the bodies are undamped.
 void warnAboutDamping(const FullModel& full);
 
-/// Collective. Throws Error for a friction law that the slips of a massless boundary cannot follow.
-/// Warns if the law may make them alternate.
+/// Collective. Throws Error if the friction law makes the slips of a massless boundary unstable
+/// (lawGain()). Warns if this may happen near the steepest part of the law, or however short the
+/// time step is.
 void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks);
 
 }  // namespace squeal::regime

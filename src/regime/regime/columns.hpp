@@ -11,7 +11,7 @@
 
 namespace squeal::regime {
 
-/// The number of columns whose products are in memory together.
+/// The number of columns whose products are in memory at the same time.
 inline constexpr PetscInt blockColumns = 64;
 
 /// Collective. Returns a vector that borrows the entries of one column.
@@ -22,7 +22,7 @@ inline OwnedVec borrowedVector(MPI_Comm comm, std::span<const double> column) {
   return vector;
 }
 
-/// Collective. Returns A X; zeros for a null A.
+/// Collective. Returns A X; zeros if A is null.
 inline linalg::Block productOf(Mat a, const linalg::DenseView& x) {
   if (!a) return linalg::Block(x.rows(), x.columns());
   linalg::Block result(x.rows());

@@ -18,21 +18,22 @@ using march::Node;
 /// Collective. Returns the contact nodes of this rank with their steady state.
 std::vector<Node> ownNodes(const contact::Contact& contact, const steady::Solution& solution);
 
-/// Collective. Returns the jumps of nodal displacements, node by node, this rank's nodes. Throws
-/// Interrupted once a stop of the run has been requested.
+/// Collective. Returns the jumps at the contact nodes of this rank, node by node, for the nodal
+/// displacements u. Throws Interrupted once a stop of the run has been requested.
 linalg::DenseMatrix ownJumps(const contact::Contact& contact, const std::vector<Node>& nodes,
                              const linalg::DenseView& u);
 
-/// The contact nodes of all ranks in an order independent of the ranks: by interface, then by
-/// position.
+/// The contact nodes of all ranks in an order that does not depend on the number of ranks: by
+/// interface, then by position.
 class Order {
  public:
   /// Collective.
   Order(MPI_Comm comm, const std::vector<Node>& own);
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// Returns the index of each node on this rank; −1 for a node of another rank.
+  /// Returns the index of each node among the nodes of this rank; −1 for a node of another rank.
   const std::vector<PetscInt>& own() const { return own_; }
-  /// Collective. Returns the rows of all nodes from `perNode` rows for each node of this rank.
+  /// Collective. Returns the rows of all nodes in this order. `own` has `perNode` rows for each
+  /// node of this rank.
   linalg::DenseMatrix gathered(const linalg::DenseView& own, PetscInt perNode) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The periodic motions after flutter, stable or not: by shooting from a march, and by continuation
-/// over the friction [M.77, M.78].
+/// The periodic motions after flutter, stable or not. The first is found by shooting from a time
+/// integration, the others by continuation with friction as the parameter [M.77, M.78].
 #include <string>
 #include <vector>
 
@@ -15,12 +15,12 @@ namespace squeal::regime {
 
 /// A periodic motion.
 struct PeriodicMotion {
-  double friction = 0;  ///< the swept coefficient
+  double friction = 0;  ///< swept coefficient of friction
   double period = 0;    ///< s
   bool converged = false;
-  double change = 0;  ///< over a period, at the end of Newton's method
+  double change = 0;  ///< relative change over a period after Newton's method
   cycles::Measures measures;
-  /// By descending modulus, all above a tenth; empty unless it has converged.
+  /// The multipliers with a modulus of at least 0.1, by descending modulus; empty unless converged.
   cycles::Multipliers multipliers;
   Complex trivialMultiplier() const { return multipliers.values[multipliers.trivial]; }
   /// Returns the largest multiplier except the trivial one; 0 if there is none.
@@ -28,16 +28,17 @@ struct PeriodicMotion {
   bool stable() const { return std::abs(largestMultiplier()) < 1; }
 };
 
-/// The periodic motions from one march.
+/// The periodic motions found from one time integration.
 struct Cycles {
-  std::vector<PeriodicMotion> motions;  ///< the first at the friction of the march, then the branch
-  /// The branch from the first motion towards smaller and towards larger friction.
+  std::vector<PeriodicMotion> motions;  ///< first the one found by shooting, then the branch
+  /// The two parts of the branch: from the first motion towards smaller and towards larger
+  /// friction.
   std::vector<cycles::Route> routes;
-  /// The error that ended the search, with option and remedy; empty: none.
+  /// The error that ended the search, with the option and the remedy; empty: none.
   std::string failure;
 };
 
-/// Stores the passes of a march through a section, window by window.
+/// Stores the passes of a time integration through a section, window by window.
 class SectionRecord {
  public:
   /// Borrows the model.
@@ -53,15 +54,15 @@ class SectionRecord {
   std::vector<cycles::Passes> windows_;
 };
 
-/// The start of shooting.
+/// The data from which shooting starts.
 struct CycleStart {
-  double friction = 0;           ///< at which the model was made
-  const cycles::Passes& passes;  ///< of a march; borrowed
-  double step = 0;               ///< of that march, s
+  double friction = 0;           ///< friction at which the model was made
+  const cycles::Passes& passes;  ///< passes of a time integration; borrowed
+  double step = 0;               ///< its time step, s
 };
 
-/// Collective. Returns the periodic motions of the model. An Error ends the search and is returned
-/// in the result.
+/// Collective. Returns the periodic motions of the model. An Error ends the search, and its message
+/// is returned in Cycles::failure.
 Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, const CycleSettings& settings,
                   const CycleStart& start, Stage& stage);
 

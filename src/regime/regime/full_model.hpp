@@ -11,7 +11,8 @@ namespace squeal::regime {
 struct FullModel {
   const elasticity::Bodies& bodies;
   const contact::Contact& contact;
-  /// K0 with all nodes closed and held; it solves for the static responses.
+  /// The system with all contact nodes closed and held. Its K0 is used to solve for the static
+  /// responses.
   const contact::CoupledSystem& closed;
   const steady::Solution& solution;
   double damping = 1;  ///< factor on the damping of the bodies

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The record of a march: averages over windows of cycles, the spectrum, and the resulting kind of
-/// regime [M.74].
+/// The record of a time integration: averages over windows of cycles, the spectrum, and the
+/// resulting kind of regime [M.74].
 #include <span>
 #include <vector>
 
@@ -14,32 +14,32 @@
 
 namespace squeal::regime {
 
-/// The kind of the motion at the end of a march.
+/// The kind of the motion at the end of a time integration.
 enum class Kind {
-  unmeasured,  ///< the march ended before its first window
+  unmeasured,  ///< the time integration ended before its first window
   growing,     ///< linear growth: no node has separated or stuck
-  steady,      ///< it has decayed
-  periodic,    ///< all cycles are equal
-  modulated,   ///< cycles differ, and their differences repeat
-  irregular    ///< cycles differ without repetition
+  steady,      ///< the motion has decayed
+  periodic,    ///< the peaks of all cycles are equal
+  modulated,   ///< the peaks of the cycles differ, and their differences repeat
+  irregular    ///< the peaks differ without repetition
 };
 const char* text(Kind kind);
 
-/// The result of a march; without measurements, only the duration is set.
+/// The result of a time integration. If the kind is `unmeasured`, only the duration is set.
 struct Regime {
   Kind kind = Kind::unmeasured;
   bool measured() const { return kind != Kind::unmeasured; }
-  bool settled = false;        ///< means and peaks no longer change from window to window
+  bool settled = false;        ///< the motion has decayed, or its means no longer change
   double duration = 0;         ///< s
-  double carrier = 0;          ///< Hz
-  double modulation = 0;       ///< Hz; 0: none
-  double growth = 0;           ///< measured in the linear range, 1/s; NaN: too short
-  double peakDeviation = 0;    ///< standard deviation of the peaks of the cycles over their mean
+  double carrier = 0;          ///< strongest frequency, Hz
+  double modulation = 0;       ///< frequency of the modulation, Hz; 0: none
+  double growth = 0;           ///< growth rate in the linear range, 1/s; NaN: too few cycles
+  double peakDeviation = 0;    ///< standard deviation of the cycles' peaks / their mean
   double largestKinetic = 0;   ///< J
-  double largestVelocity = 0;  ///< of a slip, about steady sliding, m/s
+  double largestVelocity = 0;  ///< of a slip, relative to steady sliding, m/s
   double largestJump = 0;      ///< change of a gap, m
-  double largestDefect = 0;    ///< of contact and friction in any step, over the mean force
-  double imbalance = 0;        ///< of energy, over the work of the contact forces
+  double largestDefect = 0;    ///< Scheme::lastDefect() of any step / mean normal force
+  double imbalance = 0;        ///< error of the energy balance / MechanicalWork::moved
   Means means;                 ///< over the last two thirds of the nonlinear motion
   std::vector<NodeMeans> nodes;
   std::vector<double> cyclePeaks;  ///< [cycle] largest kinetic energy, J
@@ -49,17 +49,18 @@ struct Regime {
 /// Writes or reads the regime.
 void fields(Stream& stream, Regime& regime);
 
-/// The largest kinetic energies of the cycles of a march, J.
+/// The largest kinetic energy of each cycle of a time integration, J.
 class CyclePeaks {
  public:
-  /// The period of a cycle, s.
+  /// `period` is the period of a cycle, s.
   explicit CyclePeaks(double period) : period_(period), end_(period) {}
   /// Returns the end of the current cycle, s.
   double end() const { return end_; }
   void add(double kinetic);
   void endCycle();
   const std::vector<double>& values() const { return values_; }
-  /// Returns the growth rate of the first cycles, up to a level, J; NaN for fewer than four.
+  /// Returns the growth rate over the first cycles, up to the first one that reaches `level`, J;
+  /// NaN for fewer than four cycles.
   double growthBelow(double level) const;
 
  private:
@@ -67,27 +68,28 @@ class CyclePeaks {
   std::vector<double> values_, times_;
 };
 
-/// The record of a march, step by step.
+/// Records a time integration, step by step.
 class Recorder {
  public:
-  /// The motion starts on a mode u e^{st}, whose period defines the cycles. Its first event is at
-  /// the kinetic energy `linearTo`, J.
+  /// The motion starts on a mode u e^{st}, whose period defines the cycles. The first event of this
+  /// mode occurs at the kinetic energy `linearTo`, J.
   Recorder(const ReducedModel& model, Complex s, double step, double linearTo);
   void inspect(const Scheme& scheme);
-  /// Returns true once a window has ended since the last call.
+  /// Returns true if a window has ended since the last call.
   bool windowEnded();
-  /// Returns true if the regime has settled, or the motion has decayed.
+  /// Returns true if the means no longer change, or if the motion has decayed.
   bool settled() const;
   int cycles() const { return std::ssize(peaks_.values()); }
-  /// Returns the number of latest windows for the averages: two thirds of the windows since the
-  /// last linear one.
+  /// Returns the number of latest windows that are averaged: two thirds of the windows after the
+  /// last linear one, or one if the last window is linear.
   std::size_t windowsUsed() const;
-  /// Throws Interrupted, only on this rank, once stopRequested() is true.
+  /// Returns the result so far. Throws Interrupted, only on this rank, once stopRequested() is
+  /// true.
   Regime result(const Scheme& scheme, const StopRequested& stopRequested = {}) const;
-  /// Returns the modal velocities of the spectrum, samples × modes.
+  /// Returns the modal velocities from which the spectrum is computed, samples × modes.
   DenseMatrix velocities() const { return signals_.latest(samplesUsed()); }
   double sampleTime() const { return signals_.sampleTime(); }
-  /// The number of cycles of a window.
+  /// The number of cycles in a window.
   static constexpr int windowCycles = 32;
 
  private:

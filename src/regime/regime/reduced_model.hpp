@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Reduction of the finite elements to the model of the regime [M.70]. V contains free modes and
-/// the unstable modes. Ψ contains the static responses to gaps and to tangential forces at the
+/// Reduction of the finite element model for the motion after flutter [M.70]. V contains free modes
+/// and the unstable modes. Ψ contains the static responses to gaps and to tangential forces at the
 /// contact, M-orthogonal to V and scaled to unit jumps.
 #include "algebra/linalg/block.hpp"
 #include "regime/march/model.hpp"
@@ -12,19 +12,19 @@ namespace squeal::regime {
 using march::Node;
 using march::ReducedModel;
 
-/// A reduced model, the same on all ranks, and its displacements of the mesh.
+/// A reduced model, the same on all ranks, and its vectors as displacements of the mesh.
 struct Reduction {
   ReducedModel model;
-  linalg::Block modes;      ///< V, nodal displacements, this rank's rows
-  linalg::Block responses;  ///< Ψ, as V
-  /// [node of the model] its index among the contact nodes of this rank; −1 on other ranks
+  linalg::Block modes;      ///< V, columns of nodal displacements, this rank's rows
+  linalg::Block responses;  ///< Ψ, likewise
+  /// [node of the model] its index among the contact nodes of this rank; −1 if another rank has it
   std::vector<PetscInt> contactNode;
 };
 
-/// Collective. Returns the reduced model. `free` are the free modes, `unstable` are the real and
-/// imaginary parts of the unstable modes, nodal displacements, this rank's rows. Throws Error if
-/// the modes contain the whole motion of the contact, which leaves no massless part. Throws
-/// Interrupted once a stop of the run has been requested.
+/// Collective. Returns the reduced model. The columns of `free` are the free modes, those of
+/// `unstable` the real and imaginary parts of the unstable modes; both contain nodal displacements,
+/// this rank's rows. Throws Error if the modes represent the whole motion of the contact, so that
+/// no massless part remains. Throws Interrupted once a stop of the run has been requested.
 Reduction reduce(const FullModel& full, linalg::Block free, const linalg::Block& unstable);
 
 }  // namespace squeal::regime

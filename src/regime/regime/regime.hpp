@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The motion after flutter [§ 17]: time integration from a growing unstable mode, on a reduced
-/// model with stick, slip and separation at every contact node, and the kind of the motion.
+/// The motion after flutter [§ 17]. A reduced model with stick, slip and separation at every
+/// contact node is integrated in time, starting on an unstable mode. The resulting motion is
+/// classified.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -18,40 +19,41 @@
 
 namespace squeal::regime {
 
-/// One march from one start.
+/// One time integration from one start.
 struct Run {
   std::string start;          ///< the number of the unstable mode, or "all"
-  Complex s;                  ///< of the mode, or of the fastest growing one
-  std::string failure;        ///< the reason if nothing was measured; empty: none
-  Onset onset;                ///< first contact node that separates, sticks or slides
+  Complex s;                  ///< eigenvalue of the mode; for "all" that of the fastest growing one
+  std::string failure;        ///< why nothing was measured; empty: no failure
+  Onset onset;                ///< first separation, stick or slip of a contact node
   Point onsetPosition{};      ///< m
   double onsetKinetic = NAN;  ///< largest kinetic energy over a cycle there, J; NaN: not known
   double step = NAN;          ///< s; NaN: not known
   Regime regime;
-  Cycles cycles;  ///< with `-regime_cycle`
+  Cycles cycles;  ///< periodic motions (`-regime_cycle`)
   sound::VisibleSurface surface;
 };
 
 /// The results at one point of the sweep.
 struct Study {
   sweep::Parameters at;
-  int unstable = 0;          ///< modes that are unstable there
-  int modes = 0, rows = 0;   ///< of the reduced model, its contact rows; 0: no such model
-  double modelError = NAN;   ///< largest |δs|/|s| of its eigenvalues from the certified ones
-  double stableStep = 0;     ///< with all contact nodes held, s
-  double steadyPower = NAN;  ///< heat of friction of steady sliding, W
+  int unstable = 0;         ///< number of unstable modes there
+  int modes = 0, rows = 0;  ///< numbers of modes and contact rows of the reduced model; 0: no model
+  double modelError = NAN;  ///< largest |δs|/|s| of its eigenvalues from the certified ones
+  double stableStep = 0;    ///< stable time step with all contact nodes held, s
+  double steadyPower = NAN;  ///< friction power of steady sliding, W
   std::vector<Node> nodes;
-  /// [node] its index among the contact nodes of this rank; −1 on other ranks
+  /// [node] its index among the contact nodes of this rank; −1 if another rank has it
   std::vector<PetscInt> contactNode;
-  std::vector<Run> runs;  ///< of all starts
-  /// Failures at the point, already printed, each with the names of point and start and the remedy.
+  std::vector<Run> runs;  ///< one per start
+  /// Failures at the point, which have already been printed. Each names the point, the start and
+  /// the remedy.
   std::vector<std::string> failures;
 };
 
-/// Collective. Returns the regime at one point. `free` contains the free modes as nodal
-/// displacements, this rank's rows; `modes` contains the shapes of the unstable modes. An Error,
-/// for example if the reduced model does not reproduce the certified eigenvalues, counts as a
-/// failure of the point or of one start: it is printed and returned, not thrown. Throws Interrupted
+/// Collective. Returns the motion after flutter at one point. `free` contains the free modes as
+/// nodal displacements, this rank's rows; `modes` contains the shapes of the unstable modes. An
+/// Error, for example if the reduced model does not reproduce the certified eigenvalues, is not
+/// thrown: it is printed and returned as a failure of the point or of one start. Throws Interrupted
 /// within a second of a request to stop.
 Study study(const FullModel& full, const Settings& settings, linalg::Block free,
             const pencil::ComplexModes& modes);

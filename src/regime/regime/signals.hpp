@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Samples of the modal velocities of a march, and their spectrum.
+/// Samples of the modal velocities of a time integration, and their spectrum.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
@@ -9,26 +9,28 @@ namespace squeal::regime {
 
 using linalg::DenseMatrix;
 
-/// One line of a spectrum: amplitudes of velocity, 0 to peak.
+/// One line of a spectrum, with the amplitude of the velocity (0 to peak). A quarter of the square
+/// of `whole` is the mean kinetic energy of the line.
 struct SpectralLine {
   double frequency = 0;  ///< Hz
-  double whole = 0;      ///< √(2 kinetic energy / mass of the model), m/s·√kg
+  double whole = 0;      ///< mass-weighted amplitude of the whole model, √kg·m/s
 };
 
 /// Stores the latest samples of the modal velocities.
 class ModalSignals {
  public:
-  /// `period` is the period of a mode, s, and `step` the time step of the march, s.
+  /// `period` is the period of a mode, s, and `step` the time step, s.
   ModalSignals(PetscInt modes, double period, double step);
   /// Call it with the modal velocities after each step.
   void add(const std::vector<double>& velocities);
-  /// Returns the interval of the samples, s.
+  /// Returns the time between samples, s.
   double sampleTime() const { return stride_ * step_; }
-  /// Returns the number of samples in the latest `time`, s; 0 if they are too few for a spectrum.
+  /// Returns the number of stored samples within the latest `time`, s; 0 if they are too few for a
+  /// spectrum.
   std::size_t count(double time) const;
   /// Returns the latest `count` samples, samples × modes.
   DenseMatrix latest(std::size_t count) const;
-  /// Returns the spectrum of the latest `count` samples, the sum over the modes.
+  /// Returns the spectrum of the latest `count` samples, with the squares of all modes added.
   std::vector<SpectralLine> spectrum(std::size_t count) const;
   /// Returns the frequency of the largest line of the spectrum, Hz.
   double carrier(std::size_t count) const;
@@ -36,7 +38,7 @@ class ModalSignals {
  private:
   std::vector<double> power(std::size_t count) const;
 
-  std::vector<std::vector<double>> signals_;  // [mode] velocities, every `stride_` steps
+  std::vector<std::vector<double>> signals_;  // [mode] velocity at every `stride_`-th step
   double step_;
   int stride_;
   long seen_ = 0;

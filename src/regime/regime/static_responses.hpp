@@ -17,8 +17,9 @@ class StaticResponses {
  public:
   /// Collective. Borrows the model; `own` are the contact nodes of this rank.
   StaticResponses(const FullModel& full, const std::vector<Node>& own);
-  /// Collective. Returns the responses of the nodes in the given order, nodal displacements: to a
-  /// unit gap, and along each tangent to a unit force or, for a held node, to a unit slip.
+  /// Collective. Returns the static responses as nodal displacements, for the nodes in the given
+  /// order. Each node has the response to a unit gap and, for each tangent, that to a unit force
+  /// along it or, if the node is held, to a unit slip.
   linalg::Block all(const std::vector<PetscInt>& order) const;
 
  private:

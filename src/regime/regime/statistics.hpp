@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Statistics of the cycles of a march.
+/// Statistics of the cycles of a time integration.
 #include <cstddef>
 #include <span>
 
@@ -10,8 +10,8 @@ namespace squeal::regime {
 double mean(std::span<const double> x);
 /// Returns the standard deviation; 0 for no values.
 double deviation(std::span<const double> x);
-/// Returns the index of the largest entry from `first` on, refined by a parabola through the
-/// logarithms of its neighbours.
+/// Returns the place of the maximum at or after the index `first`, interpolated by a parabola
+/// through the logarithms of the largest entry and its two neighbours.
 double peakPlace(std::span<const double> power, std::size_t first);
 
 }  // namespace squeal::regime

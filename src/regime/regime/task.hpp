@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The marches of one point of the sweep: their starts, steps and times, and the bounds on these
-/// [§ 17].
+/// The planned time integrations of one point of the sweep: their starts, time steps and durations,
+/// and the bounds on these [§ 17].
 #include <span>
 #include <string>
 #include <vector>
@@ -15,31 +15,34 @@ using march::LinearMode;
 using march::Onset;
 using march::ReducedModel;
 
-/// A planned march.
+/// A planned time integration.
 struct Task {
   std::string start = {};  ///< the number of the unstable mode, or "all"
-  LinearMode mode = {};    ///< scaled to its onset
+  LinearMode mode = {};    ///< scaled to the amplitude of its onset
   Onset onset = {};
-  double shortestPeriod = 0;  ///< of its modes, s
-  double step = 0, time = 0;  ///< s
-  std::string failure = {};   ///< the reason to omit it; empty: none
+  double shortestPeriod = 0;  ///< shortest period of its modes, s
+  double step = 0, time = 0;  ///< time step and maximum time, s
+  std::string failure = {};   ///< why it is omitted or has failed; empty: no failure
 };
 
 /// An unstable mode of the reduced model.
 struct NumberedMode {
-  std::size_t number = 0;  ///< among the eigenvalues of the point, from 1
+  std::size_t number = 0;  ///< number among the eigenvalues of the point, from 1
   LinearMode mode;
 };
 
-/// Throws Error if step and time are given and need more steps than a march may have.
+/// Throws Error if both step and time are given and their ratio exceeds the largest number of
+/// steps.
 void checkSteps(const MarchSettings& settings);
 
-/// Returns the names of the starts on modes of these numbers, the fastest growing one first.
+/// Returns the names of the starts on the modes with these numbers. The numbers must be ordered by
+/// growth rate, the fastest growing mode first.
 std::vector<std::string> startsOn(std::span<const std::size_t> numbers, Starts starts);
 
-/// Not collective. Returns the marches that start on these modes, the fastest growing one first.
-/// `stableStep` is that of the model with all nodes held, s. Sets the failure of a march whose mode
-/// does not oscillate or never separates or sticks, or whose step or time violates a bound.
+/// Not collective. Returns the time integrations that start on these modes, which must be ordered
+/// with the fastest growing one first. `stableStep` is the stable step of the model with all nodes
+/// held, s. Sets Task::failure if the mode does not oscillate, if it makes no node separate, stick
+/// or slide, or if step or time violate a bound.
 std::vector<Task> tasksOn(const ReducedModel& model, const MarchSettings& settings,
                           std::span<const NumberedMode> modes, double stableStep);
 

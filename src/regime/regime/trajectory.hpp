@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Marches of a reduced model, each by one rank, and their records [M.72–M.74].
+/// The time integrations of a reduced model and their records [M.72–M.74]. Each is computed by one
+/// rank.
 #include <mpi.h>
 
 #include <vector>
@@ -14,19 +15,20 @@
 
 namespace squeal::regime {
 
-/// The result of a march.
+/// The result of a time integration.
 struct Trajectory {
   Regime regime;
-  cycles::Passes passes;  ///< if periodic motions are computed
-  sound::Trace trace;     ///< on the rank that marched
+  cycles::Passes passes;  ///< set if periodic motions are computed
+  sound::Trace trace;     ///< only on the rank that computed it
 };
 
-/// Returns the rank that marches the task of this index.
+/// Returns the rank that computes the task with this index.
 int rankOf(MPI_Comm comm, std::size_t task);
 
-/// Collective. Computes the marches of the tasks without a failure. Returns the results on all
-/// ranks, [task], empty for failed tasks; a trace is on the rank that marched. Sets the failures of
-/// marches that end with an Error or without a measurement.
+/// Collective. Computes the time integrations of those tasks that have no failure. Returns the
+/// results on all ranks, [task], empty for failed tasks; only Trajectory::trace stays on the rank
+/// that computed it. Sets Task::failure if a time integration ends with an Error or before its
+/// first window.
 std::vector<Trajectory> trajectories(MPI_Comm comm, const ReducedModel& model,
                                      const Settings& settings, std::vector<Task>& tasks,
                                      Stage& stage);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Averages of a march over windows of cycles [M.74].
+/// Averages of a time integration over windows of cycles [M.74].
 #include <vector>
 
 #include "regime/march/model.hpp"
@@ -13,18 +13,18 @@ using march::Scheme;
 
 /// Averages over a span of time.
 struct Means {
-  double from = 0, to = 0;         ///< s
+  double from = 0, to = 0;         ///< begin and end, s
   double kinetic = 0;              ///< mean kinetic energy, J
   double peakKinetic = 0;          ///< mean of the largest kinetic energies of the cycles, J
   double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N of all sliding interfaces
   double frictionPower = 0;        ///< −Σ R_T·w, W
-  double open = 0, sticking = 0;   ///< mean numbers of open and of sticking nodes
-  bool linear = true;              ///< each node has stayed in its state of steady sliding
+  double open = 0, sticking = 0;   ///< mean numbers of open and sticking nodes
+  bool linear = true;  ///< each node stays open, sticking or sliding as in steady sliding
 };
 
 /// Averages of one node over the same span.
 struct NodeMeans {
-  double open = 0, stick = 0, slip = 0;  ///< fractions of the time
+  double open = 0, stick = 0, slip = 0;  ///< fractions of the time in these states
   double pressure = 0;                   ///< mean, Pa
   double largestGap = 0;                 ///< m
   double power = 0;                      ///< heat of friction, W
@@ -34,11 +34,11 @@ struct NodeMeans {
 struct Window {
   Means means;
   std::vector<NodeMeans> nodes;
-  double largestVelocity = 0;  ///< of a slip, about steady sliding, m/s
+  double largestVelocity = 0;  ///< of a slip, relative to steady sliding, m/s
   double largestJump = 0;      ///< change of a gap, m
 };
 
-/// Accumulates the averages of a march, window by window.
+/// Accumulates the averages of a time integration, window by window.
 class WindowRecorder {
  public:
   /// Borrows the model.
@@ -58,8 +58,8 @@ class WindowRecorder {
   const ReducedModel& model_;
   double meanForce_ = 0;
   std::vector<Window> windows_;
-  Window window_;   // the current one
-  long steps_ = 0;  // in it
+  Window window_;   // the current window
+  long steps_ = 0;  // steps in the current window
   double normalSum_ = 0, alongSum_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The recent history of a march, for displacements at its end.
+/// The recent history of a time integration, from which the displacements of the latest cycles
+/// follow.
 #include <deque>
 #include <vector>
 
@@ -18,15 +19,15 @@ using march::Scheme;
 /// The motion at one instant, in the coordinates of the reduced model.
 struct Sample {
   double time = 0;            ///< s
-  std::vector<double> q, z;   ///< of modes and of static responses
+  std::vector<double> q, z;   ///< coordinates of the modes and of the static responses
   std::vector<double> gap;    ///< [node], including the steady gap, m
   std::vector<double> force;  ///< R_N, [node], N
 };
 
-/// The history of a march, on the rank that computed it.
+/// The history of a time integration. Only the rank that computed it has the content.
 struct Trace {
-  DenseMatrix velocities;       ///< of the modes, samples × modes
-  double sampleTime = 0;        ///< interval of these samples, s
+  DenseMatrix velocities;       ///< modal velocities, samples × modes
+  double sampleTime = 0;        ///< time between these samples, s
   std::vector<Sample> samples;  ///< of the latest cycles
 };
 
@@ -36,19 +37,18 @@ void fields(Stream& stream, Sample& sample);
 /// Stores the samples of the latest `-regime_cycles_kept` periods.
 class RecentHistory {
  public:
-  /// `period` is the period of a mode, s, and `step` the time step of the march, s. Borrows the
-  /// model.
+  /// `period` is the period of the mode, s, and `step` the time step, s. Borrows the model.
   RecentHistory(const ReducedModel& model, const Settings& settings, double period, double step);
   void inspect(const Scheme& scheme);
-  /// Returns the samples in the order of time. They span a whole number of periods, within a time
-  /// step; fewer periods if the march was shorter.
+  /// Returns the samples in the order of time. They span a whole number of periods, to within a
+  /// time step, and fewer periods if the time integration was too short.
   std::vector<Sample> samples() const;
 
  private:
   const ReducedModel& model_;
-  int frames_;  // of a period
+  int frames_;  // number per period
   long most_;
-  double interval_, next_;  // between frames, and the time of the next frame, s
+  double interval_, next_;  // time between frames, and time of the next frame, s
   std::deque<march::State> states_;
 };
 

@@ -12,16 +12,18 @@ namespace squeal::sound {
 using mesh::Point;
 
 struct RadiatingSurface {
-  double area = 0;  ///< m² (m in the plane), of all ranks
-  /// ∫ (n·eᵢ φ_a)(n·eⱼ φ_b) dA over the surface, N×N: ∫ v_n² dA is its quadratic form in v
+  double area = 0;  ///< total over all ranks, m² (m in plane problems)
+  /// ∫ (n·eᵢ φ_a)(n·eⱼ φ_b) dA over the surface, N×N, with N = dimension · nodes. Its quadratic
+  /// form in the nodal velocities v is ∫ v_n² dA.
   OwnedMat normalMass;
-  /// [owned node] unit outward normal, the mean over the faces at the node; zero off the surface
+  /// [owned node] unit outward normal, averaged over the faces at the node; zero if the node is not
+  /// on the surface
   std::vector<Point> normals;
   bool has(PetscInt node) const { return mesh::Point{} != normals[node]; }
 };
 
-/// Collective. Returns the visible surface. A face is in contact, or tied, if all its nodes belong
-/// to one interface, as slaves or masters, closed or open.
+/// Collective. Returns the visible surface. A face is regarded as in contact, or tied, if all its
+/// nodes belong to one interface, as slaves or masters, closed or open.
 RadiatingSurface radiatingSurface(const mesh::Mesh& mesh, const contact::Contact& contact);
 
 }  // namespace squeal::sound

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The visible surface of the bodies in a regime [M.76]: its radiated sound, velocity spectra at
-/// its points, and displacements of the latest cycles.
+/// The motion of the visible surface of the bodies after flutter [M.76]: the radiated sound,
+/// velocity spectra at points of the surface, and the displacements of the latest cycles.
 #include <array>
 #include <cmath>
 #include <span>
@@ -18,24 +18,26 @@ namespace squeal::sound {
 
 /// An estimate of the sound power; NaN without samples or without a visible surface.
 struct Sound {
-  double meanSquareVelocity = NAN;  ///< ⟨v_n²⟩ over the surface and the time, m²/s²
-  double area = NAN;                ///< of the visible surface, m² (m in the plane)
-  double power = NAN;               ///< ρc S ⟨v_n²⟩, W (W/m in the plane)
+  double meanSquareVelocity = NAN;  ///< ⟨v_n²⟩, the mean over surface and time, m²/s²
+  double area = NAN;                ///< S, area of the visible surface, m² (m in plane problems)
+  double power = NAN;               ///< ρc S ⟨v_n²⟩, W (W/m in plane problems)
   double level = NAN;               ///< dB re 1e-12 W
 };
 
-/// The amplitudes of one line: components x, y, z and the one along the normal, 0 to peak, m/s.
+/// The velocity amplitudes of one spectral line: components along x, y, z and along the normal, 0
+/// to peak, m/s.
 using Amplitudes = std::array<double, 4>;
 
-/// A node of the visible surface with a velocity spectrum, as from a laser vibrometer.
+/// A node of the visible surface with a velocity spectrum, as a laser vibrometer would measure it.
 struct SpectrumPoint {
   std::string name = {};  ///< "largest", or "1", "2", … of -regime_spectrum_points
   Point position{}, normal{};
-  double meanSquareVelocity = 0;           ///< of all components, m²/s²
-  std::vector<Amplitudes> amplitude = {};  ///< [line] by frequency, as in amplitudes()
+  double meanSquareVelocity = 0;           ///< sum over the components, m²/s²
+  std::vector<Amplitudes> amplitude = {};  ///< [line], with the frequencies of amplitudes()
 };
 
-/// The motion of the latest cycles about steady sliding.
+/// The motion of the latest cycles, relative to steady sliding except for the total gap and
+/// pressure.
 struct Frames {
   std::vector<double> time;                   ///< [frame] s
   linalg::Block displacement;                 ///< V q + Ψ z, [frame], this rank's rows, m
@@ -49,25 +51,26 @@ struct VisibleSurface {
   Frames frames = {};
 };
 
-/// The displacements of the mesh in a reduced model; all members are borrowed.
+/// The vectors of nodal displacements in a reduced model; all members are borrowed.
 struct Shapes {
-  const linalg::Block& modes;      ///< V, nodal displacements, this rank's rows
-  const linalg::Block& responses;  ///< Ψ, as V
-  /// [node of the model] its index among the contact nodes of this rank; −1 on other ranks
+  const linalg::Block& modes;      ///< V, columns of nodal displacements, this rank's rows
+  const linalg::Block& responses;  ///< Ψ, likewise
+  /// [node of the model] its index among the contact nodes of this rank; −1 if another rank has it
   const std::vector<PetscInt>& contactNode;
 };
 
-/// Computes the motion of the visible surface in marches of one reduced model. All methods are
-/// collective.
+/// Computes the motion of the visible surface from time integrations of one reduced model. All
+/// methods are collective.
 class Observer {
  public:
   /// Borrows the contact.
   Observer(const contact::Contact& contact, const Shapes& shapes, const Settings& settings);
-  /// Returns the results of a march with its trace on the rank `root`.
+  /// Returns the results for the time integration that the rank `root` computed. `trace` is its
+  /// history, which is used only on that rank.
   VisibleSurface of(int root, const Trace& trace) const;
 
  private:
-  /// A node of the surface; the candidate with the smallest measure on all ranks is chosen.
+  /// A node of the surface. The candidate with the smallest `measure` on all ranks is chosen.
   struct Candidate {
     double measure;
     Point position{};
@@ -92,7 +95,7 @@ class Observer {
   Shapes shapes_;
   Settings settings_;
   RadiatingSurface surface_;
-  DenseMatrix radiation_;  // ∫ (n·φ_i)(n·φ_j) dA of the modes
+  DenseMatrix radiation_;  // ∫ (n·φ_i)(n·φ_j) dA of the modes φ
 };
 
 }  // namespace squeal::sound

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The whole analysis, from the input to the motion after the onset of flutter. Reports take their
-/// results from here.
+/// The whole analysis, from the input to the motion after flutter. The reports are made from its
+/// results.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -24,26 +24,26 @@ struct Analysis {
   Settings settings;
   sweep::Sweep sweep;
   Model model;                        ///< empty for matrices from files
-  std::optional<audit::Audit> audit;  ///< of the model; empty if it is not wanted
+  std::optional<audit::Audit> audit;  ///< of the model; none if it is not wanted
   SteadyStates steady;                ///< empty for matrices from files
   UniquenessStudy uniqueness;         ///< of the steady states
   Flutter flutter;
-  std::optional<JudgedList> judged;  ///< the list of `-referee_list` and its judgement
+  std::optional<JudgedList> judged;  ///< list of `-referee_list` with its judgement
   checkpoint::Checkpoint checkpoint;
 
-  /// Returns true if the run has been asked to stop before it had all results.
+  /// Returns true if a stop was requested before the run had all results.
   bool interrupted() const { return !(steady.complete && uniqueness.complete && flutter.complete); }
-  /// Returns true if every steady point has a solution (always so for matrices from files) and no
-  /// later stage has failed.
+  /// Returns true if every steady point has a solution (there are no such points for matrices from
+  /// files) and no later stage has failed.
   bool converged() const;
-  /// Returns the complex modes at a point of the sweep, borrowed; null if it has no steady state.
+  /// Returns the complex modes at a point of the sweep, borrowed; null if the point has none.
   const pencil::ComplexModes* pointAt(const sweep::Parameters& at) const;
 };
 
-/// Collective. Runs all stages that the settings request and returns their results; if the run is
-/// asked to stop, those obtained so far. Checkpoints are written to `checkpointFolder`; if it is
-/// empty, none is written. `reportedModes` is the number of free modes whose shapes are reported.
-/// Throws Error under the conditions that the stages and the checkpoint document.
+/// Collective. Runs all stages that the settings request, and returns their results. If a stop is
+/// requested, returns the results obtained so far. Checkpoints are written to `checkpointFolder`;
+/// if this is empty, none is written. `reportedModes` is the number of free modes whose shapes are
+/// reported. Throws Error under the conditions that the stages and the checkpoint document.
 Analysis analyse(MPI_Comm comm, const Settings& settings,
                  const std::filesystem::path& checkpointFolder = {}, int reportedModes = 10);
 

@@ -12,17 +12,19 @@
 namespace squeal::analysis {
 
 /// Solves the steady points in batches with the factorisation of the closed contact, and follows
-/// the contact between neighbouring points. All members are collective.
+/// the changes of contact between neighbouring points. All members are collective.
 class CondensedSweep {
  public:
   /// Collective. Borrows all arguments during the lifetime of the object. During this time, do not
-  /// request another active set from `current`. `states` has the states of the first points.
+  /// request another active set from `current`. `states` contains the states of the leading points
+  /// that are already known.
   CondensedSweep(const SteadyInput& input, CurrentSystem& current, SteadyStates& states);
-  /// Adds the missing states, and the path between them, and logs them.
+  /// Adds the missing states and the path between them, and writes both to the log.
   void solve(StateLog& log);
 
  private:
-  /// The path to a steady point from its neighbour, by their numbers.
+  /// A pair of neighbouring steady points, by their indices. The path leads from the first to the
+  /// second.
   struct Step {
     std::size_t from, to;
   };
@@ -44,7 +46,7 @@ class CondensedSweep {
   const MPI_Comm comm_;
   const steady::Problem problem_;
   CurrentSystem& current_;
-  const contact::CoupledSystem& closed_;  // with all contact nodes closed
+  const contact::CoupledSystem& closed_;  // system with all contact nodes closed
   const bool isExact_;                    // solutions between points are exact without corrections
   std::optional<condensed::CondensedProblem> condensed_;
   SteadyStates& states_;

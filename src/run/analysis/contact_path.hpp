@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The contact nodes of all ranks that open and close between the points of a sweep.
+/// The changes of the contact nodes of all ranks between the points of a sweep.
 #include <vector>
 
 #include "run/analysis/analysis.hpp"
@@ -9,7 +9,7 @@ namespace squeal::analysis {
 
 /// The change of one node.
 struct PathEvent {
-  int order;  ///< along the path
+  int order;  ///< index along the path
   sweep::Parameters at;
   mesh::Point position;  ///< m
   int interface;         ///< index into Contact::interfaces

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The associated systems of active sets. The latest one is stored.
+/// The associated systems of active sets.
 #include <memory>
 #include <optional>
 
@@ -10,10 +10,10 @@
 
 namespace squeal::analysis {
 
-/// Makes the systems of active sets. It stores the latest one, so that steady states and vibrations
-/// share its factorisation. From the second set on, it also stores the projections with all contact
-/// open. The projections of every set are submatrices of these. This saves time, since a product
-/// TᵀKT takes more than half as long as a factorisation.
+/// Makes the systems of active sets. It stores the latest system, so that steady states and
+/// vibrations share its factorisation. From the second set on, it also stores the projections with
+/// all contact open, and takes the projections of each set from these as submatrices. This saves
+/// time, since a product TᵀKT takes more than half as long as a factorisation.
 class CurrentSystem {
  public:
   /// Borrows the model during the life of the object.

@@ -16,19 +16,19 @@ namespace squeal::analysis {
 /// flutter.
 struct Flutter {
   std::vector<sweep_solver::ModalSegment> segments = {};
-  std::vector<regime::ModeOnset> onsets = {};  ///< first separation, stick or slip of the stored
-                                               ///< unstable modes as they grow
-  std::vector<regime::Study> regimes = {};     ///< motions after flutter
-  std::vector<std::vector<energies::NamedMode>> ownModes = {};  ///< [body] elastic modes of each
-                                                                ///< body by itself, if wanted
-  /// Messages of failures, each with the point of the sweep and the remedy. All other results are
-  /// valid. The program has already printed the messages.
+  /// First separation, stick or slip of each stored unstable mode as it grows.
+  std::vector<regime::ModeOnset> onsets = {};
+  std::vector<regime::Study> regimes = {};  ///< motions after flutter
+  /// [body] The elastic modes of each body by itself, if wanted.
+  std::vector<std::vector<energies::NamedMode>> ownModes = {};
+  /// The messages of failures, which have already been printed. Each names the point of the sweep
+  /// and the remedy. All other results are valid.
   std::vector<std::string> failures = {};
-  bool complete = true;  ///< false if a signal has stopped the run
+  bool complete = true;  ///< false if a request to stop ended the computation
 
-  /// Not collective. Adds and prints the reason why a stage has no result.
+  /// Not collective. Prints the reason why a stage has no result, and adds it to `failures`.
   void addFailure(MPI_Comm comm, const std::string& reason);
-  /// Adds the results of further points. `complete` becomes that of `more`.
+  /// Adds the results `more` of further points. `complete` takes its value from `more`.
   void append(Flutter more);
 };
 

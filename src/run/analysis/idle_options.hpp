@@ -6,9 +6,10 @@
 
 namespace squeal::analysis {
 
-/// Collective. Warns, naming them, of frames that nothing refers to, of the origin of rectangular
-/// frames, of the frames of options without a direction, and of -coupling_<name>_pinned without
-/// reference nodes in its groups.
+/// Collective. Prints a warning for each option that has no effect: frames that no option refers
+/// to, origins of rectangular frames, frames of point masses and couplings that do not depend on
+/// the axes, -coupling_<name>_pinned without reference nodes in its groups, base motions without
+/// contact and convective terms, and -elasticity_plane with a solid mesh.
 void warnOfIdleOptions(const mesh::Mesh& mesh, const ModelSettings& settings);
 
 }  // namespace squeal::analysis

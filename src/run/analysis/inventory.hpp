@@ -13,24 +13,24 @@ namespace squeal::analysis {
 
 using Fact = std::variant<std::string, double, std::vector<double>>;
 
-/// A support, load or joint with its properties; names of numbers end in their unit.
+/// A support, load or joint with its properties. The name of a number ends with its unit.
 struct Item {
   std::string name;
   std::vector<std::pair<std::string, Fact>> facts;
 };
 
-/// All items of a kind: supports, loads, references, couplings, equations, springs, bushings,
-/// masses, bolts.
+/// All items of one kind: supports, loads, references, couplings, equations, springs, bushings,
+/// masses or bolts.
 struct ItemList {
   std::string kind;
   std::vector<Item> items;
 };
 
-/// Collective. Returns the items that the options give, in the order of kinds and names; without
-/// kinds that have none. The same on all ranks.
+/// Collective. Returns the items that the options give, by kind and name. Kinds without items are
+/// omitted. The result is the same on all ranks.
 std::vector<ItemList> inventory(const mesh::Mesh& mesh, const ModelSettings& settings);
 
-/// Returns an item in a line for the log.
+/// Returns an item as one line for the log.
 std::string text(const Item& item);
 
 }  // namespace squeal::analysis

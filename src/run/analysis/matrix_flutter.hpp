@@ -12,7 +12,7 @@
 
 namespace squeal::analysis {
 
-/// Collective. Returns the matrices of files, checked against the sweep. Throws Error as
+/// Collective. Reads the matrices from files and checks them against the sweep. Throws Error as
 /// matrices::readTerms(), rejectIdleFactors() and requireFiniteSweep() do.
 std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const Settings& settings,
                                               const sweep::Sweep& sweep);

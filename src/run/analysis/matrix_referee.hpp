@@ -11,18 +11,18 @@
 
 namespace squeal::analysis {
 
-/// A list and the judgement on it.
+/// A list of eigenvalues and the judgement on it.
 struct JudgedList {
   eigenlist::List list;
   referee::Judgement judgement;
 };
 
-/// Collective. Reads the list of `-referee_list` and prints its size, unit and sign. Throws Error
-/// as eigenlist::read() does, and if the sweep has more than one point.
+/// Collective. Reads the list of `-referee_list`, and prints its size and its units and signs.
+/// Throws Error as eigenlist::read() does, and if the sweep has more than one point.
 eigenlist::List readList(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep);
 
-/// Collective. Judges the list at the only point of the sweep. The proved eigenvalues are the
-/// result of the stage `flutter`.
+/// Collective. Judges the list at the only point of the sweep. The eigenvalues that are proved are
+/// returned in `flutter`, as the result of this stage.
 JudgedList judgeList(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep,
                      Flutter& flutter);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Vibrations of a meshed brake about its steady sliding states.
+/// Vibrations of a meshed brake about its states of steady sliding.
 #include "base/checkpoint/checkpoint.hpp"
 #include "eigen/sweep_solver/sweep_solver.hpp"
 #include "run/analysis/flutter.hpp"
@@ -8,9 +8,10 @@
 
 namespace squeal::analysis {
 
-/// Collective. Returns the eigenvalues at all points of the sweep that have a steady state, group
-/// by group (mesh_sweep.hpp), the onsets of their unstable modes and the motions after flutter. A
-/// group that fails does not affect the others. Throws Error if no group has a result.
+/// Collective. Returns the eigenvalues at all points of the sweep that have a steady state, the
+/// onsets of their unstable modes, and the motions after flutter. The points are treated in groups
+/// (mesh_sweep.hpp). A group that fails does not affect the others. Throws Error if no group has a
+/// result.
 Flutter meshFlutter(const SlidingBrake& brake, const sweep_solver::Request& request,
                     checkpoint::Checkpoint& checkpoint, CurrentSystem& current);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady points whose active sets differ little share one factorisation and one basis. These
-/// belong to the contact in which a node is closed if it is closed at any of the points.
+/// The eigenvalue problems of groups of steady points. Points whose active sets differ little share
+/// one factorisation and one basis. These belong to the active set in which a node is closed if it
+/// is closed at any point of the group.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,14 +16,14 @@
 
 namespace squeal::analysis {
 
-/// Collective. Returns the steady points that have a solution, in groups that share a basis. Points
-/// of a group have the same active set, or, unless a setting needs the matrices of each active set,
-/// sets that differ in at most `-flutter_released` nodes.
+/// Collective. Returns the steady points that have a solution, in groups that share a basis. The
+/// active sets in a group differ in at most `-flutter_released` nodes. If a setting needs the
+/// matrices of each active set, all points of a group have the same set.
 std::vector<PointGroup> groupsOf(const SlidingBrake& brake);
 
-/// Returns the unknowns of `all`, which is borrowed, in two parts. The interior consists of the
-/// unknowns that `interior` has too. The boundary consists of the gaps and the tangential
-/// displacements of sticking nodes that are free only in `all`.
+/// Divides the unknowns of `all`, which is borrowed, into two parts. The interior consists of the
+/// unknowns that `interior` has too. The boundary consists of the unknowns that only `all` has:
+/// gaps, and tangential displacements of sticking nodes.
 subspace::Substructure substructureOf(const contact::CoupledSystem& all,
                                       const contact::CoupledSystem& interior);
 
@@ -41,12 +42,13 @@ class MeshSweep : public sweep_solver::SweepProblem {
                pencil::ComplexModes& point) override;
   std::vector<pencil::CriticalMode> describe(const std::vector<pencil::ComplexMotion>& motions,
                                              const modes::Modes& modes) const override;
-  /// Collective. Adds to the modes of a segment the shares of the components, and to its complex
-  /// modes the parts of the free modes in them.
+  /// Collective. Adds to the modes of a segment the shares of the components of the model, and to
+  /// its complex modes the participation of the free modes.
   void addComponents(sweep_solver::ModalSegment& segment) const;
 
  private:
-  /// An active set of the points [first, last) of the group, or one between points.
+  /// The active set of the points [first, last) of the group, or a set between two points, without
+  /// a point of its own.
   struct SetOnPath {
     contact::ActiveSet set;
     std::size_t first = 0, last = 0;
@@ -54,7 +56,7 @@ class MeshSweep : public sweep_solver::SweepProblem {
   const steady::Solution& steadyAt(std::size_t i) const {
     return brake_.states.solutions[group_.first + i];
   }
-  /// The data of a point that its modes share, all borrowed.
+  /// The data of a point that are common to its modes, all borrowed.
   struct Energies {
     const steady::Solution& solution;
     const terms::FrictionState& friction;
@@ -79,11 +81,11 @@ class MeshSweep : public sweep_solver::SweepProblem {
   terms::Influences& influences_;
   const energies::Components& components_;
   std::vector<SetOnPath> sets_;  // [range]
-  contact::ActiveSet anywhere_;  // of all sets
-  OwnedMat prestress_;           // of the first point, which K0 contains
+  contact::ActiveSet anywhere_;  // a node is closed if it is in any of the sets
+  OwnedMat prestress_;           // K_σ of the first point, which is part of K0
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;
-  const contact::CoupledSystem* interior_ = nullptr;  // active wherever a point is
-  const contact::CoupledSystem* all_ = nullptr;       // active where all points are
+  const contact::CoupledSystem* interior_ = nullptr;  // closed where any set is
+  const contact::CoupledSystem* all_ = nullptr;       // closed where all sets are
   std::unique_ptr<steady::Problem> problem_;          // for points between those of the sweep
 };
 

@@ -15,28 +15,28 @@ namespace squeal::analysis {
 
 /// All members are empty for matrices from files.
 struct Model {
-  /// At a fixed address, because contact and the steady states borrow it.
+  /// On the heap, so that its address does not change: contact and the steady states borrow it.
   std::unique_ptr<mesh::Mesh> mesh;
   elasticity::Bodies bodies;
   contact::Contact contact;
 
-  /// Returns the active set in which all contact nodes of this rank are closed and stick where
-  /// their interface does.
+  /// Returns the active set in which all contact nodes of this rank are closed, and stick if their
+  /// interface sticks.
   contact::ActiveSet bonded() const {
     return contact::ActiveSet::bonded(contact.interfaces.nodes.size());
   }
 };
 
 /// Collective. Reads the mesh, moves the nodes of adjusted ties, and assembles the bodies and their
-/// contact. The bolts are not tightened yet. Throws Error as the stages document it.
+/// contact. Does not tighten the bolts. Throws Error under the conditions that the stages document.
 Model buildModel(MPI_Comm comm, const ModelSettings& settings);
 
-/// Collective. Throws Error if a body is loose, pointing to the audit, and if nothing slides or
-/// sticks.
+/// Collective. Throws Error if a body is loose (the message refers to the audit), and if no
+/// interface slides or sticks.
 void requireSupports(const Model& model);
 
-/// Collective. Audits a model of a mesh and prints a line with the number of findings. `place` says
-/// in the log where the findings are.
+/// Collective. Audits a model, and prints a line with the number of findings. `place` is added to
+/// this line and states where the findings are.
 audit::Audit auditModel(const Model& model, const ModelSettings& settings,
                         const std::string& place);
 

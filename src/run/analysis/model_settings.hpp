@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Settings of all rooms of the floor `model`, and the groups that they need from the mesh. Not
+/// The settings of all folders of src/model, and the groups that they need from the mesh. Not
 /// collective.
 #include "model/constraints/settings.hpp"
 #include "model/contact/settings.hpp"
@@ -21,9 +21,10 @@ struct ModelSettings {
   meshfile::Settings file;
   mesh::Settings mesh;
   contact::Settings contact;
-  std::vector<std::string> idleFrames;  ///< names of frames that nothing uses
+  std::vector<std::string> idleFrames;  ///< names of frames that no option uses
 
-  /// Reads the options. Throws Error as these rooms document it.
+  /// Returns the settings that the options give. Throws Error under the conditions that these
+  /// folders document.
   static ModelSettings given();
 };
 

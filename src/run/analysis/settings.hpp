@@ -21,20 +21,21 @@ namespace squeal::analysis {
 /// Settings of the steady states of a sweep.
 struct SteadySettings {
   bool full = false;  ///< `-steady_full`: solve in all unknowns
-  int path = 20;  ///< `-steady_path`: most nodes that open or close between two points on a path
-                  ///< that is followed; 0 = no path
+  int path = 20;      ///< `-steady_path`: the path between two points is followed if at most this
+                      ///< number of nodes differ; 0: no path
 };
 
-/// Settings of a problem that is given by a mesh.
+/// Settings of a problem given by a mesh.
 struct MeshSettings {
   ModelSettings model;
   SteadySettings steady;
   uniqueness::Settings uniqueness;
   terms::Settings terms;
-  /// `-flutter_released`: most contact nodes by which active sets that share a basis differ.
+  /// `-flutter_released`: largest number of contact nodes in which active sets that share a basis
+  /// may differ.
   int released = 150;
   bool audit = true;  ///< `-audit`: audit the model before the solution
-  int ownModes = 0;   ///< `-report_component_modes`: elastic modes of each body by itself
+  int ownModes = 0;   ///< `-report_component_modes`: number per body by itself
 };
 
 /// Settings of the judgement of a list of eigenvalues.
@@ -46,9 +47,10 @@ struct RefereeSettings {
 /// Settings of an analysis.
 struct Settings {
   OutputSettings output;
-  bool dryRun = false;  ///< `-dry_run`: check the input, and solve nothing
+  bool dryRun = false;  ///< `-dry_run`: check the input and solve nothing
   checkpoint::Settings checkpoint;
-  /// With the frictions of `-regime_friction`; friction 0 if all interfaces have their own.
+  /// Includes the frictions of `-regime_friction`. The friction is 0 if all interfaces have fixed
+  /// coefficients of their own.
   sweep::Settings sweep;
   pencil::Settings pencil;
   sweep_solver::Settings solver;
@@ -56,12 +58,13 @@ struct Settings {
   matrices::ExportSettings matrixExport;
   std::optional<MeshSettings> mesh;  ///< none for matrices from files
   regime::Settings regime;
-  /// Of a run with `-referee_list`, which judges the list and computes nothing else; only its
-  /// settings, the matrices, the sweep and the free modes are then read.
+  /// Set if the run judges the list of `-referee_list`; it then computes nothing else. In this
+  /// case, only the settings of the list, the matrices, the sweep and the free modes are read.
   std::optional<RefereeSettings> referee;
 
   /// Collective. Reads all options of the analysis. Throws Error for an option that is unknown, out
-  /// of range or idle: for every mistake that shows before a file is read or written.
+  /// of range or without effect, and for every other mistake that can be detected before a file is
+  /// read or written.
   static Settings given();
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The steadily sliding brake, about which vibrations are computed.
+/// The steadily sliding brake. Vibrations are computed about its steady states.
 #include "run/analysis/steady_sweep.hpp"
 
 namespace squeal::analysis {

@@ -8,7 +8,7 @@
 
 namespace squeal::analysis {
 
-/// The number of steady states at one speed, for all frictions, as far as it is known.
+/// The results on the number of steady states at one speed, for all frictions.
 struct SpeedUniqueness {
   double speed = 1;  ///< v
   uniqueness::Uniqueness found;
@@ -16,13 +16,15 @@ struct SpeedUniqueness {
 
 /// Results of `-steady_uniqueness`.
 struct UniquenessStudy {
-  /// One entry for all speeds where they share it; empty without contact or without the option.
+  /// One entry per speed, or one for all speeds if the result is the same; empty without contact
+  /// and without the option.
   std::vector<SpeedUniqueness> speeds;
-  bool complete = true;  ///< false if the run has been asked to stop
+  bool complete = true;  ///< false if a request to stop ended the computation
 };
 
-/// Collective. Examines uniqueness at each speed, or once if K and the slip are the same at all
-/// speeds; loads do not matter. Throws Error as uniqueness::examine() does.
+/// Collective. Examines uniqueness at each speed, or only once if the stiffness and the slip are
+/// the same at all speeds. Loads have no influence on the result. Throws Error as
+/// uniqueness::examine() does.
 UniquenessStudy examineUniqueness(const Model& model, const sweep::Sweep& sweep,
                                   const uniqueness::Settings& settings);
 

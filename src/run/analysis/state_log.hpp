@@ -6,15 +6,17 @@
 
 namespace squeal::analysis {
 
-/// Writes the steady states that have been added since its last entry.
+/// The log of the steady states. An entry contains the states that have been added since the last
+/// entry.
 class StateLog {
  public:
-  /// Collective. Restores the states in the log. Borrows the arguments during the life of the
-  /// object.
+  /// Collective. Restores the states in the log to `states`. Borrows the arguments during the life
+  /// of the object.
   StateLog(MPI_Comm comm, checkpoint::Checkpoint& checkpoint, SteadyStates& states);
   /// Collective. Writes an entry if one is due.
   void write();
-  /// Collective. Writes the last entry if one is due, or if the computation of the states was long.
+  /// Collective. Writes the last entry if one is due, or if the computation of the states took
+  /// long.
   void finish();
 
  private:

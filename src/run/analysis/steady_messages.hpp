@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Messages of the log on steady states.
+/// The messages on steady states in the log.
 #include <string>
 
 #include "run/analysis/model.hpp"
@@ -12,7 +12,8 @@ namespace squeal::analysis {
 std::string resultText(const steady::Solution& solution, const contact::Contact& contact);
 
 /// Collective. Warns of a point without a solution, and of sticking nodes beyond their limit of
-/// friction; prints how many slide instead. Throws Error if a displacement is not finite.
+/// friction. Prints the number of nodes that slide after being released. Throws Error if a
+/// displacement is not finite.
 void reportState(const steady::Solution& solution, const Model& model);
 
 }  // namespace squeal::analysis

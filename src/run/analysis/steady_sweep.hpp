@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady sliding at all steady points of a sweep, and the changes of contact between them.
+/// Steady sliding at all steady points of a sweep, and the changes of the contact between them.
 #include <vector>
 
 #include "base/checkpoint/checkpoint.hpp"
@@ -14,15 +14,16 @@ namespace squeal::analysis {
 
 /// The steady states of a sweep.
 struct SteadyStates {
-  /// [steady point of the sweep]; if not `complete`, only the leading points that were reached
+  /// [steady point of the sweep]. If not `complete`, only those of the leading points.
   std::vector<steady::Solution> solutions;
-  /// The openings and closings of contact nodes of this rank between the points, in the order in
-  /// which they occur.
+  /// The changes of contact nodes of this rank between the points, in the order in which they
+  /// occur.
   std::vector<condensed::ContactEvent> path;
-  int events = 0;        ///< number of such events on all ranks
-  bool complete = true;  ///< false if the run has been asked to stop
+  int events = 0;        ///< number of such changes on all ranks
+  bool complete = true;  ///< false if a request to stop ended the computation
 
-  /// Returns the steady state at a point of the sweep, borrowed.
+  /// Returns the steady state at a point of the sweep, borrowed. Ignores the damping factor of the
+  /// point.
   const steady::Solution& at(sweep::Parameters point) const;
 };
 
@@ -33,10 +34,10 @@ struct SteadyInput {
   const SteadySettings& settings;
 };
 
-/// Collective. Returns the steady states, each started from the active set of a neighbour, and
-/// prints them; a point without a solution gives a warning. The log `steady` of the checkpoint is
-/// restored and continued. Throws Error as steady::Problem::solve() does, and if a displacement is
-/// not finite.
+/// Collective. Returns the steady states, and prints a line on each. The solution of a point starts
+/// from the active set of a neighbour. For a point without a solution it prints a warning. Restores
+/// and continues the log `steady` of the checkpoint. Throws Error as steady::Problem::solve() does,
+/// and if a displacement is not finite.
 SteadyStates steadyStates(const SteadyInput& input, checkpoint::Checkpoint& checkpoint,
                           CurrentSystem& system);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Tightening of bolts before the sweep.
+/// The tightening of bolts before the sweep.
 #include <vector>
 
 #include "model/constraints/settings.hpp"
@@ -9,10 +9,10 @@
 
 namespace squeal::analysis {
 
-/// Collective. Solves a first step with the forces of the bolts and the loads that no sweep scales,
-/// and then fixes the lengths of the bolts. The step has no swept friction and, unless
-/// Settings::boltsUnderPressure is set, no pressure. Does nothing if no bolt has a force. Throws
-/// Error if the step has no solution.
+/// Collective. Solves a first load step with the forces of the bolts and the loads that no sweep
+/// scales, and then fixes the lengths of the bolts. In this step the swept friction is 0, and so is
+/// the pressure unless Settings::boltsUnderPressure is set. Does nothing if no bolt has a force.
+/// Throws Error if the step has no solution.
 void tightenBolts(Model& model, const constraints::Settings& settings);
 
 /// Collective. Returns the tension of each bolt in a steady state, N, [section of the mesh].

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The audit of a model before anything is solved: its masses, its supports, and findings that are
-/// probably mistakes although the model can be solved.
+/// The audit of a model before anything is solved: its masses, its supports, and findings. A
+/// finding is a property that may be a mistake, although the model can be solved.
 #include <string>
 #include <vector>
 
@@ -14,13 +14,14 @@
 
 namespace squeal::audit {
 
-/// The results of an audit, the same on all ranks and, within round-off, on any number of ranks.
+/// The results of an audit. They are the same on all ranks and, within round-off, for any number of
+/// ranks.
 struct Audit {
   int dimension = 3;
   std::vector<BodyMass> bodies;    ///< [body]
   std::vector<BodyMass> points;    ///< point masses
   BodyMass total;                  ///< of bodies and point masses
-  std::vector<double> waveSpeed;   ///< √(E/ρ), with the largest modulus, [body], m/s
+  std::vector<double> waveSpeed;   ///< √(E/ρ) with the largest modulus E, [body], m/s
   std::vector<CellQuality> cells;  ///< [body]
   std::vector<PartSupports> parts;
   Findings findings;  ///< warnings first
@@ -29,7 +30,7 @@ struct Audit {
 /// Collective. Audits a model.
 Audit auditOf(const Subject& model);
 
-/// Returns the name of a kind of finding in a few words.
+/// Returns a name of a few words for a kind of finding.
 std::string text(Kind kind);
 /// Returns a line for the log with the number of findings.
 std::string summaryOf(const Audit& audit);

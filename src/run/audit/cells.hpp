@@ -11,17 +11,17 @@ namespace squeal::audit {
 /// A cell and a measure of it.
 struct WorstCell {
   double value = 0;
-  PetscInt tag = 0;     ///< of gmsh
-  int type = 0;         ///< of gmsh
+  PetscInt tag = 0;     ///< in gmsh
+  int type = 0;         ///< in gmsh
   mesh::Point place{};  ///< mean of its nodes, m
 };
 
 /// The quality of the cells of one body.
 struct CellQuality {
-  WorstCell jacobian;   ///< smallest ratio of det J to its largest value in the cell
-  WorstCell aspect;     ///< largest condition number ‖J‖ ‖J⁻¹‖/dimension; 1 for a cube
-  PetscInt folded = 0;  ///< cells with a ratio below `smallestRatio`
-  PetscInt elongated = 0;  ///< cells with a condition number above `largestAspect`
+  WorstCell jacobian;   ///< smallest det J / largest det J of the same cell
+  WorstCell aspect;     ///< largest condition number ‖J‖ ‖J⁻¹‖ / dimension; 1 for a cube
+  PetscInt folded = 0;  ///< number of cells with a ratio below `smallestRatio`
+  PetscInt elongated = 0;  ///< number with a condition number above `largestAspect`
 };
 constexpr double smallestRatio = 0.1, largestAspect = 100;
 
@@ -29,7 +29,7 @@ constexpr double smallestRatio = 0.1, largestAspect = 100;
 std::vector<CellQuality> cellQuality(const mesh::Mesh& mesh);
 
 /// Collective. Returns findings on distorted cells, and on linear cells of nearly incompressible
-/// bodies.
+/// materials.
 Findings cellFindings(const Subject& model, const std::vector<CellQuality>& quality);
 
 }  // namespace squeal::audit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A finding of the audit: a property of the model that is probably a mistake.
+/// A finding of the audit: a property of the model that may be a mistake.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -9,14 +9,14 @@ namespace squeal::audit {
 
 enum class Kind {
   units,            ///< values that do not belong to one system of units
-  rotation,         ///< an axis of rotation away from the bodies that rotate about it
-  nearFaces,        ///< faces of two bodies that face each other in no interface
-  unmergedNodes,    ///< nodes at the same place that nothing joins
+  rotation,         ///< an axis of rotation that is too far from its bodies
+  nearFaces,        ///< faces that face each other without a common interface
+  unmergedNodes,    ///< nodes at the same place that are not joined
   cells,            ///< distorted cells
   locking,          ///< linear cells of a nearly incompressible body
-  detached,         ///< sections of a body that nothing joins to its others
+  detached,         ///< sections of a body that are not joined to the others
   overconstrained,  ///< nodes with more conditions than unknowns
-  adjustment        ///< cells that the adjustment of a tie strains
+  adjustment        ///< cells that are strained by the adjustment of a tie
 };
 
 enum class Severity {
@@ -27,7 +27,7 @@ enum class Severity {
 struct Finding {
   Kind kind;
   Severity severity;
-  std::string text;    ///< the finding with groups, places and figures, without full stop
+  std::string text;    ///< names groups, places and figures; without full stop
   std::string remedy;  ///< without full stop
 };
 

@@ -13,20 +13,20 @@ namespace squeal::audit {
 using mesh::Matrix3;
 using mesh::Point;
 
-/// The mass of one body, or of all; in the plane per unit thickness.
+/// The mass of one body, or of all; in plane problems per unit thickness.
 struct BodyMass {
   std::string body;
   PetscInt cells = 0;
-  double volume = 0;    ///< m³ (m² in the plane)
-  double mass = 0;      ///< kg (kg/m)
-  Point centre{};       ///< of mass, m
-  Matrix3 inertia{};    ///< ∫ ρ (|r|² 1 − r rᵀ), r = x − centre, kg·m² (kg·m)
+  double volume = 0;    ///< m³ (m² in plane problems)
+  double mass = 0;      ///< kg (kg/m in plane problems)
+  Point centre{};       ///< centre of mass, m
+  Matrix3 inertia{};    ///< ∫ ρ (|r|² 1 − r rᵀ), r = x − centre, kg·m² (plane: kg·m)
   Point low{}, high{};  ///< corners of the bounding box of the nodes, m
 };
 
-/// Collective. Returns the masses, [body], by the quadrature rules of the mass matrix. The result
-/// is exact within round-off if the edges of the cells are straight and opposite faces of
-/// hexahedra and wedges parallel.
+/// Collective. Returns the masses, [body], computed by the quadrature rules of the mass matrix.
+/// They are exact within round-off if the edges of the cells are straight and opposite faces of
+/// hexahedra and wedges are parallel.
 std::vector<BodyMass> bodyMasses(const Subject& model);
 /// Collective. Returns the point masses, sorted by group, with the names "mass of 'GROUP'".
 std::vector<BodyMass> pointMasses(const Subject& model);

@@ -7,11 +7,11 @@
 
 namespace squeal::audit {
 
-/// Collective. Searches around each boundary face, to a tenth of its size. Faces of two bodies, or
-/// of two parts of a body, are a finding if they face each other and belong to no common interface
-/// or coupling. Two nodes are a finding if they have the same position but different numbers, and
-/// the first belongs to no interface, coupling or periodic boundary. Ranks exchange only faces that
-/// are near faces of each other.
+/// Collective. Searches around each boundary face, up to a distance of a tenth of its size. Two
+/// faces that face each other are a finding if they belong to two bodies, or to two unconnected
+/// parts of a body, and to no common interface or coupling. A node is a finding if it belongs to no
+/// interface, coupling or periodic boundary, and another node has the same position. Two ranks
+/// exchange only faces that may be near each other.
 Findings nearFindings(const Subject& model);
 
 }  // namespace squeal::audit

@@ -7,8 +7,9 @@
 
 namespace squeal::audit {
 
-/// Not collective. Compares the axis of each rotation with the centre of mass of the bodies that
-/// share it.
+/// Not collective. Returns findings on axes of rotation that do not pass through the centre of mass
+/// of their bodies, and on rotating bodies held by couplings, if convective terms act on their
+/// rigid tilt like a spring of negative stiffness.
 Findings rotationFindings(const Subject& model, const std::vector<BodyMass>& masses);
 
 }  // namespace squeal::audit

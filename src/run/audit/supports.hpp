@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The supports of each part of the model, and conditions that are lost or strain cells.
+/// The supports of each connected part of the model, and findings on conditions that cannot be
+/// imposed or that strain cells.
 #include <string>
 #include <vector>
 
@@ -9,25 +10,26 @@
 
 namespace squeal::audit {
 
-/// A support of a part, by the words of its option.
+/// A support of a part.
 struct Support {
-  std::string by;      ///< "support 'mounting'", "interface 'pad'"
-  PetscInt nodes = 0;  ///< of the part; where meshes do not match, only nodes of the slave count,
-                       ///< and for the master those of the slave that touch it
+  std::string by;  ///< such as "support 'mounting'" or "interface 'pad'"
+  /// Number of nodes. If meshes do not match, nodes of the slave are counted for both sides: for
+  /// the part of the master, those that touch it.
+  PetscInt nodes = 0;
 };
 
 /// The supports of a connected part, or of a reference node.
 struct PartSupports {
   std::string part;  ///< names of its bodies
   std::vector<Support> supports;
-  bool needsContact = false;  ///< without contact it has a rigid-body mode
+  bool needsContact = false;  ///< without contact the part has a rigid-body mode
 };
 
-/// Collective. Returns the supports, [part].
+/// Collective. Returns the supports of the parts, [part].
 std::vector<PartSupports> partSupports(const Subject& model);
 
-/// Not collective. Returns findings on nodes whose conditions exclude each other, and on cells that
-/// the adjustment of a tie strains.
+/// Not collective. Returns findings on nodes with more conditions than they can satisfy, and on
+/// cells that are strained by the adjustment of a tie.
 Findings conditionFindings(const Subject& model);
 
 }  // namespace squeal::audit

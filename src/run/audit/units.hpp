@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Plausibility of the units of a model. Any consistent units pass, those of dimensionless models
-/// included: only known mixtures of units are findings.
+/// Plausibility of the units of a model. Any consistent units are accepted, also those of
+/// dimensionless models. Only known mixtures of units are findings.
 #include "run/audit/finding.hpp"
 #include "run/audit/masses.hpp"
 #include "run/audit/subject.hpp"
@@ -10,17 +10,16 @@ namespace squeal::audit {
 
 /// The moduli of a material.
 struct Moduli {
-  double least = 0,
-         largest = 0;  ///< Young's moduli; along its axes, if the material is anisotropic, Pa
+  double least = 0, largest = 0;  ///< Young's moduli, along the axes if anisotropic, Pa
 };
 /// Not collective. Returns the moduli, [material group].
 std::vector<Moduli> moduliOf(const Subject& model);
 
-/// Not collective. Returns √(E/ρ) of each body, [body], m/s; of several sections the largest.
+/// Not collective. Returns √(E/ρ), [body], m/s; the largest value if the body has several sections.
 std::vector<double> waveSpeeds(const Subject& model);
 
-/// Collective. Judges the wave speed √(E/ρ) of each material, the size of the model, its
-/// pressures and its gravity.
+/// Collective. Returns findings on the wave speed √(E/ρ) of each material, the size of the model,
+/// its pressures and its gravity.
 Findings unitFindings(const Subject& model, const std::vector<BodyMass>& masses);
 
 }  // namespace squeal::audit

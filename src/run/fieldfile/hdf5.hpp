@@ -13,18 +13,18 @@
 
 namespace squeal::fieldfile {
 
-/// An HDF5 file is open for writing until close(). All methods are collective, and throw Error on
-/// all ranks, naming an option, if writing fails. Groups are absolute ("/modes") and created on
-/// first use.
+/// An HDF5 file that is open for writing until close(). All methods are collective, and throw Error
+/// on all ranks, naming an option, if writing fails. Groups have absolute names ("/modes") and are
+/// created on first use.
 ///
-/// Only rank 0 writes. The others send it their parts in pieces, so it never stores more than its
-/// own part and a piece. If each rank wrote its own part, a full disk on one rank would leave the
-/// others waiting inside the library.
+/// Only rank 0 writes. The other ranks send it their parts in pieces, so rank 0 never stores more
+/// than its own part and one piece. If each rank wrote its own part, a full disk on one rank would
+/// leave the others waiting inside the library.
 class Hdf5File {
  public:
   /// Replaces an existing file; the folder must exist. `option`, with its dash, names the folder.
   Hdf5File(MPI_Comm comm, const std::filesystem::path& path, const std::string& option);
-  /// Closes the file if it is still open, even if it is incomplete.
+  /// Closes the file if it is still open, even if its content is incomplete.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -37,15 +37,15 @@ class Hdf5File {
   /// gmsh's order, `body` [cell] index into bodies, `tag` [cell], and the attributes
   /// `gmsh_element_type` and `gmsh_element_name`.
   void writeMesh(const mesh::Mesh& mesh);
-  /// Writes a field at the nodes as a dataset [global node][component]. The block size of `values`
-  /// is the number of components.
+  /// Writes a field at the nodes as a dataset [global node][component]. The block size of the
+  /// vector `values` is the number of components.
   void writeNodeVector(const std::string& group, const std::string& name, Vec values);
   /// Writes a small table of reals as a dataset [row][column] with the attribute `columns` (names
-  /// joined by commas). Uses the rows of rank 0.
+  /// joined by commas). Only the rows on rank 0 are used.
   void writeTable(const std::string& group, const std::string& name,
                   const std::vector<std::string>& columns,
                   const std::vector<std::vector<double>>& rows);
-  /// Writes an attribute of the group or dataset `object`, with the same value on all ranks.
+  /// Writes an attribute of the group or dataset `object`. The value must be the same on all ranks.
   /// Creates the group if it does not exist.
   void writeAttribute(const std::string& object, const std::string& name, double value);
   void writeAttribute(const std::string& object, const std::string& name, const std::string& text);

@@ -7,17 +7,17 @@
 
 namespace squeal::fieldfile {
 
-/// Not collective. Returns properties for H5Fcreate that select this driver; negative on failure.
-/// Close them with H5Pclose.
+/// Not collective. Returns properties for H5Fcreate() that select this driver; negative on failure.
+/// The caller closes them with H5Pclose().
 ///
-/// After a write that fails HDF5 1.10 cannot close its file, and crashes when the program ends.
-/// This driver (one rank, one file at a time) therefore reports success to the library, discards
-/// all writes after the failure, and stores the reason for recordedError().
+/// After a failed write, HDF5 1.10 cannot close the file, and crashes when the program ends. This
+/// driver (for one rank, and one file at a time) therefore reports success to the library, discards
+/// all writes after the failure, and stores the error for recordedError().
 hid_t errorRecordingProperties();
-/// Not collective. Returns errno of the first failed call on the file since its creation (write,
-/// truncate or close); 0 if there is none.
+/// Not collective. Returns errno of the first call on the file (write, truncate or close) that has
+/// failed since its creation; 0 if none has failed.
 int recordedError();
-/// Not collective. Returns why the file could not be opened; empty if it was.
+/// Not collective. Returns why the file could not be opened; empty if it was opened.
 const std::string& refusalReason();
 
 }  // namespace squeal::fieldfile

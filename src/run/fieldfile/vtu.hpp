@@ -13,24 +13,25 @@ namespace squeal::fieldfile {
 /// Values at the nodes or in the cells.
 struct Field {
   std::string name;
-  int components = 1;          ///< 1: scalar; 3: vector (plane problems: the third one 0)
+  int components = 1;          ///< 1: scalar; 3: vector (in plane problems the third is 0)
   std::vector<double> values;  ///< [local node][component], including ghosts; or [cell][component]
 };
 
-/// Collective. Writes `stem`.pvtu and the pieces `stem`/…_PIECE.vtu in a subfolder: one per rank
-/// or, on more ranks, `mostPieces` of neighbouring ranks together; compressed binary, coordinates
-/// in double and fields in single precision. In addition to the fields, they contain node_tag and
-/// part of the nodes, body (index) and rank of the cells and, if a body is made up of sections,
-/// their material (index). Throws Error on all ranks, naming `option`, with its dash, if a file
-/// cannot be written, if VTK does not have a cell type, and if a field has a wrong size.
+/// Collective. Writes `stem`.pvtu and, in the subfolder `stem`, the pieces …_PIECE.vtu. There is
+/// one piece per rank, but at most `mostPieces`: neighbouring ranks then share a piece. The pieces
+/// are compressed and binary, with coordinates in double and fields in single precision. In
+/// addition to the fields they contain node_tag and part of the nodes, body (an index) and rank of
+/// the cells and, if any body consists of sections, the material (an index) of the cells. Throws
+/// Error on all ranks, naming `option` (given with its dash), if a file cannot be written, if VTK
+/// does not have a cell type, and if a field has a wrong size.
 void writeVtu(const mesh::Mesh& mesh, const std::filesystem::path& stem,
               const std::vector<Field>& pointFields, const std::string& option, int mostPieces = 8,
               const std::vector<Field>& cellFields = {});
 
-/// Collective. Writes, on rank 0, a ParaView collection of (time, file) pairs: the frames of an
-/// animation or of a sweep. Paths are stored relative to the folder of `path`, so the folder can be
-/// moved. All paths must be absolute, or all relative. Throws Error on all ranks, naming `option`,
-/// if a file cannot be written.
+/// Collective. Writes a ParaView collection of (time, file) pairs on rank 0: the frames of an
+/// animation or the points of a sweep. File paths are stored relative to the folder of `path`, so
+/// the folder can be moved. Either all paths must be absolute, or all relative. Throws Error on all
+/// ranks, naming `option`, if a file cannot be written.
 void writePvd(MPI_Comm comm, const std::filesystem::path& path,
               const std::vector<std::pair<double, std::filesystem::path>>& frames,
               const std::string& option);

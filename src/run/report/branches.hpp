@@ -8,12 +8,13 @@
 
 namespace squeal::report {
 
-/// Returns the tracked eigenvalues, by branch and friction, in rows of numbers: active set, branch,
-/// friction, speed, pressure, damping, growth rate in 1/s, angular frequency in rad/s, overlap, 1
-/// if it is in the band, and 1 if its friction belongs to the sweep.
+/// Returns a row of numbers for each tracked eigenvalue, ordered by branch and friction: active
+/// set, branch, friction, speed, pressure, damping, growth rate in 1/s, angular frequency in rad/s,
+/// overlap, 1 if the eigenvalue is in the band (otherwise 0), and 1 if its friction belongs to the
+/// sweep (otherwise 0).
 std::vector<std::vector<double>> branchRows(const analysis::Analysis& analysis);
 
-/// Returns the same as the text of branches.csv.
+/// Returns the text of branches.csv, with these rows and the frequency in Hz.
 std::string branchTable(const analysis::Analysis& analysis);
 
 /// Returns the text of critical.csv, with a row for each critical friction.
@@ -23,7 +24,8 @@ std::string criticalTable(const analysis::Analysis& analysis);
 /// friction.
 std::string criticalSensitivityTable(const analysis::Analysis& analysis);
 
-/// Returns the terminal text on both: the critical frictions, and the completeness of the count.
+/// Returns the text for the terminal on the critical frictions, and on the completeness of the
+/// tracked eigenvalues.
 std::string trackingText(const analysis::Analysis& analysis);
 
 }  // namespace squeal::report

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Tables of the contents of the modes: the shares of the components of the model, and of the free
-/// modes.
+/// Tables of the composition of the modes: the shares of the components of the model, and those of
+/// the free modes.
 #include <array>
 #include <string>
 
@@ -10,7 +10,7 @@
 
 namespace squeal::report {
 
-/// A column of the tables of components: a cause of growth.
+/// A column of componentTable(): a cause of growth.
 struct GrowthColumn {
   const char* name;
   double pencil::GrowthParts::*value;  ///< 1/s
@@ -27,16 +27,18 @@ inline constexpr std::array growthColumns{
 std::string componentTable(const analysis::Analysis& analysis);
 /// Returns mode_components.csv: the shares of each component in the free modes of the band.
 std::string modeComponentTable(const analysis::Analysis& analysis);
-/// Returns participation_bodies.csv: the MAC of each body with the free modes that have the most
-/// energy in a stored complex mode.
+/// Returns participation_bodies.csv. For the free modes that have the most energy in a stored
+/// complex mode, it lists their MAC with this mode, body by body.
 std::string bodyMacTable(const analysis::Analysis& analysis);
 /// Returns component_modes.csv: the elastic modes of each body by itself.
 std::string ownModeTable(const analysis::Analysis& analysis);
-/// Returns participation.csv: the free modes that have at least 1e-4 of the energy or of the mass
-/// norm of a stored complex mode, largest share of the energy first, and a row `0` for the rest.
+/// Returns participation.csv. For each stored complex mode, it lists the free modes that have at
+/// least 1e-4 of its energy or of its mass norm, the largest share of the energy first, and a row
+/// `0` for the rest.
 std::string participationTable(const analysis::Analysis& analysis);
 
-/// Returns a cell with the name of a mode, which may contain commas; empty without a name.
+/// Returns a table cell with the name of a mode, which may contain commas; an empty cell for an
+/// empty name.
 std::string nameCell(const std::string& name);
 
 }  // namespace squeal::report

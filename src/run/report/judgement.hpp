@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The judgement of a list of eigenvalues, as a table, in the summary and on the terminal.
+/// The judgement of a list of eigenvalues: as a table, in the summary and on the terminal.
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -12,7 +12,7 @@ namespace squeal::report {
 std::string refereeTable(const analysis::JudgedList& judged);
 /// Returns the entry `referee` of the summary.
 nlohmann::ordered_json refereeEntry(const analysis::JudgedList& judged);
-/// Returns the terminal text: the verdict, and each entry that is not right.
+/// Returns the text for the terminal: the verdict, and each entry that is not right.
 std::string refereeText(const analysis::JudgedList& judged);
 
 }  // namespace squeal::report

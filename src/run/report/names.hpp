@@ -14,11 +14,12 @@ namespace squeal::report {
 /// The option for the results folder.
 inline constexpr char folderOption[] = "-report_dir";
 
-/// Returns the name of a point of the sweep as part of file and group names: FRICTION, then
-/// _speed_SPEED, _pressure_… for the factors that are not 1.
+/// Returns the name of a point of the sweep, as it appears in the names of files and groups:
+/// FRICTION, followed by _speed_SPEED, _pressure_… for the factors that are not 1.
 std::string pointName(const sweep::Parameters& at);
 
-/// The names of the files and folders of a run over some points, relative to the results folder.
+/// The names of the files and folders that a run over some points may write, relative to the
+/// results folder.
 class ResultNames {
  public:
   /// Stores the names of these points, and of their steady states.

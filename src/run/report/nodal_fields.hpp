@@ -11,17 +11,17 @@
 
 namespace squeal::report {
 
-/// Collective. Writes the VTK files of some fields, in at most `pieces` pieces (`-report_pieces`).
+/// Collective. Writes these fields to VTK files, in at most `pieces` pieces (`-report_pieces`).
 void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
               const std::vector<fieldfile::Field>& fields, int pieces);
 
-/// Sends nodal values from their owners to all ranks whose cells need them. The methods are
-/// collective.
+/// Makes fields from nodal vectors: sends the values from their owners to all ranks whose cells
+/// need them. The methods are collective.
 class Ghosts {
  public:
   explicit Ghosts(const mesh::Mesh& mesh);
   fieldfile::Field vector(const std::string& name, Vec u) const;
-  /// Returns the field of a single component.
+  /// Returns the field of one component of the vector.
   fieldfile::Field scalar(const std::string& name, Vec u, std::size_t component = 0) const;
 
  private:

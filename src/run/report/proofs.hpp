@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// What is proved about the lists of eigenvalues (`-flutter_proof`).
+/// The output on the proofs of the lists of eigenvalues (`-flutter_proof`).
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -9,13 +9,13 @@
 
 namespace squeal::report {
 
-/// Returns true if a proof is wanted at any point. Not collective.
+/// Returns true if a proof was requested at any point. Not collective.
 bool hasProofs(const analysis::Analysis& analysis);
-/// Returns the text of proof.csv, with a row for each point that is solved. Not collective.
+/// Returns the text of proof.csv, with a row for each point that has been solved. Not collective.
 std::string proofTable(const analysis::Analysis& analysis);
-/// Returns the entry of a point in summary.json. Not collective.
+/// Returns the entry on the proof of a point in summary.json. Not collective.
 nlohmann::json proofEntry(const pencil::ComplexModes& point);
-/// Returns the terminal text; empty without proofs. Not collective.
+/// Returns the text for the terminal; empty without proofs. Not collective.
 std::string proofText(const analysis::Analysis& analysis);
 
 }  // namespace squeal::report

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The table of the forces and moments that hold and join the bodies.
+/// The table of the forces and moments by which the bodies are supported and joined.
 #include <string>
 
 #include "run/analysis/analysis.hpp"

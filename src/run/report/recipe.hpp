@@ -7,8 +7,9 @@
 
 namespace squeal::report {
 
-/// Collective. Writes options.txt into `folder`: the given options, and the defaults of the others
-/// as comments. Call it once all settings have been read. Throws Error as writeText() does.
+/// Collective. Writes options.txt into `folder`. It contains the given options, and the defaults of
+/// the other options as comments. Call it once all settings have been read. Throws Error as
+/// writeText() does.
 void writeRecipe(MPI_Comm comm, const std::filesystem::path& folder);
 
 }  // namespace squeal::report

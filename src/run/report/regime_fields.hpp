@@ -10,8 +10,8 @@
 
 namespace squeal::report {
 
-/// Collective. Writes the VTK files of each run of the regime into the folder `vtk`,
-/// each field in at most `pieces` files.
+/// Collective. Writes the VTK files of each time integration into the folder `vtk`, each field in
+/// at most `pieces` pieces.
 void writeRegimeFields(const analysis::Analysis& analysis, const Ghosts& ghosts,
                        const std::filesystem::path& vtk, int pieces);
 

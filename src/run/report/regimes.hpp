@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Tables of the motion of unstable modes after flutter.
+/// Tables of the motion after flutter.
 #include <filesystem>
 
 #include "run/analysis/analysis.hpp"
 
 namespace squeal::report {
 
-/// Collective. Writes onset.csv if there are unstable modes with contact, and the tables
+/// Collective. Writes onset.csv if the onsets of unstable modes are known. Writes the tables
 /// regime*.csv, periodic*.csv and floquet.csv if the motion after flutter was computed.
 void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 

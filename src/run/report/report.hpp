@@ -11,13 +11,13 @@
 
 namespace squeal::report {
 
-/// The folder of a run (`-report_dir`), where the new results replace those of an earlier run once
-/// they are complete.
+/// The results folder of a run (`-report_dir`). The new results replace those of an earlier run as
+/// soon as they are complete.
 class Directory : public output::Folder {
  public:
   /// Collective. `points` are the points of the sweep. Call it after all settings have been read:
-  /// it writes them to options.txt in staging(), so even a killed run leaves them. Throws Error as
-  /// output::Folder does.
+  /// it writes the options to options.txt in staging(), so that even a killed run leaves them
+  /// there. Throws Error as output::Folder does.
   Directory(MPI_Comm comm, const Settings& settings, std::vector<sweep::Parameters> points);
   /// Returns the points of the sweep, borrowed.
   const std::vector<sweep::Parameters>& points() const { return points_; }
@@ -29,17 +29,17 @@ class Directory : public output::Folder {
 };
 
 /// Collective. Writes all reports, which then replace those of an earlier run, and prints the
-/// stability table. If the run was interrupted and has eigenvalues, its reports go to interrupted()
-/// instead, and the results of an earlier run stay. Throws Error, naming -report_dir, if a file
-/// cannot be written; the earlier results then stay.
+/// stability table. If the run was interrupted and has eigenvalues, its reports are written to
+/// interrupted() instead, and the results of an earlier run remain. Throws Error, naming
+/// -report_dir, if a file of a complete run cannot be written; the earlier results then remain.
 void write(const analysis::Analysis& analysis, const Settings& settings, Directory& directory);
 
-/// Collective. Removes the results of an interrupted run in interrupted(), except its checkpoint.
-/// Prints a warning if that fails.
+/// Collective. Removes the results of an interrupted run from interrupted(), except its checkpoint.
+/// Prints a warning if this fails.
 void removeInterrupted(MPI_Comm comm, const Directory& directory);
 
-/// Collective. Writes the file on rank 0. Throws Error on all ranks, naming -report_dir, if that
-/// fails.
+/// Collective. Writes a text to the file `path` on rank 0. Throws Error on all ranks, naming
+/// -report_dir, if this fails.
 void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::string& text);
 
 }  // namespace squeal::report

@@ -7,12 +7,12 @@
 
 namespace squeal::report {
 
-/// Returns the beginning of a row of a stored complex mode: parameters, number, growth rate and
-/// frequency of the mode.
+/// Returns the first cells of a table row on a stored complex mode: the parameters of the point,
+/// and number, growth rate and frequency of the mode.
 std::string modeHead(const pencil::ComplexModes& point, const pencil::Shape& shape);
 
 /// Returns sensitivities.csv: the derivatives of the eigenvalues of the stored complex modes, one
-/// row per mode and parameter. A mode without derivatives has one row, "none".
+/// row per mode and parameter. A mode without derivatives has one row with the parameter "none".
 std::string sensitivityTable(const analysis::Analysis& analysis);
 
 /// Collective. Returns friction_work.csv: the contribution of friction on each interface to the

@@ -7,8 +7,8 @@
 
 namespace squeal::report {
 
-/// Returns the terminal text: the frequencies and growth rates of the unstable modes at each point
-/// of the sweep, their errors, and critical frictions.
+/// Returns the text for the terminal: frequencies and growth rates of the unstable modes at each
+/// point of the sweep, the errors, and the critical frictions.
 std::string stabilityTable(const analysis::Analysis& analysis);
 
 }  // namespace squeal::report

@@ -7,8 +7,8 @@
 
 namespace squeal::report {
 
-/// Collective. Writes summary.json into `folder`, after the last stage, since it contains the
-/// times. Throws Error as writeText() does.
+/// Collective. Writes summary.json into `folder`. Call it after the last stage, since the summary
+/// contains the times of all stages. Throws Error as writeText() does.
 void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 
 }  // namespace squeal::report

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The verdict of a whole run: one sentence, and its figures.
+/// The verdict of a whole run: a sentence, and figures.
 #include <optional>
 #include <string>
 
@@ -10,15 +10,15 @@ namespace squeal::report {
 
 /// The verdict on the stability of a sweep.
 struct RunVerdict {
-  std::string sentence;    ///< with a capital letter and a full stop
-  int points = 0;          ///< of the sweep
-  int pointsSolved = 0;    ///< with eigenvalues, or with a list that is empty
-  int pointsUnstable = 0;  ///< with an unstable mode
+  std::string sentence;    ///< begins with a capital letter, ends with a full stop
+  int points = 0;          ///< points of the sweep
+  int pointsSolved = 0;    ///< points with a list of eigenvalues, which may be empty
+  int pointsUnstable = 0;  ///< points with an unstable mode
   int mostUnstable = 0;    ///< largest number of unstable modes at one point
-  int undecided = 0;       ///< eigenvalues of all points whose sign of growth is within the error
-  int uncertified = 0;     ///< eigenvalues of all points without a certificate
-  /// The lowest critical friction at which stability is lost; none if it was not computed, if more
-  /// than one parameter is swept, or if a point at lower friction is unstable.
+  int undecided = 0;       ///< eigenvalues of all points with the verdict `undecided`
+  int uncertified = 0;     ///< eigenvalues of all points with the verdict `uncertified`
+  /// The lowest critical friction at which stability is lost. None if it was not computed, if more
+  /// than one parameter is swept, or if a point of the sweep at a lower friction is unstable.
   std::optional<double> criticalFriction;
 };
 
