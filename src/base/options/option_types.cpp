@@ -127,7 +127,7 @@ VectorValue RealListOption::vector(const std::string& subject) const {
 std::array<double, 3> VectorValue::in(int dimension) const {
   if (values_.size() != 3 && (values_.size() != 2 || dimension != 2))
     throw Error(text_ + "; must have " +
-                (dimension == 2 ? "2 components in the plane, or 3" : "3 components"));
+                (dimension == 2 ? "2 components in plane problems, or 3" : "3 components"));
   return {values_[0], values_[1], values_.size() == 3 ? values_[2] : 0.0};
 }
 

@@ -104,7 +104,7 @@ class Correction {
       append(pair.left, leading_.back().isReal(), left);
     }
     set(std::move(right), std::move(left));
-    constexpr double margin = 100;  // of residuals that may consist only of round-off
+    constexpr double margin = 1000;  // of residuals that may consist only of round-off
     const double stiffness = linalg::squaredLength(problem_.stiffness.entries()),
                  mass = linalg::squaredLength(problem_.mass.entries());
     for (const auto& one : open) {

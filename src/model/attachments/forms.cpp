@@ -161,7 +161,8 @@ Matrix3 inertiaOf(const mesh::Mesh& mesh, const MassSettings& mass, const Matrix
   if (mesh.dimension == 2) {
     const double j = mass.inertia.size() == 6 ? mass.inertia[2] : mass.inertia[0];
     if (mass.inertia.size() != 6 && mass.inertia.size() != 1)
-      throw Error("option " + inertiaName(mass.group) + ": in the plane must be one number, Jzz");
+      throw Error("option " + inertiaName(mass.group) +
+                  ": in plane problems must be one number, Jzz");
     if (j < 0) throw Error("option " + inertiaName(mass.group) + ": Jzz must not be negative");
     Matrix3 inertia{};
     inertia[2][2] = j;
@@ -233,7 +234,7 @@ void addMoment(const mesh::Mesh& mesh, const ForceSettings& given, const frame::
                 given.group + "_position");
   const Point local = given.moment.in(3);
   if (mesh.dimension == 2 && (local[0] != 0 || local[1] != 0))
-    throw Error("option " + momentName(given.group) + ": in the plane must be 0,0,Mz");
+    throw Error("option " + momentName(given.group) + ": in plane problems must be 0,0,Mz");
   const Matrix3 axes = frame.axesAt(reference->position);  // on all ranks, as it may throw
   if (mesh.ownedNode(reference->rotation) < 0) return;
   const Point moment = mesh::along(axes, local);

@@ -114,7 +114,7 @@ void Supports::addRotations(const std::string& group, const ClampSettings& clamp
   const Point angle = clamp.angle.in(3);
   if (dimension_ == 2 && clamp.rotations != "z")
     throw Error("option " + clampedRotationName(group) + " " + clamp.rotations +
-                ": in the plane must be z");
+                ": in plane problems must be z");
   const mesh::Matrix3 axes = frame.axesAt(reference.position);  // on all ranks, as it may throw
   const PetscInt node = mesh_.ownedNode(reference.rotation);
   if (node < 0) return;

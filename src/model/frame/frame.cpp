@@ -32,7 +32,7 @@ Matrix3 turnOf(const FrameSettings& settings, int dimension) {
   Matrix3 turn = mesh::identity3;
   if (settings.turn == 0) return turn;
   if (dimension == 2 && settings.turnAxis != 2)
-    throw Error("option " + settings.turnAxisOption + ": in the plane must be z");
+    throw Error("option " + settings.turnAxisOption + ": in plane problems must be z");
   const std::size_t next = (settings.turnAxis + 1) % 3, last = (settings.turnAxis + 2) % 3;
   const double c = std::cos(settings.turn), s = std::sin(settings.turn);
   turn[next][next] = turn[last][last] = c;
@@ -53,7 +53,7 @@ Frame::Frame(const FrameSettings& settings, int dimension)
   if (cylindrical_) {
     if (dimension == 2 && std::abs(first[2]) != 1)
       throw Error("option " + settings.firstOption +
-                  ": in the plane the axis of a cylindrical frame must be along z");
+                  ": in plane problems the axis of a cylindrical frame must be along z");
     axes_[2] = first, axes_[0] = mesh::across(first), axes_[1] = cross(first, axes_[0]);
     return;
   }
@@ -63,7 +63,8 @@ Frame::Frame(const FrameSettings& settings, int dimension)
     throw Error("option " + settings.secondOption + ": is parallel to " + settings.firstOption +
                 "; give another direction in the plane of x and y");
   if (dimension == 2 && (first[2] != 0 || second[2] != 0))
-    throw Error("option " + settings.firstOption + ": in the plane the axes have no component z");
+    throw Error("option " + settings.firstOption +
+                ": in plane problems the axes have no component z");
   axes_[0] = first, axes_[2] = unit(normal), axes_[1] = cross(axes_[2], first);
   if (dimension == 2 && axes_[2][2] < 0)
     axes_[2] = {0, 0, 1}, axes_[1] = mesh::scaled(axes_[1], -1);

@@ -87,7 +87,7 @@ void requireTerm(const mesh::Mesh& mesh, const constraints::EquationTerm& term,
     throw Error(head + "group '" + term.group + "' has " + std::to_string(count) +
                 " nodes; a term needs a group of one node, or a reference node");
   if (mesh.dimension == 2 && (term.rotation ? term.component != 2 : term.component == 2))
-    throw Error(head + "in the plane the components are x, y and rz");
+    throw Error(head + "in plane problems the components are x, y and rz");
 }
 
 /// A term of an equation of the options, on the rank that owns its node.

@@ -113,7 +113,7 @@ TEST(Frame, RefusesWrongTurns) {
   expect("-frame_f_x 1,0,0 -frame_f_turn_about x", "option -frame_f_turn_about needs -frame_f_turn",
          3);
   expect("-frame_f_axis 0,0,1 -frame_f_turn 30 -frame_f_turn_about x",
-         "option -frame_f_turn_about: in the plane must be z", 2);
+         "option -frame_f_turn_about: in plane problems must be z", 2);
 }
 
 // A cell whose centre lies on the axis of an orthotropic law has no radial direction, also if
