@@ -157,8 +157,8 @@ struct CriticalMode {
   std::vector<CriticalDerivative> derivatives = {};          ///< empty if there are none
 };
 
-/// An eigenvalue of the full problem that the list of a point lacks. It is the only one in the disc
-/// with this centre and radius.
+/// An eigenvalue of the full problem that is missing from the list of a point. It is the only one
+/// in the disc with this centre and radius.
 struct MissingEigenvalue {
   Complex centre;     ///< 1/s
   double radius = 0;  ///< 1/s
@@ -170,11 +170,11 @@ struct Completeness {
   /// Half the number of these eigenvalues, with multiplicities: a conjugate pair counts once.
   int count = 0;
   double top = 0;           ///< rad/s
-  double definiteness = 0;  ///< δ
-  double ratio = 0;    ///< largest φ found on the boundary; the count is proved if it is below 1
-  Complex place = 0;   ///< where `ratio` is reached, or where the proof fails, 1/s
-  int discs = 0;       ///< number of discs that cover the upper half of the boundary
-  std::string reason;  ///< why the count is not proved; empty if it is
+  double definiteness = 0;  ///< δ of that section
+  double ratio = 0;         ///< largest φ found on the boundary of the region; below 1 if proved
+  Complex place = 0;        ///< where `ratio` is reached, or where the proof fails, 1/s
+  int discs = 0;            ///< number of discs that cover the upper half of the boundary
+  std::string reason;       ///< why the count is not proved; empty if it is
   std::vector<MissingEigenvalue> missing;  ///< eigenvalues that the list should contain
 };
 
@@ -187,8 +187,9 @@ struct ComplexModes {
   /// Top of the band, rad/s: eigenvalues with |s| up to this value are listed and corrected. 0:
   /// none are corrected (direct method); infinite: the basis spans the whole space.
   double bandTop = 0;
-  int freeModesInBand = 0;   ///< number of free modes up to bandTop
-  bool damped = false;       ///< the reduced problem has terms in s; false with the direct method
+  int freeModesInBand = 0;  ///< number of free modes up to bandTop
+  bool damped =
+      false;  ///< the reduced problem has a term linear in s; false with the direct method
   double accuracy = 0;       ///< required backward error
   double tolerance = 0;      ///< required estimate of |δs|/|s|; 0: none (direct method)
   double directBandTop = 0;  ///< upper end of the band of the direct method, rad/s; 0: none
@@ -209,7 +210,7 @@ struct ComplexModes {
   /// Returns the number of eigenvalues with this verdict.
   int count(Verdict verdict) const;
   /// Returns the verdict on the point: the first of unstable, uncertified, undecided, neutral and
-  /// stable that one of its eigenvalues has; uncertified without eigenvalues.
+  /// stable that one of its eigenvalues has. If the point has no eigenvalues, it is uncertified.
   Verdict verdict() const;
   /// Returns the number of eigenvalues that are not certified.
   int uncertifiedCount() const;
@@ -227,8 +228,9 @@ void setVerdicts(ComplexModes& point, Symmetry symmetry, const Criteria& criteri
 /// Returns the indices of the eigenvalues whose shapes are stored, in order of descending growth
 /// rate: at most `shapes`, all below `shapesBelow`, and only unstable ones unless `stableShapes`.
 std::vector<std::size_t> shapesToStore(const ComplexModes& point, const Criteria& criteria);
-/// Collective. Appends the shapes of the eigenvalues with these indices to the point. Takes
-/// `modes`, their vectors in the unknowns x, scaled in any way; `trial` is T.
+/// Collective. Appends the shapes of the eigenvalues with these indices to the point. Consumes
+/// `modes`, the eigenvectors of these eigenvalues in the unknowns x, in any scaling; `trial` is the
+/// matrix T of u = T x.
 void storeShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
                  std::vector<linalg::ComplexVector> modes);
 

@@ -84,10 +84,11 @@ std::string TrackedLine::statement() const {
   if (const auto open = std::ranges::count(criticals, false, &Critical::converged); open > 0)
     text += formatted("; %td of %zu changes of stability %s located only within their bounds", open,
                       criticals.size(), open == 1 ? "is" : "are");
-  return wholeSpace ? text
-                    : text +
-                          "; assumed: the basis contains every eigenvalue of the full problem that "
-                          "crosses the edge of the band";
+  return wholeSpace
+             ? text
+             : text +
+                   "; assumed: every eigenvalue of the full problem that crosses the edge of "
+                   "the band appears in the reduced problem";
 }
 
 std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,

@@ -3,12 +3,14 @@
 /// The growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 within
 /// about a thousandth [M.28]:
 ///   VᵀK0V ≈ I.
-/// If points have boundary unknowns, the constraint modes come first. They are orthogonal to all
+/// If there are boundary unknowns, which exist only at some of the points (Substructure), their
+/// constraint modes come first. They are orthogonal to all
 /// other vectors but not to each other.
 ///
 /// Free modes enter as d/ω, corrections as z = K0⁻¹ r [M.31]. The residuals r of a Galerkin
-/// solution on V have Vᵀr = 0, so their corrections are orthogonal to V in energy. Up to the errors
-/// of solves with K0, the following quantities need no product with K0 [M.32]:
+/// solution on V have Vᵀr = 0, so their corrections are orthogonal to V in energy. The following
+/// quantities therefore need no product with K0 [M.32]; the relations hold up to the errors of
+/// solves with K0:
 ///   VᵀK0z = Vᵀr,   zᵀK0z = zᵀr,   K0z = r.
 #include <optional>
 #include <vector>
@@ -39,13 +41,14 @@ class Basis {
   /// Returns the number of boundary unknowns of all ranks. Their constraint modes are the first
   /// vectors.
   PetscInt boundarySize() const { return boundaryStiffness_.rows(); }
-  /// Returns S of the constraint modes, boundary × boundary [M.60].
+  /// Returns VᵀKV of the constraint modes, the Schur complement of K on the boundary unknowns,
+  /// boundary × boundary [M.60].
   const linalg::DenseMatrix& boundaryStiffness() const { return boundaryStiffness_; }
   /// Sets the rows of the boundary unknowns to zero. Not collective.
   void clearBoundary(linalg::Block& columns) const;
   OwnedBV vectors() const;
-  /// Not collective. Returns columns of the interior unknowns extended by zeros at the boundary;
-  /// both have this rank's rows.
+  /// Not collective. Returns the columns `interior`, which have only interior unknowns, extended by
+  /// zeros at the boundary unknowns. Argument and result have this rank's rows.
   linalg::Block prolonged(const linalg::DenseView& interior) const;
 
   /// Collective. Adds K0⁻¹ times the columns of `residuals`, by a block solve; combinations that
@@ -54,8 +57,8 @@ class Basis {
   PetscInt add(linalg::Block residuals);
   /// Collective. Does the same for static forces F. Returns FᵀK0⁻¹F, from the interior rows of F.
   linalg::DenseMatrix addResponses(linalg::Block forces);
-  /// Collective. Appends this rank's rows of the vectors that add() found in an earlier run, and
-  /// restores its state.
+  /// Collective. Appends this rank's rows of the vectors that add() found in an earlier run, with
+  /// the energy ratio of its last add() and its number of solves.
   void restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves);
   /// Collective. Returns K0⁻¹ times the interior rows of the columns, by a block solve. The result
   /// is zero at the boundary.
@@ -68,7 +71,8 @@ class Basis {
   /// has this rank's rows of A.
   void appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
   /// Return this rank's rows of K0 times the columns last added, and VᵀK0 times these columns,
-  /// size() × columns. Both have no columns if they are not known without further products.
+  /// size() × columns. Both have no columns after combine() and restore(), since they
+  /// would need further products.
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
   /// Collective. Returns V q, n entries, for several q, [q]. Missing last entries of a q are

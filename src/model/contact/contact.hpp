@@ -75,8 +75,9 @@ struct Contact {
   /// Returns true if the slip is the same at all points of a sweep, that is, without convective
   /// terms and with a constant friction law.
   bool slipIsConstant() const { return !sliding.convected && law.constant(); }
-  /// Collective. Returns the slip, [contact node], at the speed factor v (`speed`). With V the base
-  /// velocity of the disc or obstacle, the relative velocity is
+  /// Collective. Returns the slip, [contact node], at the speed factor v (`speed`). Let V be the
+  /// velocity of the disc or obstacle at the factor 1, and let D u_D = (V·∇) u_D be the convective
+  /// part for the displacement u_D of the disc. The relative velocity is
   ///   w = −v (V + D u_D)   [2.15],
   /// projected on the tangent plane. Without convective terms, or if u (`displacement`) is null, it
   /// is w = −v V.
@@ -95,9 +96,9 @@ struct Contact {
   /// Collective. Returns E⁻¹ v for gaps v at the nodes; both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
   /// Collective. Returns the nodal forces after adding the force on each layer node to the force on
-  /// the node of the face below it. At the layer node the force is then zero. Tangentially, the two
-  /// nodes move together. Along the normal, the two forces by which a layer acts on its own ends
-  /// cancel in the sum.
+  /// the node of the face below it. At the layer node the force is then zero. The sum is the
+  /// force on the face: tangentially, since the two nodes move together, and along the normal,
+  /// since the layer exerts equal and opposite forces on them.
   OwnedVec movedFromLayers(Vec forces) const;
   /// Returns the exponents of the swept friction that occur in the coefficients of the interfaces:
   /// the list contains 0 if any coefficient is fixed, and 1 if any is swept. The same on all ranks.

@@ -36,14 +36,14 @@ const RealOption factorOption(
     "ratio of the coefficient of friction of a sliding interface to -flutter_friction");
 const RealOption frictionOption(
     "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
-    "fixed coefficient of friction of a sliding interface; if not given: the swept coefficient. On "
-    "a sticking interface: limit of the ratio of tangential to normal force at a node; if not "
-    "given: no limit");
+    "fixed coefficient of friction of a sliding interface (0: frictionless); if the option is not "
+    "given, the swept coefficient applies. On a sticking interface: limit of the ratio of "
+    "tangential to normal force at a node; if the option is not given, it is unlimited");
 const FlagOption releaseOption(
     "contact", "contact_<interface>_release", false,
-    "release of the nodes of a sticking interface whose ratio of tangential to normal force "
-    "exceeds the limit -contact_<interface>_friction; on: they slide, with this limit as "
-    "coefficient of friction; off: they stick and are reported");
+    "what happens to a node of a sticking interface if its ratio of tangential to normal force "
+    "exceeds the limit -contact_<interface>_friction; on: it slides, with this limit as "
+    "coefficient of friction; off: it sticks and is reported");
 const WordOrRealOption gapOption(
     "contact", "contact_<interface>_gap", 0.0, "m", "measured",
     "initial gap, without load; measured: the distance between the two "
@@ -54,10 +54,10 @@ const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveName
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance at which the program pairs two faces if the two "
                               "meshes do not match; 0 = automatic (half the size of a face)");
-const FlagOption separationOption(
-    "contact", "contact_<interface>_separation", true,
-    "separation of the two sides; off: they stay in contact, also under tension; a point of the "
-    "sweep fails if a node with friction is under tension");
+const FlagOption separationOption("contact", "contact_<interface>_separation", true,
+                                  "whether the two sides can separate; off: they stay together "
+                                  "even under tension, but a point of "
+                                  "the sweep fails if a node with friction is then under tension");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");

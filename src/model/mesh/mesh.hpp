@@ -64,7 +64,7 @@ struct ContactPair {
   int interface;    ///< index into Mesh::interfaces
   int masterBody;   ///< index into Mesh::bodies of the disc side; −1 for a rigid obstacle
   int masterPart;   ///< connected part of the master node; −1 for a rigid obstacle
-  Point offset;     ///< position of the master minus that of the node in the file, m
+  Point offset;     ///< position of the master minus that of the node, as in the mesh file, m
 };
 
 /// A volume group whose cells have one material: a body without sections, or a section of a body.
@@ -74,7 +74,8 @@ struct MaterialGroup {
   bool isSection;  ///< false: it is the whole body, and has its name
 };
 
-/// A section that cuts a body: its two sides move apart by the displacement of a reference node.
+/// A cut through a body, such as the shank of a bolt; not a section of MaterialGroup. The two sides
+/// of the cut move apart by the displacement of a reference node.
 struct Section {
   std::string name;
   Point normal;   ///< unit, from the lower side to the upper one
@@ -118,9 +119,9 @@ struct Straightened {
 };
 
 /// A reference node: a point with a displacement and a rotation, which couplings join to the
-/// bodies. Two nodes of the mesh that belong to no cell have the displacement and the rotation as
-/// their components. In plane problems the first component of the second node is the rotation about
-/// z.
+/// bodies. It is stored as two nodes that belong to no cell: the components of the first are the
+/// displacement, those of the second the rotation. In plane problems the first component of the
+/// second node is the rotation about z.
 struct Reference {
   std::string name;
   Point position;         ///< m
@@ -143,8 +144,8 @@ struct Mesh {
   PetscInt firstNode = 0;   ///< global number of local node 0; owned nodes are contiguous
   std::vector<PetscInt> globalNode;  ///< [local node] global number
   std::vector<Point> coordinates;    ///< [local node], m
-  /// [local node] gmsh's tag; the two nodes of a split shared node repeat it. It is 0 and −1 at
-  /// reference nodes, and −1 − tag at the layer node of a node with this tag.
+  /// [local node] gmsh's tag. If a shared node has been split in two, both have its tag. The first
+  /// node of a reference has 0, the second −1, and the layer node of a node with tag t has −1 − t.
   std::vector<PetscInt> nodeTag;
   /// [local node] connected part (0 … parts−1) of the bodies; contact does not connect parts
   std::vector<int> nodePart;
@@ -163,7 +164,7 @@ struct Mesh {
   std::vector<Reference> references;
   std::vector<Section> sections;  ///< the same on all ranks
   std::vector<SectionPair> sectionPairs;
-  /// Owned by this rank, including images and layer nodes that are not used.
+  /// All those that this rank owns, also images and those that no interface uses.
   std::vector<LayerNode> layers;
   PetscInt layerNodes = 0;  ///< on all ranks together
   std::vector<Image> images;
@@ -171,13 +172,14 @@ struct Mesh {
   std::vector<InterfaceMatch> interfaces;  ///< in the order of the request
 
   PetscInt localNodes() const { return globalNode.size(); }
-  /// Returns the distance, m, below which a point is treated as coinciding with x. It is larger
-  /// than the round-off of coordinates and of their means, so the direction between closer points
-  /// is meaningless.
+  /// Returns the distance, m, below which a point is treated as coinciding with x. It
+  /// exceeds the round-off of coordinates and of their means; the direction between closer points
+  /// must not be used.
   double coincidence(const Point& x) const;
   /// Returns true if a body is made up of sections.
   bool hasSections() const;
-  /// Returns a material group for messages: "body 'NAME'" or "section 'NAME' of body 'BODY'".
+  /// Returns the text that names a material group in messages: "body 'NAME'" or "section 'NAME' of
+  /// body 'BODY'".
   std::string materialText(int group) const;
   /// Returns the local number of a global node that this rank owns; −1 for other nodes.
   PetscInt ownedNode(PetscInt global) const {
@@ -214,10 +216,12 @@ struct GroupRequest {
 /// One contact interface as the mesh sees it: two surface groups, or a pad on a rigid obstacle.
 struct InterfaceRequest {
   std::string name;
-  std::string label;         ///< the kind of interface and its name: unique, for messages
-  GroupRequest pad, disc;    ///< an empty name of the disc means a rigid obstacle
-  bool discIsSlave = false;  ///< the nodes of the disc have the gaps, also if the meshes match
-  /// Surfaces whose nodes need layer nodes, because they may have the gaps above a compliant layer.
+  std::string label;       ///< the kind of interface and its name: unique, for messages
+  GroupRequest pad, disc;  ///< an empty name of the disc means a rigid obstacle
+  bool discIsSlave =
+      false;  ///< the gaps are those of the nodes of the disc, even if the meshes match
+  /// Surfaces whose nodes get layer nodes: those that may be the slave side of an interface with a
+  /// compliant layer, whose nodes have the gaps.
   std::vector<std::string> layered = {};
 };
 
@@ -236,7 +240,7 @@ struct ReferenceRequest {
   std::string option;  ///< the option that requests it, with its dash, for messages
 };
 
-/// A surface group inside a body that cuts it.
+/// A surface group that lies inside a body and cuts it.
 struct SectionRequest {
   std::string name;
   GroupRequest surface;
@@ -257,7 +261,7 @@ struct Request {
   std::vector<GroupRequest> nodeGroups;
   std::vector<ReferenceRequest> references;  ///< sorted by name
   std::vector<SectionRequest> sections;      ///< sorted by name
-  /// Surface groups that are loaded. Those of both sides of interfaces are added.
+  /// Surface groups that are loaded. The two sides of an interface need not be listed.
   std::vector<GroupRequest> surfaces;
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;

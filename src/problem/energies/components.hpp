@@ -34,8 +34,8 @@ struct NodalProducts {
 };
 
 /// The components that store or dissipate energy: bodies, springs, bushings, point masses, the
-/// springs and dashpots of groups to the ground, and the compliant layers of interfaces. Ties,
-/// couplings and equations are constraints and store no energy.
+/// springs and dashpots that connect groups to the ground, and the compliant layers of interfaces.
+/// Ties, couplings and equations are constraints and store no energy.
 class Components {
  public:
   /// Collective. Borrows mesh, bodies and contact during the lifetime of the object. If bodies

@@ -12,9 +12,9 @@
 namespace squeal::cycles {
 
 /// A direction in the unknowns (q, v, period, friction), each multiplied by a scale that gives it
-/// the unit √J. The scale of q is the angular frequency, and v has this unit itself. The scale of
-/// the period is the norm of the motion divided by the period; that of the friction is the norm
-/// divided by the friction.
+/// the unit √J. The scale of q is the angular frequency; v needs no scale, since its unit is √J.
+/// The scale of the period is the norm of the motion divided by the period; that of the friction is
+/// the norm divided by the friction.
 using Direction = std::vector<double>;
 
 /// Floquet multipliers: the factors by which disturbances of a periodic motion grow in a period.
@@ -26,19 +26,21 @@ struct Multipliers {
 };
 
 /// The equations of a periodic motion, linearised about an orbit:
-///   (M − 1) δx + ∂x(T)/∂T δT + ∂x(T)/∂f δf = −(x(T) − x),   ẋᵀ δx = 0,   and δf = 0 or tᵀδ = 0,
-/// where x consists of q, v and the slips that stick at the start, with the scales of Direction,
-/// and M is the monodromy matrix.
+///   (M − 1) δx + ∂x(T)/∂T δT + ∂x(T)/∂f δf = −(x(T) − x),   ẋᵀ δx = 0,   and δf = 0 or tᵀδ = 0.
+/// The last equation is tᵀδ = 0 if a tangent t of the branch is given. x consists of q and v with
+/// the scales of Direction, and of the slips in z of the nodes that stick at the start of the
+/// period. M is the monodromy matrix.
 class Linearisation {
  public:
   /// Collective.
   Linearisation(const Period& period, const Orbit& at);
   const Monodromy& monodromy() const { return monodromy_; }
 
-  /// A change of the unknowns, and the resulting change of all z at the end of a period.
+  /// A change of the unknowns, and the resulting change of all entries of z, the boundary of the
+  /// reduced model (march::ReducedModel), at the end of a period.
   struct Step {
     Direction direction;
-    std::vector<double> stuck;  ///< changes of the slips that stick at the start, m
+    std::vector<double> stuck;  ///< changes of the slips of nodes that stick at the start, m
     std::vector<double> z;      ///< m
   };
   /// Not collective. Returns the step that makes the end of a period equal to its start, to first

@@ -23,7 +23,8 @@ using linalg::DenseMatrix;
 using mesh::Point;
 
 /// A contact node of the reduced model with its steady state. Its rows in the jump are the gap and
-/// one slip along each tangent, as coefficients E⁻¹ times nodal values (contact::Contact).
+/// one slip along each tangent. They are the coefficients, that is, E⁻¹ times the nodal values
+/// (contact::Contact).
 struct Node {
   int interface = 0;
   Point position{};
@@ -54,7 +55,8 @@ struct ReducedModel {
   DenseMatrix boundaryStiffness;  ///< K_z
   DenseMatrix couplingDamping;    ///< C_zq, rows × modes
   DenseMatrix couplingStiffness;  ///< K_zq
-  /// [row] 0 for a slip without z, because supports hold it or it has no friction; otherwise 1
+  /// [row] 1 if z has this row as an unknown; 0 for a slip that supports prevent, and for that of a
+  /// node without friction
   std::vector<unsigned char> moves;
   /// The friction law φ as a function of the sliding speed, m/s; empty: constant coefficients.
   std::function<double(double)> law;

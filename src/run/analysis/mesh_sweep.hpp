@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The eigenvalue problems of groups of steady points. Points whose active sets differ little share
-/// one factorisation and one basis. These belong to the active set in which a node is closed if it
-/// is closed at any point of the group.
+/// one factorisation and one basis. The factorisation and the free modes in the basis are those
+/// of the union of the active sets: a node is closed (or held) if it is so at any point of the
+/// group.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -47,8 +48,8 @@ class MeshSweep : public sweep_solver::SweepProblem {
   void addComponents(sweep_solver::ModalSegment& segment) const;
 
  private:
-  /// The active set of the points [first, last) of the group, or a set between two points, without
-  /// a point of its own.
+  /// An active set and the points [first, last) of the group that have it; first = last = 0 if it
+  /// occurs only between two points.
   struct SetOnPath {
     contact::ActiveSet set;
     std::size_t first = 0, last = 0;
@@ -84,8 +85,8 @@ class MeshSweep : public sweep_solver::SweepProblem {
   contact::ActiveSet anywhere_;  // a node is closed if it is in any of the sets
   OwnedMat prestress_;           // K_σ of the first point, which is part of K0
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;
-  const contact::CoupledSystem* interior_ = nullptr;  // closed where any set is
-  const contact::CoupledSystem* all_ = nullptr;       // closed where all sets are
+  const contact::CoupledSystem* interior_ = nullptr;  // closed: the nodes closed in any set
+  const contact::CoupledSystem* all_ = nullptr;       // closed: those closed in all sets
   std::unique_ptr<steady::Problem> problem_;          // for points between those of the sweep
 };
 

@@ -22,7 +22,7 @@ struct ChosenSet {
   sweep::Parameters at;
   /// [contact node of this rank] 1 if it is closed; the others are open
   contact::Mask closed;
-  /// The holds of the sticking nodes.
+  /// Which sticking nodes are held, open or released (steady::Hold).
   Sticking sticking;
 };
 
@@ -43,7 +43,8 @@ class CondensedProblem {
   /// sticking nodes held, during the lifetime of the object.
   CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed);
   ~CondensedProblem();
-  /// Offers TᵀKT with all contact open and all sticking nodes released (Impedance::offer()).
+  /// Passes on a function that returns TᵀKT with all contact open and no sticking node held;
+  /// Impedance::offer() says when it is used.
   void offer(std::function<Mat()> openStiffness);
   /// Collective. Solves at all points as Problem::solve() does, starting from the gaps and holds of
   /// the last solution of the last call. During the call, the memory contains several vectors of

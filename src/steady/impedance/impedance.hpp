@@ -5,18 +5,19 @@
 ///
 /// The unknowns x of the open contact consist of y and w: y are the unknowns of the closed contact,
 /// and w, the released unknowns, are the gaps and the tangential displacements of sticking nodes.
-/// The slip rows S and the rows N of the normal forces are those of [M.10]. With the friction
-/// magnitudes t = f R and the loads q, equilibrium in the rows of y, the normal forces R and the
-/// forces F in the rows of w are
-///   K0 y + K_yw w + S_yᵀ t = q,   R = N K T (y, w),   F = K_wy y + K_ww w + S_wᵀ t,
-/// except for constant terms. One solve with K0 therefore gives the responses (R, F) at the contact
+/// The slip rows S and the rows N of the normal forces are those of [M.10]. Let t = f R be
+/// the magnitudes of friction and q the loads. Except for constant terms, the first of the
+/// following equations is the equilibrium in the rows of y; the others give the normal forces R,
+/// and the forces F in the rows of w:
+///   K0 y + K_yw w + S_yᵀ t = q,   R = N K T (y, w),   F = K_wy y + K_ww w + S_wᵀ t.
+/// One solve with K0 therefore gives the responses (R, F) at the contact
 /// to causes (t, w). The responses depend neither on the friction nor on the set of open or held
 /// nodes.
 ///
 /// The responses to w are the columns of the Schur complement of the contact,
 ///   S_c = K_ww − K_wy K0⁻¹ K_yw,   F = S_c w,   R = F in the rows of the gaps.
-/// One factorisation of K with all contact open gives S_c. It costs as much as some hundreds of
-/// solves.
+/// One factorisation of K with all contact open gives S_c. Its cost is given
+/// at Impedance::worthwhile.
 #include <functional>
 #include <vector>
 
@@ -37,13 +38,13 @@ class Impedance {
   Impedance(const contact::Contact& contact, const contact::Transformation& open, Mat stiffness,
             Mat slipRows, const contact::CoupledSystem& closed);
   /// Number of requested responses after which the Schur complement is computed. The complement
-  /// costs as much as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact). With a
-  /// threshold of half of the lower figure, solves and complement together cost at most 3 to 5
-  /// times as much as the cheaper of the two ways.
+  /// costs as much as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact). This
+  /// threshold is half of the lower figure. The total cost is then at most 3 to 5 times that of the
+  /// cheaper choice: only solves, or the complement from the start.
   static constexpr long worthwhile = 300;
   /// Collective. Takes a function that returns TᵀKT with all contact open and no sticking node
-  /// held, in the unknowns of `open`. Once more than `after` responses to units of w have been
-  /// requested, further ones are taken from the Schur complement of this matrix.
+  /// held, in the unknowns of `open`. Once more than `after` responses to unit vectors of w have
+  /// been requested, further ones are taken from the Schur complement of this matrix.
   void offer(std::function<Mat()> openStiffness, long after = worthwhile) {
     openStiffness_ = std::move(openStiffness);
     after_ = after;
@@ -63,14 +64,15 @@ class Impedance {
   PetscInt length() const { return nodes() + std::ssize(nodeOf_); }
   /// Collective. Returns the responses, one column per cause.
   linalg::DenseMatrix responses(const linalg::DenseView& causes) const;
-  /// Collective. Returns the responses to units of these entries of w, which are numbered over all
-  /// ranks.
+  /// Collective. Returns the responses to the unit vectors of these entries of w, which are
+  /// numbered over all ranks.
   linalg::DenseMatrix responsesToUnits(const std::vector<PetscInt>& released) const;
-  /// Collective. Adds the effect of each column of causes to the x of the same index: to w the w of
-  /// the column, and to y the response to its (t, w). x has the unknowns of the open contact.
+  /// Collective. Adds the effect of each column of causes to the vector x with the same index: its
+  /// w is added to the entries w of x, and the response of y to its (t, w) is added to the entries
+  /// y. x has the unknowns of the open contact.
   void addUnknowns(const linalg::DenseView& causes, const std::vector<Vec>& x) const;
-  /// Collective. Each residual r has the rows of x, and so the parts r_y and r_w. Balances r_y by
-  /// adding y = −K0⁻¹ r_y to the x of the same index. Returns one column per residual, with
+  /// Collective. Each residual r has the same rows as x, and thus consists of r_y and r_w. Balances
+  /// r_y by adding y = −K0⁻¹ r_y to the x of the same index. Returns one column per residual, with
   /// N K T_y y in the rows of the contact nodes and r_w + K_wy y in those of w.
   linalg::DenseMatrix relax(const std::vector<Vec>& residuals, const std::vector<Vec>& x) const;
   /// Collective. Returns S_wᵀ, released unknowns × contact nodes: the direct effect of friction on
