@@ -3,9 +3,9 @@
 /// The growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 within
 /// about a thousandth [M.28]:
 ///   VᵀK0V ≈ I.
-/// If there are boundary unknowns, which exist only at some of the points (Substructure), their
-/// constraint modes come first. They are orthogonal to all
-/// other vectors but not to each other.
+/// Boundary unknowns are those that exist only at some points of the sweep, such as the gaps of
+/// nodes that open (Substructure). If there are any, their constraint modes come first. They are
+/// orthogonal to all other vectors but not to each other.
 ///
 /// Free modes enter as d/ω, corrections as z = K0⁻¹ r [M.31]. The residuals r of a Galerkin
 /// solution on V have Vᵀr = 0, so their corrections are orthogonal to V in energy. The following
@@ -84,8 +84,8 @@ class Basis {
   /// Returns the unweighted sketch of V.
   const linalg::DenseMatrix& sketched() const { return sketched_; }
   /// Returns a sketch of D^½ V with D = diag(K0), of few rows and size() columns. It serves to
-  /// estimate round-off: ε √(yᵀDy) √(xᵀDx) bounds the round-off in yᵀK0x that the entries of K0
-  /// cause, up to a factor of the number of entries per row [M.26].
+  /// estimate round-off: ε √(yᵀDy) √(xᵀDx) bounds the error of yᵀK0x due to the rounding of the
+  /// entries of K0, except for a factor of the order of the number of entries per row [M.26].
   const linalg::DenseMatrix& sketchedRigidity() const { return rigidity_; }
   /// Collective. Returns for each block of columns the largest ratio of the energy norm √(rᵀ K0⁻¹
   /// r) to √(rᵀ diag(K0)⁻¹ r) among the combinations r of its columns, or 0 for a block without

@@ -22,17 +22,17 @@ namespace squeal::interfaces {
 struct ContactNode {
   Point position;  ///< m
   Point normal;    ///< n, unit, from disc to pad
-  Point slip;  ///< τ = w/|w|; w = −V in the tangent plane, at the speed factor 1; zero without slip
+  Point slip;  ///< τ = w/|w|, or zero if w = 0; w = −V in the tangent plane, at the speed factor 1
   double slipSpeed;  ///< |w| at the speed factor 1, m/s
-  double area;       ///< ∫ ψ dA over the part of the faces in contact, positive, m² (m in plane
-                     ///< problems); ∫ φ̃ dA if the meshes match
-  double wholeArea;  ///< ∫ φ̃ dA over the faces of the slave, m² (m)
-  double gap;        ///< gap without load, m
-  int interface;     ///< index into Interfaces::options
-  Role role;         ///< never tied
-  bool separates;    ///< false: its gap stays zero
-  int side;          ///< +1 if the slave is the pad, −1 if it is the disc
-  PetscInt node;     ///< local node with the gap
+  double area;  ///< ∫ ψ dA over the covered part of the faces, ψ: dual function (mortar/dual.hpp),
+                ///< positive, m² (m in plane problems); `wholeArea` if the meshes match
+  double wholeArea;      ///< ∫ φ̃ dA over the faces of the slave, m² (m)
+  double gap;            ///< gap without load, m
+  int interface;         ///< index into Interfaces::options
+  Role role;             ///< never tied
+  bool separates;        ///< false: its gap stays zero
+  int side;              ///< +1 if the slave is the pad, −1 if it is the disc
+  PetscInt node;         ///< local node with the gap
   PetscInt globalNode;   ///< global node with the gap
   PetscInt surfaceNode;  ///< local node on the face; differs from `node` if there is a layer
   PetscInt master;       ///< global node of the disc if the meshes match; otherwise −1
@@ -50,8 +50,9 @@ struct Connection {
   /// 1 if no master is itself a slave, otherwise the largest level of its masters plus 1
   int level = 1;
   std::vector<coupling::Weight> masters;    ///< row of P; empty on a rigid obstacle
-  std::vector<coupling::Weight> convected;  ///< D u_D, 1/s, if the slave is the pad and the
-                                            ///< meshes do not match
+  std::vector<coupling::Weight> convected;  ///< weights, 1/s, of the displacements in
+                                            ///< (V·∇) u_D; empty if the meshes match,
+                                            ///< or if the slave is the disc
 };
 
 /// A tied node, owned by this rank.
@@ -61,9 +62,9 @@ struct TiedNode {
   std::vector<coupling::PartShare> masterParts;
   Point offset;  ///< Σ P_il x_l − x_i, m: from the node to its position on the master, both as in
                  ///< the file
-  /// [component] 1 if a support holds the component directly and the tie does not act on it. This
-  /// is the case if the condition that the support would impose on the masters already follows from
-  /// other conditions.
+  /// [component] 1 if a support holds the component directly and the tie does not act on it.
+  /// Normally a support of a tied node acts on its masters instead; if that condition on the
+  /// masters already follows from others, the support holds the node itself.
   std::array<unsigned char, 3> apart{};
 };
 
@@ -83,7 +84,7 @@ struct LossReport {
 
 /// The cells that the adjustment of a tie stretches or compresses.
 struct StrainReport {
-  PetscInt cells = 0;  ///< cells in which a distance of corners changes by more than a tenth
+  PetscInt cells = 0;  ///< cells in which the distance of two corners changes by over a tenth
   double change = 0;   ///< largest relative change of a distance of two corners
   Point where{};       ///< midpoint of these two corners, with the coordinates of the file, m
 };
@@ -94,7 +95,8 @@ struct InterfaceReport {
   std::string whyNot;           ///< text on where the meshes do not match
   bool nearlyMatching = false;  ///< the meshes do not match, but most nodes have a partner
   PetscInt nodes = 0;           ///< nodes in contact, or tied
-  // If the meshes match, the next four are zero, except slave and coveredArea of a tie.
+  // If the meshes match, slave, master, coveredArea and largestGap are zero, except slave and
+  // coveredArea of a tie.
   coupling::SideReport slave, master;
   double coveredArea = 0;  ///< of the slave, m² (m in plane problems)
   double largestGap = 0;   ///< largest distance between the touching surfaces, m

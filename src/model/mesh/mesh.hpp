@@ -34,8 +34,9 @@ struct CellBlock {
 
 /// A FaceBlock holds the boundary faces of one gmsh element type, from the surface groups that
 /// options name. A face is on the rank of the cell that it bounds. If pad and disc share nodes in
-/// the file, the group of the pad contains the faces of the cells at rest. The group of the disc,
-/// if it is a different group, contains those of the moving cells.
+/// the file, the group of the pad has the faces of the cells whose body has no motion
+/// (Request::moving). The group of the disc has the faces of the moving cells, unless it is a pad
+/// as well.
 struct FaceBlock {
   int type = 0;
   int nodesPerFace = 0;
@@ -74,8 +75,9 @@ struct MaterialGroup {
   bool isSection;  ///< false: it is the whole body, and has its name
 };
 
-/// A cut through a body, such as the shank of a bolt; not a section of MaterialGroup. The two sides
-/// of the cut move apart by the displacement of a reference node.
+/// A cut through a body, for example across the shank of a bolt; the sections of MaterialGroup, in
+/// contrast, are volumes. The two sides of the cut move apart by the displacement of a reference
+/// node.
 struct Section {
   std::string name;
   Point normal;   ///< unit, from the lower side to the upper one
@@ -164,7 +166,7 @@ struct Mesh {
   std::vector<Reference> references;
   std::vector<Section> sections;  ///< the same on all ranks
   std::vector<SectionPair> sectionPairs;
-  /// All those that this rank owns, also images and those that no interface uses.
+  /// All layer nodes that this rank owns, including those of images and of no interface.
   std::vector<LayerNode> layers;
   PetscInt layerNodes = 0;  ///< on all ranks together
   std::vector<Image> images;
@@ -173,8 +175,8 @@ struct Mesh {
 
   PetscInt localNodes() const { return globalNode.size(); }
   /// Returns the distance, m, below which a point is treated as coinciding with x. It
-  /// exceeds the round-off of coordinates and of their means; the direction between closer points
-  /// must not be used.
+  /// exceeds the round-off of coordinates and of their means; the direction of the line
+  /// between two closer points is meaningless.
   double coincidence(const Point& x) const;
   /// Returns true if a body is made up of sections.
   bool hasSections() const;
@@ -220,8 +222,8 @@ struct InterfaceRequest {
   GroupRequest pad, disc;  ///< an empty name of the disc means a rigid obstacle
   bool discIsSlave =
       false;  ///< the gaps are those of the nodes of the disc, even if the meshes match
-  /// Surfaces whose nodes get layer nodes: those that may be the slave side of an interface with a
-  /// compliant layer, whose nodes have the gaps.
+  /// Surfaces whose nodes get layer nodes, if the interface has a compliant layer: those that may
+  /// become its slave side. The nodes of the slave side have the gaps.
   std::vector<std::string> layered = {};
 };
 

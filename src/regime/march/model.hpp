@@ -5,10 +5,10 @@
 ///   u = u_s + V q + Ψ z,   y = j q + z,
 ///   q̈ + C q̇ + Λ q + K_zqᵀ z + C_zqᵀ ż = jᵀ R*,
 ///   M_z z̈ + C_z ż + K_z z + K_zq q + C_zq q̇ = R*,
-/// where the jump y contains gaps and slips, and R = R_s + R* are the contact forces. The motion of
-/// the contact consists of j q, which the modes contain, and of z (the boundary), which they do
-/// not. Only the scheme of Moreau and Jean uses M_z. Without M_z the boundary is massless, and a
-/// contact that closes causes no impulse.
+/// where the jump y contains gaps and slips, and R = R_s + R* are the contact forces. The jump
+/// consists of j q, which the modes represent, and of z, which they do not. The unknowns z are
+/// called the boundary. Only the scheme of Moreau and Jean uses M_z. Without M_z the boundary is
+/// massless, and a contact that closes causes no impulse.
 #include <array>
 #include <functional>
 #include <vector>
@@ -23,8 +23,8 @@ using linalg::DenseMatrix;
 using mesh::Point;
 
 /// A contact node of the reduced model with its steady state. Its rows in the jump are the gap and
-/// one slip along each tangent. They are the coefficients, that is, E⁻¹ times the nodal values
-/// (contact::Contact).
+/// one slip along each tangent. The values in these rows are E⁻¹ times the nodal gaps and
+/// slips (contact::Contact).
 struct Node {
   int interface = 0;
   Point position{};
@@ -55,8 +55,8 @@ struct ReducedModel {
   DenseMatrix boundaryStiffness;  ///< K_z
   DenseMatrix couplingDamping;    ///< C_zq, rows × modes
   DenseMatrix couplingStiffness;  ///< K_zq
-  /// [row] 1 if z has this row as an unknown; 0 for a slip that supports prevent, and for that of a
-  /// node without friction
+  /// [row] 1 if z has this row as an unknown; 0 for a slip that supports prevent, and for the
+  /// slips of nodes without friction
   std::vector<unsigned char> moves;
   /// The friction law φ as a function of the sliding speed, m/s; empty: constant coefficients.
   std::function<double(double)> law;
@@ -86,8 +86,9 @@ struct LinearMode {
 LinearMode nearestMode(const ReducedModel& model, Complex s,
                        const StopRequested& stopRequested = {});
 
-/// Not collective. Returns the largest step, s, at which the leapfrog rule is stable with all nodes
-/// held: 2/ω, with ω the highest angular frequency.
+/// Not collective. Returns the largest step, s, at which the leapfrog rule is stable if no contact
+/// node opens or slips relative to steady sliding (y = 0): 2/ω, where ω is the highest angular
+/// frequency in this state.
 double stableStep(const ReducedModel& model);
 /// Not collective. Returns the largest stable step, s, with all nodes free. Contact makes the model
 /// stiffer, so a longer step is unstable in every state of the contact.

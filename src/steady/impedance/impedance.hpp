@@ -3,21 +3,21 @@
 /// Static condensation of the bodies to the unknowns of the contact. It uses the factorised
 /// stiffness K0 of the closed, frictionless contact [M.58].
 ///
-/// The unknowns x of the open contact consist of y and w: y are the unknowns of the closed contact,
-/// and w, the released unknowns, are the gaps and the tangential displacements of sticking nodes.
+/// The unknowns x of the model with all contact open consist of y, which remain unknowns if all
+/// contact is closed and held, and of the released unknowns w: the gaps, and the tangential
+/// displacements of sticking nodes.
 /// The slip rows S and the rows N of the normal forces are those of [M.10]. Let t = f R be
-/// the magnitudes of friction and q the loads. Except for constant terms, the first of the
-/// following equations is the equilibrium in the rows of y; the others give the normal forces R,
-/// and the forces F in the rows of w:
+/// the magnitudes of the friction forces and q the loads. The first of the following equations is
+/// the equilibrium in the rows of y. The others give the normal forces R and the forces F in the
+/// rows of w; their constant terms, due to the loads, are omitted:
 ///   K0 y + K_yw w + S_yᵀ t = q,   R = N K T (y, w),   F = K_wy y + K_ww w + S_wᵀ t.
-/// One solve with K0 therefore gives the responses (R, F) at the contact
-/// to causes (t, w). The responses depend neither on the friction nor on the set of open or held
-/// nodes.
+/// One solve with K0 therefore gives the responses (R, F) at the contact to causes (t, w). This map
+/// depends neither on the coefficients of friction nor on which nodes are open or held.
 ///
 /// The responses to w are the columns of the Schur complement of the contact,
 ///   S_c = K_ww − K_wy K0⁻¹ K_yw,   F = S_c w,   R = F in the rows of the gaps.
-/// One factorisation of K with all contact open gives S_c. Its cost is given
-/// at Impedance::worthwhile.
+/// One factorisation of K with all contact open gives S_c. Its cost is given at
+/// Impedance::worthwhile.
 #include <functional>
 #include <vector>
 
@@ -32,19 +32,20 @@ using ContactVector = std::vector<double>;
 
 class Impedance {
  public:
-  /// Collective. `open` is the transformation with all gaps unknown and no sticking node held,
+  /// Collective. `open` is the T in which all gaps are unknowns and no sticking node is held,
   /// `stiffness` is K, symmetric, `slipRows` is S, and `closed` is the system with all nodes closed
   /// and held. Borrows `closed` and `contact` during the lifetime of the object.
   Impedance(const contact::Contact& contact, const contact::Transformation& open, Mat stiffness,
             Mat slipRows, const contact::CoupledSystem& closed);
-  /// Number of requested responses after which the Schur complement is computed. The complement
-  /// costs as much as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact). This
-  /// threshold is half of the lower figure. The total cost is then at most 3 to 5 times that of the
-  /// cheaper choice: only solves, or the complement from the start.
+  /// Number of requested responses to w after which the Schur complement is computed. The
+  /// complement costs as much as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact).
+  /// This threshold is half of the lower figure. The total cost is then at most 3 to 5 times that
+  /// of the cheaper choice: only solves, or the complement from the start.
   static constexpr long worthwhile = 300;
   /// Collective. Takes a function that returns TᵀKT with all contact open and no sticking node
   /// held, in the unknowns of `open`. Once more than `after` responses to unit vectors of w have
-  /// been requested, further ones are taken from the Schur complement of this matrix.
+  /// been requested, further ones are taken from the Schur complement of this matrix, if w has at
+  /// most 8,000 entries and the complement passes a check of its accuracy.
   void offer(std::function<Mat()> openStiffness, long after = worthwhile) {
     openStiffness_ = std::move(openStiffness);
     after_ = after;
@@ -67,16 +68,16 @@ class Impedance {
   /// Collective. Returns the responses to the unit vectors of these entries of w, which are
   /// numbered over all ranks.
   linalg::DenseMatrix responsesToUnits(const std::vector<PetscInt>& released) const;
-  /// Collective. Adds the effect of each column of causes to the vector x with the same index: its
-  /// w is added to the entries w of x, and the response of y to its (t, w) is added to the entries
-  /// y. x has the unknowns of the open contact.
+  /// Collective. For each column (t, w) of `causes`, adds w to the entries w of the x with the same
+  /// index, and the y that (t, w) causes to the entries y of this x.
   void addUnknowns(const linalg::DenseView& causes, const std::vector<Vec>& x) const;
   /// Collective. Each residual r has the same rows as x, and thus consists of r_y and r_w. Balances
   /// r_y by adding y = −K0⁻¹ r_y to the x of the same index. Returns one column per residual, with
   /// N K T_y y in the rows of the contact nodes and r_w + K_wy y in those of w.
   linalg::DenseMatrix relax(const std::vector<Vec>& residuals, const std::vector<Vec>& x) const;
-  /// Collective. Returns S_wᵀ, released unknowns × contact nodes: the direct effect of friction on
-  /// nodes that slide (steady::Hold::released). The slip rows S must have no entries for y.
+  /// Collective. Returns S_wᵀ, released unknowns × contact nodes: the friction that acts
+  /// directly in the rows of w, at nodes of sticking interfaces that slide
+  /// (steady::Hold::released). The slip rows S must have no entries for y.
   OwnedMat directFriction(Mat slipRows) const;
   long solves() const { return solves_; }  ///< total number of right-hand sides so far
 
