@@ -7,6 +7,7 @@
 
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/rows.hpp"
+#include "algebra/linalg/spread.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/object.hpp"
 #include "base/system/concatenation.hpp"
@@ -32,7 +33,8 @@ constexpr PetscInt mostDirections = 500;
 /// against the space of friction magnitudes, and against its block. The next block contains the
 /// directions omitted here.
 constexpr double newInSpace = 1e-10, newInBlock = 0.3;
-/// The largest number of bytes for stiffnesses of free unknowns, unless a single one needs more.
+/// The largest number of bytes of a rank for stiffnesses of free unknowns, unless a single one
+/// needs more.
 constexpr double mostBytes = 256e6;
 /// The largest number of active sets in memory.
 constexpr std::size_t mostBlocks = 32;
@@ -61,11 +63,18 @@ struct ContactSolver::FreeBlock {
   std::vector<PetscInt> local;      // free unknowns of this rank
   std::vector<PetscInt> places;     // [free unknown of any rank] its column
   Concatenation ranks;              // of `local`
-  SymmetricInverse stiffness;       // F of w among the free unknowns
+  int owner;                        // the rank that has the next two
+  DenseMatrix matrix;               // F of w among the free unknowns, until it is factorised
+  SymmetricInverse stiffness;       // the same, factorised
   /// R of the friction magnitudes with the free unknowns released, [frictional node]
   DenseMatrix normal;
 
   double bytes() const { return 8.0 * ranks.size() * ranks.size(); }
+  /// Not collective: the owners of several blocks factorise them at the same time.
+  void factorise() {
+    if (!matrix.empty()) stiffness = SymmetricInverse(linalg::symmetricPart(matrix));
+    matrix = {};
+  }
 };
 
 /// The search for the friction of one case in the space of friction magnitudes.
@@ -142,10 +151,14 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
     if (free[i]) local.push_back(i), mine.push_back(place_.at(first_ + i));
   const Concatenation ranks(comm, local.size());
   auto places = ranks.gathered(mine);
-  DenseMatrix rows(local.size(), std::ssize(places));
-  for (PetscInt j = 0; j < rows.columns(); ++j)
-    for (std::size_t i = 0; i < local.size(); ++i) rows(i, j) = columns_(n + local[i], places[j]);
-  DenseMatrix stiffness = linalg::symmetricPart(linalg::gatheredRows(ranks, rows));
+  // Row by row, so that one message has all rows of a rank. The matrix is symmetric except for
+  // round-off, so its rows serve as columns.
+  DenseMatrix rows(std::ssize(places), local.size()), matrix(std::ssize(places), ranks.size());
+  for (PetscInt j = 0; j < rows.rows(); ++j)
+    for (std::size_t i = 0; i < local.size(); ++i) rows(j, i) = columns_(n + local[i], places[j]);
+  ranks.gather(rows.data(), matrix.data(), static_cast<int>(rows.rows()));
+  const int owner = static_cast<int>(blocksSoFar_++ % mpi::size(comm));
+  if (owner != mpi::rank(comm)) matrix = {};
   OwnedMat direct;
   if (conditions.direct) {
     check(PetscObjectReference(object(conditions.direct)));
@@ -153,12 +166,13 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
   }
   blocks_.insert(blocks_.begin(),
                  std::make_shared<FreeBlock>(
-                     free, std::move(direct), std::move(local), std::move(places), ranks,
-                     SymmetricInverse(std::move(stiffness)), DenseMatrix(std::ssize(frictional_))));
+                     free, std::move(direct), std::move(local), std::move(places), ranks, owner,
+                     std::move(matrix), SymmetricInverse(), DenseMatrix(std::ssize(frictional_))));
+  const double most = mostBytes * mpi::size(comm);
   double bytes = 0;
   const auto kept =
       std::ranges::find_if(blocks_.begin() + 1, blocks_.end(), [&](const auto& block) {
-        return (bytes += block->bytes()) + blocks_.front()->bytes() > mostBytes;
+        return (bytes += block->bytes()) + blocks_.front()->bytes() > most;
       });
   blocks_.erase(kept, blocks_.end());
   if (blocks_.size() > mostBlocks) blocks_.resize(mostBlocks);
@@ -174,7 +188,9 @@ DenseMatrix ContactSolver::released(const FreeBlock& block, const DenseView& eff
     for (std::size_t i = 0; i < block.local.size(); ++i)
       rows(i, j) = -effects(n + block.local[i], j);
   DenseMatrix freed = linalg::gatheredRows(block.ranks, rows);
-  block.stiffness.apply(freed);
+  const MPI_Comm comm = impedance_.comm();
+  if (mpi::rank(comm) == block.owner) block.stiffness.apply(freed);
+  mpi::broadcastEntries(comm, freed.entries(), block.owner);
   DenseMatrix amounts(columns_.columns(), freed.columns());
   for (PetscInt j = 0; j < freed.columns(); ++j)
     for (PetscInt i = 0; i < freed.rows(); ++i) amounts(block.places[i], j) = freed(i, j);
@@ -299,11 +315,12 @@ std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> case
   std::vector<double> orders;
   for (const auto& one : cases) orders.push_back(std::ranges::count(one.conditions.free, 1));
   mpi::reduce<double>(impedance_.comm(), orders, MPI_SUM);
+  const double most = mostBytes * mpi::size(impedance_.comm());
   std::vector<std::size_t> begins{0};
   double bytes = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const double more = 8 * orders[i] * orders[i];
-    if (i > begins.back() && bytes + more > mostBytes) begins.push_back(i), bytes = 0;
+    if (i > begins.back() && bytes + more > most) begins.push_back(i), bytes = 0;
     bytes += more;
   }
   begins.push_back(cases.size());
@@ -312,6 +329,7 @@ std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> case
 
 std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> cases,
                                                   double accuracy) {
+  const MPI_Comm comm = impedance_.comm();
   const PetscInt n = impedance_.nodes(), length = impedance_.length();
   std::vector<unsigned char> free(length - n);
   for (const auto& one : cases)
@@ -322,15 +340,19 @@ std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> c
   const auto begins = groups(cases);
   for (std::size_t group = 0; group + 1 < begins.size(); ++group) {
     std::vector<Search> searches;
-    for (std::size_t k = begins[group]; k < begins[group + 1]; ++k) {
-      Search search{cases[k], blockOf(cases[k].conditions), DenseMatrix(n, 1)};
-      DenseMatrix effects(length, 1, cases[k].given);
+    for (std::size_t k = begins[group]; k < begins[group + 1]; ++k)
+      searches.push_back({cases[k], blockOf(cases[k].conditions), DenseMatrix(n, 1)});
+    linalg::onOwners(comm, mpi::size(comm), [&](std::size_t) {
+      for (Search& search : searches) search.block->factorise();
+    });
+    for (Search& search : searches) {
+      const auto& [conditions, given, frictionUnit] = search.contactCase;
+      DenseMatrix effects(length, 1, given);
       release(*search.block, effects);
       for (PetscInt i = 0; i < n; ++i)
-        search.wanted(i, 0) = cases[k].conditions.coefficient[i] * effects(i, 0);
-      search.left = linalg::length(impedance_.comm(), search.wanted.entries());
-      search.unit = std::max(search.left, cases[k].frictionUnit);
-      searches.push_back(std::move(search));
+        search.wanted(i, 0) = conditions.coefficient[i] * effects(i, 0);
+      search.left = linalg::length(comm, search.wanted.entries());
+      search.unit = std::max(search.left, frictionUnit);
     }
     balance(searches, accuracy);
     for (const auto& search : searches) solutions.push_back(solution(search, accuracy));

@@ -93,6 +93,7 @@ class ContactSolver {
   linalg::DenseMatrix frictionalColumns_;  // R of these nodes, [frictional node]×[known column]
   linalg::DenseMatrix magnitudes_, responses_;      // t, orthonormal, and Z (t, 0)
   std::vector<std::shared_ptr<FreeBlock>> blocks_;  // for the last conditions, the newest first
+  PetscInt blocksSoFar_ = 0;                        // the ranks own them in turn
 };
 
 }  // namespace squeal::impedance

@@ -12,6 +12,7 @@ namespace squeal::impedance {
 /// largest eigenvalue are then omitted, such as rigid-body modes of open parts.
 class SymmetricInverse {
  public:
+  SymmetricInverse() = default;  ///< of order 0
   explicit SymmetricInverse(linalg::DenseMatrix a);
   /// Replaces the columns of x by A⁻¹ x.
   void apply(linalg::DenseMatrix& x) const;
