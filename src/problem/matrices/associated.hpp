@@ -24,8 +24,8 @@ OwnedMat symmetrised(Mat matrix);
 
 /// Collective. Returns the associated system of the terms. Rows of zeros in the mass are accepted:
 /// they belong to unknowns without mass, such as reference nodes, which the stiffness determines.
-/// Throws Error, naming the matrices, in three cases: there is no stiffness or no mass without
-/// exponents; the mass is not symmetric to 1e-10; K0, or M0 without its rows of zeros, is not
+/// Throws Error, naming the matrices, in three cases: the stiffness or the mass without exponents
+/// is missing; the mass is not symmetric to 1e-10; K0, or M0 without its rows of zeros, is not
 /// positive definite within round-off (K0 is not if a body has a rigid-body mode).
 SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms);
 

@@ -15,8 +15,8 @@ namespace squeal::matrixfile {
 /// "format", "h5sparse_format" or "encoding-type" of the group, or its dataset "format", must begin
 /// with csr or csc. Without this text the matrix must be symmetric: lists by rows and by columns
 /// are then the same. In MATLAB files of version 7.3, the object is a group with data, ir and jc,
-/// or a dataset of class double or single. Throws Error if there is no such matrix or more than
-/// one, and for complex or damaged content.
+/// or a dataset of class double or single. Throws Error if the file has none or several such
+/// matrices, and for complex or damaged content.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace squeal::matrixfile

@@ -18,7 +18,7 @@ namespace squeal::regime {
 void checkOptions(const Settings& settings, const pencil::Settings& pencil,
                   const terms::Settings* terms);
 
-/// Throws Error if there is no contact, and for properties that the time integration does not
+/// Throws Error for a model without contact, and for properties that the time integration does not
 /// support: convective terms, prestress, interfaces that cannot separate, and a friction law
 /// together with periodic motions.
 void requireSupported(const Settings& settings, const elasticity::Bodies& bodies,

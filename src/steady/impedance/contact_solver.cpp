@@ -33,9 +33,9 @@ constexpr PetscInt mostDirections = 500;
 /// against the space of friction magnitudes, and against its block. The next block contains the
 /// directions omitted here.
 constexpr double newInSpace = 1e-10, newInBlock = 0.3;
-/// The largest number of bytes of a rank for stiffnesses of free unknowns, unless a single one
-/// needs more.
-constexpr double mostBytes = 256e6;
+/// Returns the largest number of bytes on all ranks for stiffnesses of free unknowns, unless a
+/// single one needs more.
+double mostBytes(MPI_Comm comm) { return 256e6 * mpi::size(comm); }
 /// The largest number of active sets in memory.
 constexpr std::size_t mostBlocks = 32;
 
@@ -168,7 +168,7 @@ std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
                  std::make_shared<FreeBlock>(
                      free, std::move(direct), std::move(local), std::move(places), ranks, owner,
                      std::move(matrix), SymmetricInverse(), DenseMatrix(std::ssize(frictional_))));
-  const double most = mostBytes * mpi::size(comm);
+  const double most = mostBytes(comm);
   double bytes = 0;
   const auto kept =
       std::ranges::find_if(blocks_.begin() + 1, blocks_.end(), [&](const auto& block) {
@@ -315,7 +315,7 @@ std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> case
   std::vector<double> orders;
   for (const auto& one : cases) orders.push_back(std::ranges::count(one.conditions.free, 1));
   mpi::reduce<double>(impedance_.comm(), orders, MPI_SUM);
-  const double most = mostBytes * mpi::size(impedance_.comm());
+  const double most = mostBytes(impedance_.comm());
   std::vector<std::size_t> begins{0};
   double bytes = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
