@@ -104,7 +104,8 @@ MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, Current
         contact::countDifferent(brake.comm(), anywhere_, everywhere), sets_.size()));
   }
   system = interior_;
-  trial = all_->transformation().trial;
+  ownTrial_ = all_->transformation().trial.share();
+  trial = ownTrial_;
   pencil = terms::affineTerms(contact, *all_);
   ranges = pointRanges();
   frictionBefore = frictionOfPointBefore();
