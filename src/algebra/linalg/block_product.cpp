@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ namespace {
 
 /// Number of columns that are stored together, the width of a tile, and its unit.
 constexpr PetscInt widest = 32, unit = 8;
+/// A unit of a row, for the registers of the processor. The widest ones need this alignment.
+struct alignas(unit * sizeof(double)) Unit {
+  using Numbers [[gnu::vector_size(unit * sizeof(double))]] = double;
+  Numbers numbers;
+};
 
 /// The rows of a sequential AIJ matrix, borrowed from construction to destruction.
 class SparseRows {
@@ -39,61 +45,101 @@ class SparseRows {
   PetscInt size() const { return rows_; }
   PetscInt entries() const { return rows_ > 0 ? begin_[rows_] : 0; }
 
-  /// Adds A X to Y. Both are stored by rows of `width` numbers.
-  template <int width>
-  [[gnu::always_inline]] void addTo(double* y, const double* x) const {
-    for (PetscInt i = 0; i < rows_; ++i, y += width) {
-      double sum[width];
-      for (int c = 0; c < width; ++c) sum[c] = y[c];
-      for (PetscInt k = begin_[i]; k < begin_[i + 1]; ++k) {
-        const double entry = entry_[k];
-        const double* const row = x + static_cast<std::ptrdiff_t>(column_[k]) * width;
-        for (int c = 0; c < width; ++c) sum[c] += entry * row[c];
+  /// Sets the entries of the columns with entries to 1.
+  void markColumns(std::vector<unsigned char>& marks) const {
+    for (PetscInt k = 0; k < entries(); ++k) marks[column_[k]] = 1;
+  }
+  /// Adds A X to Y. Both are stored by rows of `parts` units. Treats up to `most` rows at a time if
+  /// they have the same columns, as those of the displacements of a node have: their products read
+  /// X once.
+  template <int parts, int most>
+  [[gnu::always_inline]] void addTo(Unit* y, const Unit* x) const {
+    for (PetscInt i = 0; i < rows_;) {
+      if (most == 3 && i + 2 < rows_ && isAlike(i, i + 1) && isAlike(i, i + 2)) {
+        addRows<parts, 3>(i, y + i * std::ptrdiff_t(parts), x);
+        i += 3;
+      } else {
+        addRows<parts, 1>(i, y + i * std::ptrdiff_t(parts), x);
+        ++i;
       }
-      for (int c = 0; c < width; ++c) y[c] = sum[c];
     }
   }
 
  private:
+  /// Returns true if two rows have the same columns.
+  bool isAlike(PetscInt i, PetscInt j) const {
+    return std::equal(column_ + begin_[i], column_ + begin_[i + 1], column_ + begin_[j],
+                      column_ + begin_[j + 1]);
+  }
+  /// Adds `count` rows of A X, from row i on, which have the same columns.
+  template <int parts, int count>
+  [[gnu::always_inline]] void addRows(PetscInt i, Unit* y, const Unit* x) const {
+    // Without unrolled loops, the compiler leaves the sums in memory.
+    Unit::Numbers sum[count][parts];
+    const double* entry[count];
+#pragma GCC unroll 3
+    for (int r = 0; r < count; ++r) {
+      entry[r] = entry_ + begin_[i + r];
+#pragma GCC unroll 4
+      for (int p = 0; p < parts; ++p) sum[r][p] = y[r * parts + p].numbers;
+    }
+    const PetscInt* const column = column_ + begin_[i];
+    const PetscInt length = begin_[i + 1] - begin_[i];
+    for (PetscInt k = 0; k < length; ++k) {
+      const Unit* const row = x + static_cast<std::ptrdiff_t>(column[k]) * parts;
+#pragma GCC unroll 3
+      for (int r = 0; r < count; ++r) {
+#pragma GCC unroll 4
+        for (int p = 0; p < parts; ++p) sum[r][p] += entry[r][k] * row[p].numbers;
+      }
+    }
+#pragma GCC unroll 3
+    for (int r = 0; r < count; ++r) {
+#pragma GCC unroll 4
+      for (int p = 0; p < parts; ++p) y[r * parts + p].numbers = sum[r][p];
+    }
+  }
+
   Mat matrix_;
   PetscInt rows_ = 0;
   const PetscInt *begin_ = nullptr, *column_ = nullptr;
   const PetscScalar* entry_ = nullptr;
 };
 
-template <int width>
-void add(const SparseRows& a, const double* x, double* y) {
-  a.addTo<width>(y, x);
+template <int parts>
+void add(const SparseRows& a, const Unit* x, Unit* y) {
+  a.addTo<parts, 1>(y, x);
 }
 
 #ifdef __x86_64__
-/// The same for processors with wider registers than those that every x86-64 has.
-template <int width>
-[[gnu::target("avx2,fma")]] void addByAvx2(const SparseRows& a, const double* x, double* y) {
-  a.addTo<width>(y, x);
+/// The same for processors with wider registers than those that every x86-64 has. The sums of three
+/// rows fit into the registers of the last.
+template <int parts>
+[[gnu::target("avx2,fma")]] void addByAvx2(const SparseRows& a, const Unit* x, Unit* y) {
+  a.addTo<parts, 1>(y, x);
 }
-template <int width>
-[[gnu::target("avx512f")]] void addByAvx512(const SparseRows& a, const double* x, double* y) {
-  a.addTo<width>(y, x);
+template <int parts>
+[[gnu::target("avx512f")]] void addByAvx512(const SparseRows& a, const Unit* x, Unit* y) {
+  a.addTo<parts, 3>(y, x);
 }
 #endif
 
-using Adder = void (*)(const SparseRows&, const double*, double*);
+using Adder = void (*)(const SparseRows&, const Unit*, Unit*);
 
-/// Returns the fastest function for tiles of some width on this processor.
-template <int width>
+/// Returns the fastest function for tiles of some units on this processor.
+template <int parts>
 Adder fastest() {
 #ifdef __x86_64__
-  if (__builtin_cpu_supports("avx512f")) return addByAvx512<width>;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return addByAvx2<width>;
+  if (__builtin_cpu_supports("avx512f")) return addByAvx512<parts>;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return addByAvx2<parts>;
 #endif
-  return add<width>;
+  return add<parts>;
 }
 
-/// Adds A X to Y for tiles of a width up to `widest`, a multiple of `unit`.
-void addProduct(const SparseRows& a, PetscInt width, const double* x, double* y) {
-  static const std::array byWidth{fastest<8>(), fastest<16>(), fastest<24>(), fastest<32>()};
-  byWidth.at(width / unit - 1)(a, x, y);
+/// Adds A X to Y for tiles of up to four units.
+void addProduct(const SparseRows& a, PetscInt units, const Unit* x, Unit* y) {
+  static const std::array byUnits{fastest<1>(), fastest<2>(), fastest<3>(), fastest<4>()};
+  byUnits.at(units - 1)(a, x, y);
 }
 
 /// A matrix of PETSc's type AIJ as the rows of this rank: those of its own unknowns, and those of
@@ -149,41 +195,84 @@ void copyByPieces(std::ptrdiff_t rows, std::ptrdiff_t columns, const Copy& copy)
   }
 }
 
-/// Columns of X, of A X, and of the unknowns of other ranks, stored by rows. Columns that fill up a
-/// tile have any value.
-struct Tiles {
-  std::vector<double> from, to, received;
+/// Collective. Returns the rows of X on this rank that A X needs on any rank: few if A has few
+/// entries.
+std::vector<PetscInt> neededRows(const Parts& parts, const SparseRows& own, PetscInt rows) {
+  const PetscInt* receivers = nullptr;  // [row] their number
+  if (parts.fromOwners) {
+    check(PetscSFComputeDegreeBegin(parts.fromOwners, &receivers));
+    check(PetscSFComputeDegreeEnd(parts.fromOwners, &receivers));
+  }
+  std::vector<unsigned char> needed(rows, own.entries() >= rows);
+  if (own.entries() < rows) own.markColumns(needed);
+  std::vector<PetscInt> list;
+  for (PetscInt i = 0; i < rows; ++i)
+    if (needed[i] || (receivers && receivers[i] > 0)) list.push_back(i);
+  return list;
+}
+
+/// Memory for columns stored by rows, which begins with any values.
+class Tile {
+ public:
+  /// Returns space for this number of units. It has the earlier values if the number is the same.
+  Unit* of(std::size_t units) {
+    if (units > units_) memory_ = std::make_unique_for_overwrite<Unit[]>(units_ = units);
+    return memory_.get();
+  }
+
+ private:
+  std::unique_ptr<Unit[]> memory_;
+  std::size_t units_ = 0;
 };
 
+/// Columns of X, of A X, and of the unknowns of other ranks.
+struct Tiles {
+  Tile from, to, received;
+};
+
+/// Writes the needed rows of X to a tile. Columns that fill it up become zero.
+void fill(const DenseView& x, const std::vector<PetscInt>& needed, PetscInt units, Unit* tile) {
+  const PetscInt count = x.columns();
+  const std::ptrdiff_t rows = x.rows();
+  if (count % unit != 0)
+    for (const std::ptrdiff_t i : needed) tile[i * units + units - 1] = Unit{};
+  const auto copy = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
+    tile[i * units + j / unit].numbers[j % unit] = x.data()[j * rows + i];
+  };
+  if (std::ssize(needed) == rows) return copyByPieces(rows, count, copy);
+  copyByPieces(std::ssize(needed), count,
+               [&](std::ptrdiff_t k, std::ptrdiff_t j) { copy(needed[k], j); });
+}
+
 /// Collective. Writes A X to `result`, given by columns, for X of at most `widest` columns.
-void multiplyTile(const Parts& parts, const DenseView& x, Tiles& tiles, double* result) {
-  auto& [from, to, received] = tiles;
-  const PetscInt count = x.columns(), width = (count + unit - 1) / unit * unit;
+/// `needed` are the rows of neededRows().
+void multiplyTile(const Parts& parts, const DenseView& x, const std::vector<PetscInt>& needed,
+                  Tiles& tiles, double* result) {
+  const PetscInt count = x.columns(), units = (count + unit - 1) / unit;
   const SparseRows own(parts.own);
-  from.resize(static_cast<std::size_t>(x.rows()) * width);
-  to.assign(static_cast<std::size_t>(own.size()) * width, 0.0);
-  copyByPieces(x.rows(), count, [&](std::ptrdiff_t i, std::ptrdiff_t j) {
-    from[i * width + j] = x.data()[j * x.rows() + i];
-  });
+  const std::ptrdiff_t rows = own.size();
+  Unit* const from = tiles.from.of(static_cast<std::size_t>(x.rows()) * units);
+  Unit* const to = tiles.to.of(rows * units);
+  std::fill_n(to, rows * units, Unit{});
+  fill(x, needed, units, from);
   if (!parts.others) {
-    addProduct(own, width, from.data(), to.data());
+    addProduct(own, units, from, to);
   } else {
-    received.resize(static_cast<std::size_t>(parts.received) * width);
+    Unit* const received = tiles.received.of(static_cast<std::size_t>(parts.received) * units);
     MPI_Datatype row = MPI_DATATYPE_NULL;
-    check(MPI_Type_contiguous(static_cast<int>(width), MPI_DOUBLE, &row));
+    check(MPI_Type_contiguous(static_cast<int>(units * unit), MPI_DOUBLE, &row));
     check(MPI_Type_commit(&row));
-    check(PetscSFBcastBegin(parts.fromOwners, row, from.data(), received.data(), MPI_REPLACE));
-    addProduct(own, width, from.data(), to.data());
-    check(PetscSFBcastEnd(parts.fromOwners, row, from.data(), received.data(), MPI_REPLACE));
+    check(PetscSFBcastBegin(parts.fromOwners, row, from, received, MPI_REPLACE));
+    addProduct(own, units, from, to);
+    check(PetscSFBcastEnd(parts.fromOwners, row, from, received, MPI_REPLACE));
     check(MPI_Type_free(&row));
     const SparseRows others(parts.others);
-    addProduct(others, width, received.data(), to.data());
+    addProduct(others, units, received, to);
     LoggedWork::addOperations(2.0 * others.entries() * count);
   }
   LoggedWork::addOperations(2.0 * own.entries() * count);
-  const std::ptrdiff_t rows = own.size();
   copyByPieces(rows, count, [&](std::ptrdiff_t i, std::ptrdiff_t j) {
-    result[j * rows + i] = to[i * width + j];
+    result[j * rows + i] = to[i * units + j / unit].numbers[j % unit];
   });
 }
 
@@ -215,8 +304,9 @@ void appendProduct(Mat matrix, const DenseView& x, Block& result) {
   Parts parts;
   if (takeParts(matrix, parts)) {
     Tiles tiles;
+    const auto needed = neededRows(parts, SparseRows(parts.own), localLength);
     for (PetscInt begin = 0; begin < count; begin += widest)
-      multiplyTile(parts, x.columnRange(begin, std::min(begin + widest, count)), tiles,
+      multiplyTile(parts, x.columnRange(begin, std::min(begin + widest, count)), needed, tiles,
                    result.column(first + begin).data());
     return;
   }

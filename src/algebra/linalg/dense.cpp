@@ -18,10 +18,15 @@ void multiplyAdd(const DenseView& x, const DenseView& coefficients, DenseMatrix&
   if (x.empty() || coefficients.empty()) return;
   ensure(x.columns() == coefficients.rows(), factorsFit);
   ensure(x.rows() == result.rows() && coefficients.columns() == result.columns(), sumsFit);
-  const PetscBLASInt rows = x.rows(), inner = x.columns(), columns = coefficients.columns();
+  const PetscBLASInt rows = x.rows(), inner = x.columns(), columns = coefficients.columns(),
+                     step = 1;
   const double one = 1;
-  BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x.data(), &rows, coefficients.data(),
-            &inner, &one, result.data(), &rows);
+  if (columns == 1)  // GEMM would copy X first
+    BLASgemv_("N", &rows, &inner, &factor, x.data(), &rows, coefficients.data(), &step, &one,
+              result.data(), &step);
+  else
+    BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x.data(), &rows, coefficients.data(),
+              &inner, &one, result.data(), &rows);
 }
 
 DenseMatrix product(const DenseView& x, const DenseView& coefficients) {
@@ -33,9 +38,13 @@ DenseMatrix product(const DenseView& x, const DenseView& coefficients) {
 DenseMatrix transposedProduct(const DenseView& x, const DenseView& y) {
   ensure(x.rows() == y.rows(), factorsFit);
   DenseMatrix result(x.columns(), y.columns());
-  const PetscBLASInt inner = x.rows(), rows = x.columns(), columns = y.columns();
+  if (x.empty() || y.empty()) return result;
+  const PetscBLASInt inner = x.rows(), rows = x.columns(), columns = y.columns(), step = 1;
   const double one = 1, zero = 0;
-  if (inner > 0 && rows > 0 && columns > 0)
+  if (columns == 1)
+    BLASgemv_("T", &inner, &rows, &one, x.data(), &inner, y.data(), &step, &zero, result.data(),
+              &step);
+  else
     BLASgemm_("T", "N", &rows, &columns, &inner, &one, x.data(), &inner, y.data(), &inner, &zero,
               result.data(), &rows);
   return result;

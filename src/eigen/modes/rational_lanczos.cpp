@@ -21,11 +21,8 @@ using linalg::DenseView;
 
 RationalLanczos::RationalLanczos(Mat m, BV basis, PetscInt blockSize)
     : m_(m), basis_(basis), comm_(commOf(m)), width_(blockSize) {
-  PetscInt n = 0;
-  check(BVGetSizes(basis, &rows_, &n, &limit_));
-  w_ = linalg::Block(rows_, width_);
-  asMat_ = linalg::borrowed(comm_, n, w_);
-  check(MatMatMult(m_, asMat_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, mw_.out()));
+  check(BVGetSizes(basis, &rows_, &unknowns_, &limit_));
+  w_ = mw_ = linalg::Block(rows_, width_);
   a_ = b_ = DenseMatrix(limit_, limit_);
   check(BVGetArray(basis_, &columns_));
   // Each rank draws its own part. The seed is fixed, so a run is reproducible.
@@ -149,28 +146,20 @@ void RationalLanczos::append() {
 
 /// Computes M W.
 void RationalLanczos::massTimesW() {
-  const LoggedWork work(Work::blockProduct);
-  Mat product = mw_;
-  PetscScalar* changed = nullptr;  // informs PETSc that the entries have changed
-  check(MatDenseGetArrayWrite(asMat_, &changed));
-  check(MatDenseRestoreArrayWrite(asMat_, &changed));
-  check(MatMatMult(m_, asMat_, MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
+  mw_.resizeColumns(0);
+  linalg::appendProduct(m_, w_, mw_);
 }
 
 /// Replaces W by (K − σ M)⁻¹ M W, after massTimesW().
 void RationalLanczos::solve(const Pole& pole) {
   const LoggedWork work(Work::blockSolve);
-  pole.solve(mw_, asMat_);
+  pole.solve(linalg::borrowed(comm_, unknowns_, mw_), linalg::borrowed(comm_, unknowns_, w_));
   solves_ += width_;
 }
 
 /// Returns Xᵀ (M W) over all ranks, after massTimesW().
 DenseMatrix RationalLanczos::timesMassTimesW(const DenseView& x) const {
-  const PetscScalar* mw = nullptr;
-  check(MatDenseGetArrayRead(mw_, &mw));
-  DenseMatrix result = linalg::transposedProduct(comm_, x, {mw, rows_, width_});
-  check(MatDenseRestoreArrayRead(mw_, &mw));
-  return result;
+  return linalg::transposedProduct(comm_, x, mw_);
 }
 
 /// Replaces W by W − X (Xᵀ M W) for the columns X of V from `first` on, and adds the coefficients
@@ -220,8 +209,7 @@ void RationalLanczos::orthonormalise(double size) {
         up(i, j) *= lost[j] ? 0 : std::sqrt(d[j]);
       }
     r_ = linalg::transposedProduct(up, r_);
-    // W stays at its address, since the matrix of PETSc borrows it.
-    std::ranges::copy(linalg::product(w_, down).entries(), w_.data());
+    w_ = linalg::product(w_, down);
     if (any) {
       if (++refills > 5)
         throw Error("free vibration: block Lanczos cannot extend its basis; use -modes_solver eps");
@@ -232,11 +220,7 @@ void RationalLanczos::orthonormalise(double size) {
       DenseMatrix rest(size_, width_);
       subtract(0, rest);
     } else if (pass > 0) {
-      PetscScalar* mw = nullptr;
-      check(MatDenseGetArray(mw_, &mw));
-      const DenseMatrix turned = linalg::product({mw, rows_, width_}, down);
-      std::ranges::copy(turned.entries(), mw);
-      check(MatDenseRestoreArray(mw_, &mw));
+      mw_ = linalg::product(mw_, down);
       massIsOfLast_ = true;
       return;
     }

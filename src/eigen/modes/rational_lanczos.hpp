@@ -77,16 +77,15 @@ class RationalLanczos {
   Mat m_;
   BV basis_;
   MPI_Comm comm_;
-  PetscInt width_, limit_ = 0, rows_ = 0, size_ = 0;  // width_ is b
+  PetscInt width_, limit_ = 0, rows_ = 0, unknowns_ = 0, size_ = 0;  // width_ is b
   int solves_ = 0;
   PetscScalar* columns_ = nullptr;  // of V
   int sinceChange_ = 0;             // steps with this pole since the last restart
   double distance_ = 0;             // of the last pole
   bool massIsOfLast_ = false;       // M W is M times the last block
-  linalg::Block w_;
-  OwnedMat asMat_, mw_;            // W, with borrowed entries, and M W
-  std::vector<bool> foreign_;      // [column of A] true: from a step with a pole other than σ0
-  linalg::DenseMatrix a_, b_, r_;  // A, B and the last R
+  linalg::Block w_, mw_;            // W and M W
+  std::vector<bool> foreign_;       // [column of A] true: from a step with a pole other than σ0
+  linalg::DenseMatrix a_, b_, r_;   // A, B and the last R
   std::mt19937 random_;
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
