@@ -127,8 +127,12 @@ void ProjectedTerms::extend(Part& part) const {
     linalg::Block left(part.leftRows.size());
     basis_.appendProducts(part.adjoint, begin, end, left);
     part.leftSketch.append(basis_.sketch().of(part.leftRows, left));
-    const linalg::DenseMatrix some = linalg::transposedProduct(
-        basis_.comm(), part.leftRows, basis_.columns().columnRange(0, old), left);
+    // Where A has few rows, A V is known for the earlier columns.
+    const linalg::DenseMatrix some =
+        thin ? linalg::transposedProduct(basis_.comm(), part.timesV.columnRange(0, old),
+                                         part.rowsOfV.columnRange(begin, end))
+             : linalg::transposedProduct(basis_.comm(), part.leftRows,
+                                         basis_.columns().columnRange(0, old), left);
     for (PetscInt j = 0; j < some.columns(); ++j)
       for (PetscInt i = 0; i < old; ++i) below(begin - old + j, i) = some(i, j);
   }

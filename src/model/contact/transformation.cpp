@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/petsc/matrix.hpp"
 #include "base/system/mpi.hpp"
 #include "model/interfaces/algebra.hpp"
 
@@ -51,8 +52,13 @@ Transformation transformationOf(const mesh::Mesh& mesh, const interfaces::Interf
     if (column[i] >= 0)
       check(MatSetValue(result.selection, first + i, column[i], 1, INSERT_VALUES));
   interfaces::assembled(result.selection);
-  check(MatMatMult(kinematics.matrix, result.selection, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
-                   result.trial.out()));
+  std::vector<PetscInt> unknowns;
+  for (const PetscInt row : result.rows) unknowns.push_back(first + row);
+  OwnedIS columns;
+  check(ISCreateGeneral(mesh.comm, unknowns.size(), unknowns.data(), PETSC_COPY_VALUES,
+                        columns.out()));
+  check(MatCreateSubMatrix(kinematics.matrix, ownRows(kinematics.matrix), columns,
+                           MAT_INITIAL_MATRIX, result.trial.out()));
   check(MatSetBlockSizes(result.trial, dimension,
                          1));  // gives T x the block size of a nodal vector
 
