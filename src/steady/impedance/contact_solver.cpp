@@ -7,7 +7,6 @@
 
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/rows.hpp"
-#include "algebra/linalg/spread.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/object.hpp"
 #include "base/system/concatenation.hpp"
@@ -33,12 +32,6 @@ constexpr PetscInt mostDirections = 500;
 /// against the space of friction magnitudes, and against its block. The next block contains the
 /// directions omitted here.
 constexpr double newInSpace = 1e-10, newInBlock = 0.3;
-/// Returns the largest number of bytes on all ranks for stiffnesses of free unknowns, unless a
-/// single one needs more.
-double mostBytes(MPI_Comm comm) { return 256e6 * mpi::size(comm); }
-/// The largest number of active sets in memory.
-constexpr std::size_t mostBlocks = 32;
-
 /// Collective. Returns the coefficients a that minimise |b − G a|. It refines the normal equations,
 /// which gives all digits if the condition number of G is below some 1e7.
 DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseView& b) {
@@ -55,28 +48,6 @@ DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseView& b) 
 
 }  // namespace
 
-/// The quantities that depend on the free unknowns: their stiffness, and the effects of friction
-/// while they are free.
-struct ContactSolver::FreeBlock {
-  std::vector<unsigned char> free;  // [released unknown]
-  OwnedMat direct;                  // stored, so its address stays unique
-  std::vector<PetscInt> local;      // free unknowns of this rank
-  std::vector<PetscInt> places;     // [free unknown of any rank] its column
-  Concatenation ranks;              // of `local`
-  int owner;                        // the rank that has the next two
-  DenseMatrix matrix;               // F of w among the free unknowns, until it is factorised
-  SymmetricInverse stiffness;       // the same, factorised
-  /// R of the friction magnitudes with the free unknowns released, [frictional node]
-  DenseMatrix normal;
-
-  double bytes() const { return 8.0 * ranks.size() * ranks.size(); }
-  /// Not collective: the owners of several blocks factorise them at the same time.
-  void factorise() {
-    if (!matrix.empty()) stiffness = SymmetricInverse(linalg::symmetricPart(matrix));
-    matrix = {};
-  }
-};
-
 /// The search for the friction of one case in the space of friction magnitudes.
 struct ContactSolver::Search {
   const ContactCase& contactCase;
@@ -89,25 +60,18 @@ struct ContactSolver::Search {
 
 ContactSolver::ContactSolver(const Impedance& impedance)
     : impedance_(impedance),
-      columns_(impedance.length()),
+      free_(impedance),
       magnitudes_(impedance.nodes()),
-      responses_(impedance.length()) {
-  first_ = mpi::sumBefore<PetscInt>(impedance.comm(), impedance.nodeOf().size());
-}
+      responses_(impedance.length()) {}
 
 ContactSolver::~ContactSolver() = default;
 
-/// Computes the columns of unknowns that have not been free before.
+/// Collective. Makes the columns of these unknowns known.
 void ContactSolver::computeColumns(std::span<const unsigned char> free) {
-  std::vector<PetscInt> wanted;
-  for (std::size_t i = 0; i < free.size(); ++i)
-    if (free[i] && place_.count(first_ + i) == 0) wanted.push_back(first_ + i);
-  const auto all = concatenated(impedance_.comm(), wanted);
-  if (all.empty()) return;
-  for (const PetscInt unknown : all) place_.emplace(unknown, place_.size());
-  const DenseMatrix fresh = impedance_.responsesToUnits(all);
-  columns_.append(fresh);
-  frictionalColumns_.append(linalg::rowsOf(frictional_, fresh));
+  free_.compute(free);
+  const DenseMatrix& all = free_.columns();
+  frictionalColumns_.append(
+      linalg::rowsOf(frictional_, all.columnRange(frictionalColumns_.columns(), all.columns())));
 }
 
 /// Collective. Extends the list of nodes with friction by those of these cases.
@@ -122,86 +86,20 @@ void ContactSolver::noteFriction(std::span<const ContactCase> cases) {
         frictional_.push_back(i);
       }
   if (!mpi::any(impedance_.comm(), frictional_.size() > before)) return;
-  frictionalColumns_ = linalg::rowsOf(frictional_, columns_);
-  for (auto& block : blocks_) block->normal = DenseMatrix(std::ssize(frictional_));
+  frictionalColumns_ = linalg::rowsOf(frictional_, free_.columns());
+  for (const auto& block : free_.blocks()) block->normal = DenseMatrix(std::ssize(frictional_));
 }
 
 double ContactSolver::gapStiffness(std::size_t node) const {
-  const auto place = place_.find(first_ + node);
-  return place == place_.end() ? 0 : columns_(impedance_.nodes() + node, place->second);
-}
-
-std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
-    const ContactConditions& conditions) {
-  const MPI_Comm comm = impedance_.comm();
-  const auto& free = conditions.free;
-  const PetscInt n = impedance_.nodes();
-  std::vector<int> same;
-  for (const auto& block : blocks_)
-    same.push_back(block->free == free && block->direct.get() == conditions.direct);
-  mpi::reduce<int>(comm, same, MPI_LAND);
-  if (const auto known = std::ranges::find(same, 1); known != same.end()) {
-    const auto place = blocks_.begin() + (known - same.begin());
-    std::rotate(blocks_.begin(), place, place + 1);
-    return blocks_.front();
-  }
-  computeColumns(free);
-  std::vector<PetscInt> local, mine;
-  for (std::size_t i = 0; i < free.size(); ++i)
-    if (free[i]) local.push_back(i), mine.push_back(place_.at(first_ + i));
-  const Concatenation ranks(comm, local.size());
-  auto places = ranks.gathered(mine);
-  // Row by row, so that one message has all rows of a rank. The matrix is symmetric except for
-  // round-off, so its rows serve as columns.
-  DenseMatrix rows(std::ssize(places), local.size()), matrix(std::ssize(places), ranks.size());
-  for (PetscInt j = 0; j < rows.rows(); ++j)
-    for (std::size_t i = 0; i < local.size(); ++i) rows(j, i) = columns_(n + local[i], places[j]);
-  ranks.gather(rows.data(), matrix.data(), static_cast<int>(rows.rows()));
-  const int owner = static_cast<int>(blocksSoFar_++ % mpi::size(comm));
-  if (owner != mpi::rank(comm)) matrix = {};
-  OwnedMat direct;
-  if (conditions.direct) {
-    check(PetscObjectReference(object(conditions.direct)));
-    direct = OwnedMat(conditions.direct);
-  }
-  blocks_.insert(blocks_.begin(),
-                 std::make_shared<FreeBlock>(
-                     free, std::move(direct), std::move(local), std::move(places), ranks, owner,
-                     std::move(matrix), SymmetricInverse(), DenseMatrix(std::ssize(frictional_))));
-  const double most = mostBytes(comm);
-  double bytes = 0;
-  const auto kept =
-      std::ranges::find_if(blocks_.begin() + 1, blocks_.end(), [&](const auto& block) {
-        return (bytes += block->bytes()) + blocks_.front()->bytes() > most;
-      });
-  blocks_.erase(kept, blocks_.end());
-  if (blocks_.size() > mostBlocks) blocks_.resize(mostBlocks);
-  return blocks_.front();
-}
-
-/// Returns the values of the free unknowns, [known column], that make F = 0 there; each rank has
-/// all of them.
-DenseMatrix ContactSolver::released(const FreeBlock& block, const DenseView& effects) const {
-  const PetscInt n = impedance_.nodes();
-  DenseMatrix rows(block.local.size(), effects.columns());
-  for (PetscInt j = 0; j < effects.columns(); ++j)
-    for (std::size_t i = 0; i < block.local.size(); ++i)
-      rows(i, j) = -effects(n + block.local[i], j);
-  DenseMatrix freed = linalg::gatheredRows(block.ranks, rows);
-  const MPI_Comm comm = impedance_.comm();
-  if (mpi::rank(comm) == block.owner) block.stiffness.apply(freed);
-  mpi::broadcastEntries(comm, freed.entries(), block.owner);
-  DenseMatrix amounts(columns_.columns(), freed.columns());
-  for (PetscInt j = 0; j < freed.columns(); ++j)
-    for (PetscInt i = 0; i < freed.rows(); ++i) amounts(block.places[i], j) = freed(i, j);
-  return amounts;
+  const PetscInt place = free_.placeOf(node);
+  return place < 0 ? 0 : free_.columns()(impedance_.nodes() + node, place);
 }
 
 /// Releases the free unknowns until F = 0 there. Returns their values, [known column], and adds
 /// their effects to `effects`.
 DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects) const {
-  DenseMatrix amounts = released(block, effects);
-  if (!amounts.empty()) linalg::multiplyAdd(columns_, amounts, effects);
+  DenseMatrix amounts = free_.released(block, effects);
+  if (!amounts.empty()) linalg::multiplyAdd(free_.columns(), amounts, effects);
   return amounts;
 }
 
@@ -224,7 +122,8 @@ void ContactSolver::update(FreeBlock& block) const {
   addDirect(block, magnitudes_.columnRange(known, all), fresh);
   // Elsewhere c = 0, and R is not needed: most of the nodes of a brake have no friction.
   DenseMatrix normal = linalg::rowsOf(frictional_, fresh);
-  const DenseMatrix amounts = released(block, fresh);
+  const DenseMatrix amounts =
+      block.direct ? free_.released(block, fresh) : free_.released(block, responses_, known, all);
   if (!amounts.empty()) linalg::multiplyAdd(frictionalColumns_, amounts, normal);
   block.normal.append(normal);
 }
@@ -291,7 +190,7 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   addDirect(*search.block, t, effects);
   const DenseMatrix freed = release(*search.block, effects);
   ContactSolution result;
-  const auto& local = search.block->local;
+  const auto& local = search.block->unknowns.local;
   // No reaction balances forces on a rigid-body mode.
   double largest[2] = {0, 0};  // of the forces on free unknowns, and of the given ones
   for (const PetscInt i : local) largest[0] = std::max(largest[0], std::abs(effects(n + i, 0)));
@@ -304,7 +203,7 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   result.causes.assign(length, 0.0);
   std::ranges::copy(t.entries(), result.causes.begin());
   for (std::size_t i = 0; i < local.size(); ++i)
-    result.causes[n + local[i]] = freed(place_.at(first_ + local[i]), 0);
+    result.causes[n + local[i]] = freed(free_.placeOf(local[i]), 0);
   result.effects.assign(effects.entries().begin(), effects.entries().end());
   return result;
 }
@@ -315,7 +214,7 @@ std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> case
   std::vector<double> orders;
   for (const auto& one : cases) orders.push_back(std::ranges::count(one.conditions.free, 1));
   mpi::reduce<double>(impedance_.comm(), orders, MPI_SUM);
-  const double most = mostBytes(impedance_.comm());
+  const double most = FreeUnknowns::mostBytes(impedance_.comm());
   std::vector<std::size_t> begins{0};
   double bytes = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -340,11 +239,14 @@ std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> c
   const auto begins = groups(cases);
   for (std::size_t group = 0; group + 1 < begins.size(); ++group) {
     std::vector<Search> searches;
-    for (std::size_t k = begins[group]; k < begins[group + 1]; ++k)
-      searches.push_back({cases[k], blockOf(cases[k].conditions), DenseMatrix(n, 1)});
-    linalg::onOwners(comm, mpi::size(comm), [&](std::size_t) {
-      for (Search& search : searches) search.block->factorise();
-    });
+    for (std::size_t k = begins[group]; k < begins[group + 1]; ++k) {
+      const auto& conditions = cases[k].conditions;
+      searches.push_back(
+          {cases[k], free_.blockOf(conditions.free, conditions.direct), DenseMatrix(n, 1)});
+    }
+    std::vector<std::shared_ptr<FreeBlock>> blocks;
+    for (const Search& search : searches) blocks.push_back(search.block);
+    free_.makeReady(blocks);
     for (Search& search : searches) {
       const auto& [conditions, given, frictionUnit] = search.contactCase;
       DenseMatrix effects(length, 1, given);
@@ -365,11 +267,11 @@ ContactSolution ContactSolver::withGaps(const std::vector<double>& gaps, Contact
   std::vector<unsigned char> open(one.conditions.free.size(), 0);
   for (PetscInt i = 0; i < n; ++i) open[i] = gaps[i] != 0;
   computeColumns(open);
-  DenseMatrix weights(columns_.columns(), 1), effects(impedance_.length(), 1, one.given);
+  DenseMatrix weights(free_.columns().columns(), 1), effects(impedance_.length(), 1, one.given);
   for (PetscInt i = 0; i < n; ++i)
-    if (open[i]) weights(place_.at(first_ + i), 0) = gaps[i];
+    if (open[i]) weights(free_.placeOf(i), 0) = gaps[i];
   mpi::reduce<double>(impedance_.comm(), {weights.data(), std::size_t(weights.size())}, MPI_SUM);
-  if (!weights.empty()) linalg::multiplyAdd(columns_, weights, effects);
+  if (!weights.empty()) linalg::multiplyAdd(free_.columns(), weights, effects);
   std::fill_n(one.conditions.free.begin(), n, 0);
   one.given.assign(effects.entries().begin(), effects.entries().end());
   auto result = solve(one);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Solution of the condensed contact problem for a given set of open and held nodes.
-#include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
+#include "steady/impedance/free_unknowns.hpp"
 #include "steady/impedance/impedance.hpp"
 
 namespace squeal::impedance {
@@ -69,11 +68,8 @@ class ContactSolver {
   static constexpr double balanced = 1e-12;
 
  private:
-  struct FreeBlock;
   struct Search;
   void computeColumns(std::span<const unsigned char> free);
-  std::shared_ptr<FreeBlock> blockOf(const ContactConditions& conditions);
-  linalg::DenseMatrix released(const FreeBlock& block, const linalg::DenseView& effects) const;
   linalg::DenseMatrix release(const FreeBlock& block, linalg::DenseMatrix& effects) const;
   void addDirect(const FreeBlock& block, const linalg::DenseView& t,
                  linalg::DenseMatrix& effects) const;
@@ -85,15 +81,10 @@ class ContactSolver {
   bool extend(const linalg::DenseMatrix& directions);
 
   const Impedance& impedance_;
-  PetscInt first_ = 0;  // index of this rank's first released unknown
-  // [released unknown of all ranks] its column in columns_
-  std::unordered_map<PetscInt, PetscInt> place_;
-  linalg::DenseMatrix columns_;            // Z (0, e), [n + m]×[known column]
+  FreeUnknowns free_;
   std::vector<PetscInt> frictional_;       // contact nodes with c ≠ 0 in some case so far
   linalg::DenseMatrix frictionalColumns_;  // R of these nodes, [frictional node]×[known column]
-  linalg::DenseMatrix magnitudes_, responses_;      // t, orthonormal, and Z (t, 0)
-  std::vector<std::shared_ptr<FreeBlock>> blocks_;  // for the last conditions, the newest first
-  PetscInt blocksSoFar_ = 0;                        // the ranks own them in turn
+  linalg::DenseMatrix magnitudes_, responses_;  // t, orthonormal, and Z (t, 0)
 };
 
 }  // namespace squeal::impedance

@@ -14,6 +14,7 @@ class SymmetricInverse {
  public:
   SymmetricInverse() = default;  ///< of order 0
   explicit SymmetricInverse(linalg::DenseMatrix a);
+  bool isPositiveDefinite() const { return values_.empty(); }
   /// Replaces the columns of x by A⁻¹ x.
   void apply(linalg::DenseMatrix& x) const;
 

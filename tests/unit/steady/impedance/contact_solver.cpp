@@ -88,6 +88,37 @@ TEST(ContactSolver, SolvesItsEquations) {
   }
 }
 
+// Sets that differ by one unknown of each rank, freed or held, use the inverse of an earlier one;
+// some leave a body loose. The last has an inverse of its own.
+TEST(ContactSolver, SolvesOnNeighbouringSets) {
+  for (const auto& options : {pressedBlock, stickingPad}) {
+    Condensed condensed(options);
+    std::vector<ContactCase> cases{someCase(condensed, 0)};
+    for (const std::size_t changed : {0, 1, 2, 3}) {
+      cases.push_back(cases.back());
+      auto& free = cases.back().conditions.free;
+      if (changed < free.size()) free[changed] = !free[changed];
+    }
+    cases.push_back(someCase(condensed, 1));
+    std::vector<bool> solvable;  // without any other set
+    for (const auto& one : cases) {
+      Condensed single(options);
+      solvable.push_back(single.solver.solve(one).found);
+    }
+    EXPECT_GE(std::ranges::count(solvable, true), 3);
+    for (const bool together : {false, true}) {
+      Condensed fresh(options);
+      std::vector<ContactSolution> found;
+      if (together) found = fresh.solver.solve(cases);
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        if (!together) found.push_back(fresh.solver.solve(cases[i]));
+        EXPECT_EQ(found[i].found, solvable[i]) << "set " << i;
+        if (solvable[i]) expectEquations(fresh, cases[i], found[i]);
+      }
+    }
+  }
+}
+
 // Without friction, closed contact has no causes, and the given forces are the effects.
 TEST(ContactSolver, ClosedContactWithoutFrictionNeedsNothing) {
   Condensed condensed(pressedBlock);

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The quantities of a ContactSolver that depend on which unknowns are free.
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+#include "base/petsc/owned.hpp"
+#include "base/system/concatenation.hpp"
+#include "steady/impedance/bordered_inverse.hpp"
+#include "steady/impedance/symmetric_inverse.hpp"
+
+namespace squeal::impedance {
+
+/// Some released unknowns of all ranks, ordered by rank.
+struct Unknowns {
+  std::vector<PetscInt> local;   ///< released unknowns of this rank
+  std::vector<PetscInt> places;  ///< [unknown of any rank] its column among the known ones
+  Concatenation ranks;           ///< of `local`
+};
+
+/// The stiffness of the free unknowns, and the effects of friction while they are free. A block
+/// that differs little from an earlier one, its base, uses the inverse of that.
+struct FreeBlock {
+  std::vector<unsigned char> free;  ///< [released unknown]
+  OwnedMat direct;                  ///< stored, so its address stays unique
+  Unknowns unknowns;                ///< the free ones
+  int owner;                        ///< the rank with the inverses; the one of the base has both
+  bool isReady = false;             ///< the inverse is known
+  linalg::DenseMatrix matrix = {};  ///< on the owner: F of w among them, until it is factorised
+
+  /// Null if the block has a stiffness of its own.
+  std::shared_ptr<FreeBlock> base = nullptr;
+  Unknowns added = {{}, {}, {MPI_COMM_SELF, 0}};  ///< free here, but not in the base
+  std::vector<PetscInt> held = {};  ///< [unknown] index in the base of those free only there
+  linalg::DenseMatrix coupling = {}, addedMatrix = {};  ///< F of w, until the inverse is known
+  BorderedInverse border = {};                          ///< on the owner
+
+  SymmetricInverse stiffness = {};    ///< on the owner of a block without base
+  std::vector<double> diagonal = {};  ///< of the stiffness, on its owner
+  bool isRegular = true;              ///< the stiffness is positive definite
+  /// The solutions for the friction magnitudes, [free unknown]×[direction], without direct effects,
+  /// on the owner of a block without base; and their number.
+  linalg::DenseMatrix solutions = {};
+  PetscInt solved = 0;
+
+  /// R of the friction magnitudes with the free unknowns released, [frictional node]
+  linalg::DenseMatrix normal;
+
+  /// Returns the memory of the inverses, the same on all ranks.
+  double bytes() const;
+  const FreeBlock& baseOrSelf() const { return base ? *base : *this; }
+};
+
+/// Collective. Makes the inverses of new blocks; the owners work at the same time. Blocks that their
+/// bases do not serve get a stiffness of their own by `gather`, which is collective.
+void makeReady(MPI_Comm comm, const std::vector<std::shared_ptr<FreeBlock>>& blocks,
+               const std::function<void(FreeBlock&)>& gather);
+
+}  // namespace squeal::impedance

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The responses to released unknowns, and the inverses of the stiffness of those that are free.
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+#include "steady/impedance/free_block.hpp"
+#include "steady/impedance/impedance.hpp"
+
+namespace squeal::impedance {
+
+/// The known columns Z (0, e) of an Impedance, and the blocks of free unknowns in use. Ranks own
+/// the blocks in turn.
+class FreeUnknowns {
+ public:
+  /// Collective. Borrows the impedance during the lifetime of the object.
+  explicit FreeUnknowns(const Impedance& impedance);
+  /// Collective. Computes the columns of these unknowns, [released unknown], that are not yet known.
+  void compute(std::span<const unsigned char> free);
+  /// Returns Z (0, e), [n + m]×[known column].
+  const linalg::DenseMatrix& columns() const { return columns_; }
+  /// Returns the column of a released unknown of this rank; −1 if it is not known.
+  PetscInt placeOf(PetscInt unknown) const;
+  /// Collective. Returns the block of these free unknowns, whose columns must be known; it is then
+  /// the newest. A new one is not ready: makeReady() must follow. `direct` may be null.
+  std::shared_ptr<FreeBlock> blockOf(const std::vector<unsigned char>& free, Mat direct);
+  /// Collective. Makes the inverses of those of these blocks that are new.
+  void makeReady(const std::vector<std::shared_ptr<FreeBlock>>& blocks);
+  /// Returns the blocks in use, the newest first.
+  const std::vector<std::shared_ptr<FreeBlock>>& blocks() const { return blocks_; }
+  /// Collective. Returns the values of the free unknowns, [known column], that make F = 0 there;
+  /// each rank has all of them.
+  linalg::DenseMatrix released(const FreeBlock& block, const linalg::DenseView& effects) const;
+  /// Collective. Does the same for the effects of the friction magnitudes [first, last) of a list
+  /// that only grows, `effects`, without direct ones. What blocks with the same base share is
+  /// computed once.
+  linalg::DenseMatrix released(FreeBlock& block, const linalg::DenseView& effects, PetscInt first,
+                               PetscInt last) const;
+  /// The largest number of bytes on all ranks for inverses, unless a single one needs more.
+  static double mostBytes(MPI_Comm comm);
+
+ private:
+  std::shared_ptr<FreeBlock> nearest(const std::vector<unsigned char>& free);
+  Unknowns unknowns(std::vector<PetscInt> local) const;
+  void gatherStiffness(FreeBlock& block);
+  void gatherBorder(FreeBlock& block) const;
+  linalg::DenseMatrix forcesOf(const std::vector<PetscInt>& columns, const Unknowns& at) const;
+  linalg::DenseMatrix negativeForces(const Unknowns& at, const linalg::DenseView& effects) const;
+  linalg::DenseMatrix finished(const FreeBlock& block, linalg::DenseMatrix inBase,
+                               const linalg::DenseView& effects) const;
+
+  const Impedance& impedance_;
+  PetscInt first_ = 0;  // index of this rank's first released unknown
+  // [released unknown of all ranks] its column in columns_
+  std::unordered_map<PetscInt, PetscInt> place_;
+  linalg::DenseMatrix columns_;
+  std::vector<std::shared_ptr<FreeBlock>> blocks_;
+  PetscInt blocksSoFar_ = 0;  // with a stiffness of their own
+};
+
+}  // namespace squeal::impedance
