@@ -81,15 +81,16 @@ ProjectedTerms::ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil,
 
 ProjectedTerms::Part ProjectedTerms::partOf(pencil::Term term) const {
   const linalg::RowSet rows(term.matrix);
-  Part part{std::move(term), rows, rows, {}, {}, {}, {}, {}, {}, {}};
+  const bool symmetric = isSymmetric(term.matrix);
+  Part part{std::move(term), rows, {}, symmetric, {}, {}, {}, {}, {}, {}, {}};
   const Mat whole = part.term.matrix;
   part.matrix = rows.of(whole);
-  part.timesV = part.rowsOfV = linalg::Block(rows.size());
-  if (isSymmetric(whole)) return part;
-  OwnedMat transposed;
-  check(MatTranspose(whole, MAT_INITIAL_MATRIX, transposed.out()));
-  part.leftRows = linalg::RowSet(transposed);
-  part.adjoint = part.leftRows.of(transposed);
+  part.timesV = part.rowsOfV = part.timesSigns = linalg::Block(rows.size());
+  if (symmetric) return part;
+  if (rows.all())
+    check(MatTranspose(whole, MAT_INITIAL_MATRIX, part.adjoint.out()));
+  else
+    linalg::appendProduct(part.matrix, basis_.sketch().signs(), part.timesSigns);
   return part;
 }
 
@@ -105,7 +106,7 @@ void ProjectedTerms::extend(Part& part) const {
   const bool known = hasProductsFrom(part, old), thin = !part.rows.all();
   if (thin) part.rowsOfV.append(part.rows.of(basis_.columns().columnRange(old, size)));
   const linalg::DenseView v = thin ? part.rowsOfV : basis_.columns();
-  linalg::DenseMatrix right(size, size - old), below(part.adjoint ? size - old : 0, old);
+  linalg::DenseMatrix right(size, size - old), below(part.isSymmetric ? 0 : size - old, old);
   const auto copy = [](const linalg::DenseMatrix& from, linalg::DenseMatrix& to, PetscInt first) {
     for (PetscInt j = 0; j < from.columns(); ++j)
       std::ranges::copy(from.column(j), to.column(first + j).begin());
@@ -119,24 +120,25 @@ void ProjectedTerms::extend(Part& part) const {
     part.sketch.append(basis_.sketch().of(part.rows, timesV));
     if (thin) part.timesV.append(timesV);
     // Below the diagonal, a symmetric projection follows from the later columns.
-    const PetscInt last = part.adjoint ? size : end;
+    const PetscInt last = part.isSymmetric ? end : size;
     copy(known ? linalg::rowRange(basis_.energies().columnRange(begin - old, end - old), 0, size)
                : linalg::transposedProduct(basis_.comm(), v.columnRange(0, last), timesV),
          right, begin - old);
-    if (!part.adjoint) continue;
-    linalg::Block left(part.leftRows.size());
-    basis_.appendProducts(part.adjoint, begin, end, left);
-    part.leftSketch.append(basis_.sketch().of(part.leftRows, left));
-    // Where A has few rows, A V is known for the earlier columns.
+    if (part.isSymmetric) continue;
+    // Where A has few rows, V and A V are known in these rows, and Aᵀ is not needed.
+    linalg::Block left(thin ? 0 : basis_.localRows());
+    if (!thin) basis_.appendProducts(part.adjoint, begin, end, left);
+    part.leftSketch.append(thin ? linalg::transposedProduct(basis_.comm(), part.timesSigns,
+                                                            part.rowsOfV.columnRange(begin, end))
+                                : basis_.sketch().of(left));
     const linalg::DenseMatrix some =
         thin ? linalg::transposedProduct(basis_.comm(), part.timesV.columnRange(0, old),
                                          part.rowsOfV.columnRange(begin, end))
-             : linalg::transposedProduct(basis_.comm(), part.leftRows,
-                                         basis_.columns().columnRange(0, old), left);
+             : linalg::transposedProduct(basis_.comm(), basis_.columns().columnRange(0, old), left);
     for (PetscInt j = 0; j < some.columns(); ++j)
       for (PetscInt i = 0; i < old; ++i) below(begin - old + j, i) = some(i, j);
   }
-  for (PetscInt j = old; j < size && !part.adjoint && !known; ++j)
+  for (PetscInt j = old; j < size && part.isSymmetric && !known; ++j)
     for (PetscInt i = j + 1; i < size; ++i) right(i, j - old) = right(j, i - old);
   part.projection = linalg::bordered(part.projection, right, below);
 }
@@ -153,7 +155,7 @@ void ProjectedTerms::combine(const linalg::DenseMatrix& combinations) {
       part.rowsOfV = linalg::product(part.rowsOfV, combinations);
     }
     part.sketch = linalg::product(part.sketch, combinations);
-    if (part.adjoint) part.leftSketch = linalg::product(part.leftSketch, combinations);
+    if (!part.isSymmetric) part.leftSketch = linalg::product(part.leftSketch, combinations);
     part.projection = linalg::congruent(part.projection, combinations);
   }
 }
@@ -194,7 +196,8 @@ void ProjectedTerms::addTo(const PointPairs& point, pencil::Side side,
                            linalg::DenseMatrix& sketch) const {
   for (const auto& part : parts_) {
     const double c = point.weights.of(part.term);
-    const auto& known = side == pencil::Side::left && part.adjoint ? part.leftSketch : part.sketch;
+    const auto& known =
+        side == pencil::Side::left && !part.isSymmetric ? part.leftSketch : part.sketch;
     if (c != 0) linalg::multiplyAdd(known, point.pairs.times(side, part.term.power, c), sketch);
   }
 }

@@ -85,8 +85,11 @@ class ProjectedTerms {
  private:
   struct Part {
     pencil::Term term;
-    linalg::RowSet rows, leftRows;   // nonzero rows of A and Aᵀ
-    OwnedMat matrix, adjoint;        // A and Aᵀ in these rows; no adjoint if A is symmetric
+    linalg::RowSet rows;             // nonzero rows of A
+    OwnedMat matrix;                 // A in these rows
+    bool isSymmetric;                // A is
+    OwnedMat adjoint;                // Aᵀ; null if A is symmetric or has few rows
+    linalg::Block timesSigns;        // A Ω in `rows`; empty if A is symmetric or has all rows
     linalg::Block timesV;            // A V in `rows`; empty if these are all rows
     linalg::Block rowsOfV;           // V in `rows`; empty if these are all rows
     linalg::DenseMatrix sketch;      // sketch of A V

@@ -35,6 +35,9 @@ class Sketch {
   /// Collective. Returns the same as the first overload. `x` has only the rows `rows` of X; the
   /// others are zero.
   linalg::DenseMatrix of(const linalg::RowSet& rows, const linalg::DenseView& x) const;
+  /// Returns this rank's rows of Ω / √k and D^½ Ω / √k, n × 2k: the sketch of Aᵀ X is also
+  /// (A Ω)ᵀ X.
+  linalg::DenseView signs() const { return signs_; }
 
  private:
   MPI_Comm comm_;

@@ -14,8 +14,7 @@ BorderedInverse::BorderedInverse(const SymmetricInverse& base, const std::vector
   if (count == 0) border_ = DenseMatrix(std::ssize(diagonal));
   border_.resizeColumns(all);
   // With unit vectors of the size of a stiffness, so are all pivots.
-  for (PetscInt k = count; k < all; ++k)
-    border_(held[k - count], k) = diagonal[held[k - count]];
+  for (PetscInt k = count; k < all; ++k) border_(held[k - count], k) = diagonal[held[k - count]];
   responses_ = border_;
   base.apply(responses_);
   DenseMatrix schur(all, all);

@@ -30,7 +30,7 @@ class BorderedInverse {
   void complete(linalg::DenseMatrix& x, linalg::DenseMatrix& c) const;
 
  private:
-  linalg::DenseMatrix border_, responses_;  // W, scaled, and B⁻¹ W
+  linalg::DenseMatrix border_, responses_;   // W, scaled, and B⁻¹ W
   std::optional<linalg::Lu<double>> schur_;  // of D − Wᵀ B⁻¹ W
   std::vector<PetscInt> held_;
 };

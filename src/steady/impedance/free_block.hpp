@@ -53,8 +53,8 @@ struct FreeBlock {
   const FreeBlock& baseOrSelf() const { return base ? *base : *this; }
 };
 
-/// Collective. Makes the inverses of new blocks; the owners work at the same time. Blocks that their
-/// bases do not serve get a stiffness of their own by `gather`, which is collective.
+/// Collective. Makes the inverses of new blocks; the owners work at the same time. Blocks that
+/// their bases do not serve get a stiffness of their own by `gather`, which is collective.
 void makeReady(MPI_Comm comm, const std::vector<std::shared_ptr<FreeBlock>>& blocks,
                const std::function<void(FreeBlock&)>& gather);
 

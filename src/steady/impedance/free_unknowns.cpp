@@ -64,13 +64,12 @@ std::shared_ptr<FreeBlock> FreeUnknowns::blockOf(const std::vector<unsigned char
   std::vector<PetscInt> local;
   for (std::size_t i = 0; i < free.size(); ++i)
     if (free[i]) local.push_back(i);
-  auto block = std::make_shared<FreeBlock>(
-      FreeBlock{.free = free,
-                .direct = std::move(stored),
-                .unknowns = unknowns(std::move(local)),
-                .owner = 0,
-                .base = nearest(free),
-                .normal = DenseMatrix(0)});
+  auto block = std::make_shared<FreeBlock>(FreeBlock{.free = free,
+                                                     .direct = std::move(stored),
+                                                     .unknowns = unknowns(std::move(local)),
+                                                     .owner = 0,
+                                                     .base = nearest(free),
+                                                     .normal = DenseMatrix(0)});
   block->base ? gatherBorder(*block) : gatherStiffness(*block);
   blocks_.insert(blocks_.begin(), std::move(block));
   const double most = mostBytes(comm);
@@ -145,8 +144,7 @@ void FreeUnknowns::gatherBorder(FreeBlock& block) const {
 }
 
 /// Collective. Returns F at some unknowns of all ranks due to those of some known columns.
-DenseMatrix FreeUnknowns::forcesOf(const std::vector<PetscInt>& columns,
-                                    const Unknowns& at) const {
+DenseMatrix FreeUnknowns::forcesOf(const std::vector<PetscInt>& columns, const Unknowns& at) const {
   DenseMatrix rows(at.local.size(), std::ssize(columns));
   for (PetscInt j = 0; j < rows.columns(); ++j)
     for (PetscInt i = 0; i < rows.rows(); ++i)
@@ -173,7 +171,7 @@ DenseMatrix FreeUnknowns::released(const FreeBlock& block, const DenseView& effe
 /// Collective. Returns the values of the free unknowns from the solutions of the base, which the
 /// owner has.
 DenseMatrix FreeUnknowns::finished(const FreeBlock& block, DenseMatrix inBase,
-                                    const DenseView& effects) const {
+                                   const DenseView& effects) const {
   const MPI_Comm comm = impedance_.comm();
   DenseMatrix amounts(columns_.columns(), inBase.columns()), more(0, inBase.columns());
   if (block.base) more = negativeForces(block.added, effects);

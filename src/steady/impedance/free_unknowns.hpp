@@ -18,7 +18,8 @@ class FreeUnknowns {
  public:
   /// Collective. Borrows the impedance during the lifetime of the object.
   explicit FreeUnknowns(const Impedance& impedance);
-  /// Collective. Computes the columns of these unknowns, [released unknown], that are not yet known.
+  /// Collective. Computes the columns of these unknowns, [released unknown], that are not yet
+  /// known.
   void compute(std::span<const unsigned char> free);
   /// Returns Z (0, e), [n + m]×[known column].
   const linalg::DenseMatrix& columns() const { return columns_; }
