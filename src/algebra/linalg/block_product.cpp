@@ -214,7 +214,7 @@ std::vector<PetscInt> neededRows(const Parts& parts, const SparseRows& own, Pets
 /// Memory for columns stored by rows, which begins with any values.
 class Tile {
  public:
-  /// Returns space for this number of units. It has the earlier values if the number is the same.
+  /// Returns space for this number of units. A later call may replace it.
   Unit* of(std::size_t units) {
     if (units > units_) memory_ = std::make_unique_for_overwrite<Unit[]>(units_ = units);
     return memory_.get();
