@@ -83,7 +83,7 @@ std::vector<int> partition(const WholeMesh& mesh, int ranks) {
                                                            {neighbour, METIS_Free}};
   const Graph graph{elements, begin, neighbour};
   auto rankOfCell = partition(graph, weights(mesh, true), ranks);
-  // On a few cells, two kinds of weights may leave a rank without any.
+  // With few cells, two kinds of weights may leave a rank without any.
   if (std::set<idx_t>(rankOfCell.begin(), rankOfCell.end()).size() < std::size_t(ranks))
     rankOfCell = partition(graph, weights(mesh, false), ranks);
   return {rankOfCell.begin(), rankOfCell.end()};

@@ -87,7 +87,7 @@ class MeshSweep : public sweep_solver::SweepProblem {
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;
   const contact::CoupledSystem* interior_ = nullptr;  // closed: the nodes closed in any set
   const contact::CoupledSystem* all_ = nullptr;       // closed: those closed in all sets
-  OwnedMat ownTrial_;                                 // outlives the systems of `current_`
+  OwnedMat ownTrial_;                                 // T of all_, kept when current_ changes
   std::unique_ptr<steady::Problem> problem_;          // for points between those of the sweep
 };
 

@@ -2,10 +2,8 @@
 #pragma once
 /// The inverse of a matrix that differs by a few unknowns from one already factorised. Not
 /// collective.
-#include <optional>
 #include <vector>
 
-#include "algebra/linalg/lu.hpp"
 #include "steady/impedance/symmetric_inverse.hpp"
 
 namespace squeal::impedance {
@@ -23,16 +21,19 @@ class BorderedInverse {
   BorderedInverse(const SymmetricInverse& base, const std::vector<double>& diagonal,
                   linalg::DenseMatrix coupling, const linalg::DenseMatrix& added,
                   const std::vector<PetscInt>& held);
-  /// Returns true if A is regular to within round-off.
-  bool isRegular() const;
+  /// Returns true if A is positive definite by a margin that leaves half of the digits, as B must
+  /// be. Otherwise complete() must not be called.
+  bool isRegular() const { return isRegular_; }
   /// Replaces x = B⁻¹ b by the x of the bordered system, zero for held unknowns, and c by p. Each
   /// has one column per right-hand side.
   void complete(linalg::DenseMatrix& x, linalg::DenseMatrix& c) const;
 
  private:
-  linalg::DenseMatrix border_, responses_;   // W, scaled, and B⁻¹ W
-  std::optional<linalg::Lu<double>> schur_;  // of D − Wᵀ B⁻¹ W
+  linalg::DenseMatrix border_, responses_;  // W, scaled, and B⁻¹ W
+  linalg::DenseMatrix vectors_;             // eigenvectors of D − Wᵀ B⁻¹ W, scaled
+  std::vector<double> values_, scale_;      // its eigenvalues, and the scale of each unknown
   std::vector<PetscInt> held_;
+  bool isRegular_ = true;
 };
 
 }  // namespace squeal::impedance

@@ -32,6 +32,7 @@ constexpr PetscInt mostDirections = 500;
 /// against the space of friction magnitudes, and against its block. The next block contains the
 /// directions omitted here.
 constexpr double newInSpace = 1e-10, newInBlock = 0.3;
+
 /// Collective. Returns the coefficients a that minimise |b − G a|. It refines the normal equations,
 /// which gives all digits if the condition number of G is below some 1e7.
 DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseView& b) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "steady/impedance/free_block.hpp"
 
+#include <algorithm>
+
 #include "algebra/linalg/spread.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/mpi.hpp"
@@ -15,14 +17,15 @@ void factorise(FreeBlock& block) {
   block.diagonal.clear();
   for (PetscInt i = 0; i < matrix.rows(); ++i) block.diagonal.push_back(matrix(i, i));
   block.stiffness = SymmetricInverse(std::move(matrix));
-  block.isRegular = block.stiffness.isPositiveDefinite();
+  // Nearly loose bodies would cost the blocks with this base their digits.
+  constexpr double small = 1e-8;
+  block.isRegular = block.stiffness.leastPivot() > small;
 }
 
 /// Makes the inverse from that of the base. Not collective.
 void border(FreeBlock& block) {
   block.border = BorderedInverse(block.base->stiffness, block.base->diagonal,
                                  std::move(block.coupling), block.addedMatrix, block.held);
-  block.coupling = block.addedMatrix = {};
   block.isRegular = block.base->isRegular && block.border.isRegular();
 }
 
@@ -53,19 +56,22 @@ void makeReady(MPI_Comm comm, const std::vector<std::shared_ptr<FreeBlock>>& blo
                const std::function<void(FreeBlock&)>& gather) {
   std::vector<FreeBlock*> own, bordered, refused;
   for (const auto& block : blocks) {
-    if (block->isReady) continue;
-    block->isReady = true;
-    (block->base ? bordered : own).push_back(block.get());
+    auto& list = block->base ? bordered : own;
+    if (!block->isReady && std::ranges::find(list, block.get()) == list.end())
+      list.push_back(block.get());
   }
   onOwners(comm, own, factorise);
   onOwners(comm, bordered, border);
   for (FreeBlock* block : bordered) {
+    block->coupling = block->addedMatrix = {};
     if (block->isRegular) continue;
     block->base.reset();
+    block->border = {};
     gather(*block);
     refused.push_back(block);
   }
   onOwners(comm, refused, factorise);
+  for (const auto& block : blocks) block->isReady = true;
 }
 
 }  // namespace squeal::impedance

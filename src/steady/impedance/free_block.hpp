@@ -26,7 +26,7 @@ struct FreeBlock {
   std::vector<unsigned char> free;  ///< [released unknown]
   OwnedMat direct;                  ///< stored, so its address stays unique
   Unknowns unknowns;                ///< the free ones
-  int owner;                        ///< the rank with the inverses; the one of the base has both
+  int owner;                        ///< the rank that has the inverse: that of the base, if any
   bool isReady = false;             ///< the inverse is known
   linalg::DenseMatrix matrix = {};  ///< on the owner: F of w among them, until it is factorised
 
@@ -34,12 +34,13 @@ struct FreeBlock {
   std::shared_ptr<FreeBlock> base = nullptr;
   Unknowns added = {{}, {}, {MPI_COMM_SELF, 0}};  ///< free here, but not in the base
   std::vector<PetscInt> held = {};  ///< [unknown] index in the base of those free only there
-  linalg::DenseMatrix coupling = {}, addedMatrix = {};  ///< F of w, until the inverse is known
-  BorderedInverse border = {};                          ///< on the owner
+  /// F of the base's unknowns and of the added ones due to the added ones, until makeReady()
+  linalg::DenseMatrix coupling = {}, addedMatrix = {};
+  BorderedInverse border = {};  ///< on the owner
 
   SymmetricInverse stiffness = {};    ///< on the owner of a block without base
   std::vector<double> diagonal = {};  ///< of the stiffness, on its owner
-  bool isRegular = true;              ///< the stiffness is positive definite
+  bool isRegular = true;              ///< the stiffness is positive definite, by a margin
   /// The solutions for the friction magnitudes, [free unknown]×[direction], without direct effects,
   /// on the owner of a block without base; and their number.
   linalg::DenseMatrix solutions = {};
@@ -53,8 +54,9 @@ struct FreeBlock {
   const FreeBlock& baseOrSelf() const { return base ? *base : *this; }
 };
 
-/// Collective. Makes the inverses of new blocks; the owners work at the same time. Blocks that
-/// their bases do not serve get a stiffness of their own by `gather`, which is collective.
+/// Collective. Computes the inverses of the new ones among these blocks; all owners work at the
+/// same time. A block whose set, or whose base, is nearly singular loses its base: `gather`, which
+/// is collective, then gives it a stiffness of its own.
 void makeReady(MPI_Comm comm, const std::vector<std::shared_ptr<FreeBlock>>& blocks,
                const std::function<void(FreeBlock&)>& gather);
 

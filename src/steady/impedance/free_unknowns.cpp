@@ -52,9 +52,12 @@ std::shared_ptr<FreeBlock> FreeUnknowns::blockOf(const std::vector<unsigned char
     same.push_back(block->free == free && block->direct.get() == direct);
   mpi::reduce<int>(comm, same, MPI_LAND);
   if (const auto known = std::ranges::find(same, 1); known != same.end()) {
-    const auto place = blocks_.begin() + (known - same.begin());
-    std::rotate(blocks_.begin(), place, place + 1);
-    return blocks_.front();
+    const auto block = blocks_[known - same.begin()];
+    // The base of a block in use is in use too.
+    for (const auto& used : {block->base, block})
+      if (const auto place = std::ranges::find(blocks_, used); place != blocks_.end())
+        std::rotate(blocks_.begin(), place, place + 1);
+    return block;
   }
   OwnedMat stored;
   if (direct) {

@@ -12,8 +12,8 @@
 
 namespace squeal::impedance {
 
-/// The known columns Z (0, e) of an Impedance, and the blocks of free unknowns in use. Ranks own
-/// the blocks in turn.
+/// The known columns Z (0, e) of an Impedance, and the blocks of free unknowns in use. The ranks
+/// own the blocks with a stiffness of their own in turn.
 class FreeUnknowns {
  public:
   /// Collective. Borrows the impedance during the lifetime of the object.
@@ -28,16 +28,16 @@ class FreeUnknowns {
   /// Collective. Returns the block of these free unknowns, whose columns must be known; it is then
   /// the newest. A new one is not ready: makeReady() must follow. `direct` may be null.
   std::shared_ptr<FreeBlock> blockOf(const std::vector<unsigned char>& free, Mat direct);
-  /// Collective. Makes the inverses of those of these blocks that are new.
+  /// Collective. Computes the inverses of the new ones among these blocks.
   void makeReady(const std::vector<std::shared_ptr<FreeBlock>>& blocks);
   /// Returns the blocks in use, the newest first.
   const std::vector<std::shared_ptr<FreeBlock>>& blocks() const { return blocks_; }
   /// Collective. Returns the values of the free unknowns, [known column], that make F = 0 there;
   /// each rank has all of them.
   linalg::DenseMatrix released(const FreeBlock& block, const linalg::DenseView& effects) const;
-  /// Collective. Does the same for the effects of the friction magnitudes [first, last) of a list
-  /// that only grows, `effects`, without direct ones. What blocks with the same base share is
-  /// computed once.
+  /// Collective. Does the same for the columns [first, last) of `effects`, which has one column per
+  /// friction magnitude, without direct effects. Its columns must never change once they have been
+  /// used: what blocks with the same base share is computed once.
   linalg::DenseMatrix released(FreeBlock& block, const linalg::DenseView& effects, PetscInt first,
                                PetscInt last) const;
   /// The largest number of bytes on all ranks for inverses, unless a single one needs more.

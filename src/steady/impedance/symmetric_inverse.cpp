@@ -3,6 +3,8 @@
 
 #include <slepcblaslapack.h>
 
+#include <algorithm>
+
 #include "algebra/linalg/symmetric.hpp"
 
 namespace squeal::impedance {
@@ -14,7 +16,10 @@ SymmetricInverse::SymmetricInverse(DenseMatrix a) : factor_(std::move(a)) {
   if (order == 0) return;
   const DenseMatrix whole = factor_;
   LAPACKpotrf_("L", &order, factor_.data(), &order, &info);
+  for (PetscInt i = 0; i < whole.rows() && info == 0; ++i)
+    leastPivot_ = std::min(leastPivot_, factor_(i, i) * factor_(i, i) / whole(i, i));
   if (info == 0) return;
+  leastPivot_ = 0;
   factor_ = whole;
   values_ = linalg::symmetricEigen(factor_);
 }

@@ -14,13 +14,17 @@ class SymmetricInverse {
  public:
   SymmetricInverse() = default;  ///< of order 0
   explicit SymmetricInverse(linalg::DenseMatrix a);
-  bool isPositiveDefinite() const { return values_.empty(); }
+  /// Returns the smallest pivot of Cholesky's method as a fraction of the diagonal entry in its
+  /// row: of the order of the machine precision for a matrix that is singular to within round-off,
+  /// and 0 if the method fails.
+  double leastPivot() const { return leastPivot_; }
   /// Replaces the columns of x by A⁻¹ x.
   void apply(linalg::DenseMatrix& x) const;
 
  private:
   linalg::DenseMatrix factor_;  // Cholesky factor, or eigenvectors
   std::vector<double> values_;  // eigenvalues, if the matrix is not positive definite
+  double leastPivot_ = 1;
 };
 
 }  // namespace squeal::impedance
