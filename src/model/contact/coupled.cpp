@@ -10,22 +10,27 @@
 #include "base/system/text.hpp"
 
 namespace squeal::contact {
+namespace {
 
-OwnedMat Projection::friction(Mat slipRows) const {
-  OwnedMat columns, result;
-  check(MatTranspose(slipRows, MAT_INITIAL_MATRIX, columns.out()));
-  check(MatMatMult(columns, reaction, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+/// Collective. Returns Aᵀ B. With Aᵀ at hand, PETSc multiplies much faster.
+OwnedMat transposedProduct(Mat a, Mat b) {
+  OwnedMat transposed, result;
+  check(MatTranspose(a, MAT_INITIAL_MATRIX, transposed.out()));
+  check(MatMatMult(transposed, b, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
 }
+
+}  // namespace
+
+OwnedMat Projection::friction(Mat slipRows) const { return transposedProduct(slipRows, reaction); }
 
 Projection project(const Contact& contact, const Transformation& transformation, Mat x) {
   Projection projection;
   if (!x) return projection;
   ++sparseWork().projections;
-  OwnedMat xt, test;  // with Tᵀ at hand, PETSc multiplies much faster
+  OwnedMat xt;
   check(MatMatMult(x, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, xt.out()));
-  check(MatTranspose(transformation.trial, MAT_INITIAL_MATRIX, test.out()));
-  check(MatMatMult(test, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, projection.matrix.out()));
+  projection.matrix = transposedProduct(transformation.trial, xt);
   check(MatMatMult(contact.sliding.reaction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    projection.reaction.out()));
   // PETSc stores the workspace of a product for the next product with the same pattern.

@@ -34,8 +34,7 @@ BorderedInverse::BorderedInverse(const SymmetricInverse& base, const std::vector
   base.apply(responses_);
   DenseMatrix schur(all, all);
   for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt i = 0; i < count; ++i)
-      schur(i, j) = 0.5 * scale_[i] * scale_[j] * (added(i, j) + added(j, i));
+    for (PetscInt i = 0; i < count; ++i) schur(i, j) = scale_[i] * scale_[j] * added(i, j);
   linalg::addScaled(schur, -1, linalg::transposedProduct(border_, responses_));
   vectors_ = linalg::symmetricPart(schur);
   values_ = linalg::symmetricEigen(vectors_);

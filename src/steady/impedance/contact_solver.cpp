@@ -7,9 +7,6 @@
 
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/rows.hpp"
-#include "algebra/linalg/symmetric.hpp"
-#include "base/petsc/object.hpp"
-#include "base/system/concatenation.hpp"
 #include "base/system/mpi.hpp"
 #include "steady/impedance/symmetric_inverse.hpp"
 
@@ -64,8 +61,6 @@ ContactSolver::ContactSolver(const Impedance& impedance)
       free_(impedance),
       magnitudes_(impedance.nodes()),
       responses_(impedance.length()) {}
-
-ContactSolver::~ContactSolver() = default;
 
 /// Collective. Makes the columns of these unknowns known.
 void ContactSolver::computeColumns(std::span<const unsigned char> free) {

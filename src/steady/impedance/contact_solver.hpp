@@ -50,7 +50,6 @@ class ContactSolver {
  public:
   /// Collective. Borrows the impedance during the lifetime of the object.
   explicit ContactSolver(const Impedance& impedance);
-  ~ContactSolver();
   /// Collective. Solves the problem up to round-off.
   ContactSolution solve(const ContactCase& one) { return solve({&one, 1}).front(); }
   /// Collective. Solves all cases. At most the fraction `accuracy` of the friction remains

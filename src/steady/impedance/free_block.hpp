@@ -41,8 +41,8 @@ struct FreeBlock {
   SymmetricInverse stiffness = {};    ///< on the owner of a block without base
   std::vector<double> diagonal = {};  ///< of the stiffness, on its owner
   bool isRegular = true;              ///< the stiffness is positive definite, by a margin
-  /// The solutions for the friction magnitudes, [free unknown]×[direction], without direct effects,
-  /// on the owner of a block without base; and their number.
+  /// The inverse times F due to the friction magnitudes, [free unknown]×[direction], without direct
+  /// effects, on the owner of a block without base; and the number of columns.
   linalg::DenseMatrix solutions = {};
   PetscInt solved = 0;
 

@@ -142,31 +142,24 @@ void FreeUnknowns::gatherBorder(FreeBlock& block) const {
     if (!block.free[own[k]]) held.push_back(base.unknowns.ranks.ownBegin() + k);
   block.added = unknowns(std::move(added));
   block.held = concatenated(impedance_.comm(), held);
-  block.coupling = forcesOf(block.added.places, base.unknowns);
-  block.addedMatrix = forcesOf(block.added.places, block.added);
+  DenseMatrix columns(columns_.rows());
+  for (const PetscInt place : block.added.places) columns.append(columns_.column(place));
+  block.coupling = forcesAt(base.unknowns, columns);
+  block.addedMatrix = forcesAt(block.added, columns);
 }
 
-/// Collective. Returns F at some unknowns of all ranks due to those of some known columns.
-DenseMatrix FreeUnknowns::forcesOf(const std::vector<PetscInt>& columns, const Unknowns& at) const {
-  DenseMatrix rows(at.local.size(), std::ssize(columns));
-  for (PetscInt j = 0; j < rows.columns(); ++j)
-    for (PetscInt i = 0; i < rows.rows(); ++i)
-      rows(i, j) = columns_(impedance_.nodes() + at.local[i], columns[j]);
-  return linalg::gatheredRows(at.ranks, rows);
-}
-
-/// Collective. Returns −F at some unknowns of all ranks.
-DenseMatrix FreeUnknowns::negativeForces(const Unknowns& at, const DenseView& effects) const {
+/// Collective. Returns F at some unknowns of all ranks.
+DenseMatrix FreeUnknowns::forcesAt(const Unknowns& at, const DenseView& effects) const {
   DenseMatrix rows(at.local.size(), effects.columns());
   for (PetscInt j = 0; j < effects.columns(); ++j)
     for (PetscInt i = 0; i < rows.rows(); ++i)
-      rows(i, j) = -effects(impedance_.nodes() + at.local[i], j);
+      rows(i, j) = effects(impedance_.nodes() + at.local[i], j);
   return linalg::gatheredRows(at.ranks, rows);
 }
 
 DenseMatrix FreeUnknowns::released(const FreeBlock& block, const DenseView& effects) const {
   const FreeBlock& base = block.baseOrSelf();
-  DenseMatrix inBase = negativeForces(base.unknowns, effects);
+  DenseMatrix inBase = forcesAt(base.unknowns, effects);
   if (mpi::rank(impedance_.comm()) == base.owner) base.stiffness.apply(inBase);
   return finished(block, std::move(inBase), effects);
 }
@@ -177,12 +170,12 @@ DenseMatrix FreeUnknowns::finished(const FreeBlock& block, DenseMatrix inBase,
                                    const DenseView& effects) const {
   const MPI_Comm comm = impedance_.comm();
   DenseMatrix amounts(columns_.columns(), inBase.columns()), more(0, inBase.columns());
-  if (block.base) more = negativeForces(block.added, effects);
+  if (block.base) more = forcesAt(block.added, effects);
   if (block.base && mpi::rank(comm) == block.owner) block.border.complete(inBase, more);
   const auto take = [&](DenseMatrix& values, const Unknowns& of) {
     mpi::broadcastEntries(comm, values.entries(), block.owner);
     for (PetscInt j = 0; j < values.columns(); ++j)
-      for (PetscInt i = 0; i < values.rows(); ++i) amounts(of.places[i], j) = values(i, j);
+      for (PetscInt i = 0; i < values.rows(); ++i) amounts(of.places[i], j) = -values(i, j);
   };
   take(inBase, block.baseOrSelf().unknowns);
   if (block.base) take(more, block.added);
@@ -194,7 +187,7 @@ DenseMatrix FreeUnknowns::released(FreeBlock& block, const DenseView& effects, P
   FreeBlock& base = block.base ? *block.base : block;
   const bool isOwner = mpi::rank(impedance_.comm()) == base.owner;
   if (base.solved < last) {
-    DenseMatrix more = negativeForces(base.unknowns, effects.columnRange(base.solved, last));
+    DenseMatrix more = forcesAt(base.unknowns, effects.columnRange(base.solved, last));
     base.solved = last;
     if (isOwner) {
       base.stiffness.apply(more);

@@ -48,8 +48,7 @@ class FreeUnknowns {
   Unknowns unknowns(std::vector<PetscInt> local) const;
   void gatherStiffness(FreeBlock& block);
   void gatherBorder(FreeBlock& block) const;
-  linalg::DenseMatrix forcesOf(const std::vector<PetscInt>& columns, const Unknowns& at) const;
-  linalg::DenseMatrix negativeForces(const Unknowns& at, const linalg::DenseView& effects) const;
+  linalg::DenseMatrix forcesAt(const Unknowns& at, const linalg::DenseView& effects) const;
   linalg::DenseMatrix finished(const FreeBlock& block, linalg::DenseMatrix inBase,
                                const linalg::DenseView& effects) const;
 
