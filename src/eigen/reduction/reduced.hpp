@@ -29,11 +29,12 @@ namespace squeal::reduction {
 
 /// The result of ReducedProblem::improve(). Its lists have one entry per point of the argument.
 struct Improvement {
-  /// True if the basis has grown, or if the problem near the points has become more accurate: the
-  /// pairs must be computed again.
+  /// True if the pairs must be computed again: the basis has grown or, in the result of
+  /// tracking::Family::improve(), the interpolation of the terms between frictions was refined.
   bool changed = false;
-  /// Largest backward error of the pairs of the point in the full problem; NaN if no problem exists
-  /// at its friction. The list is empty if the reduced problem is the full one.
+  /// For each point, the largest backward error of its pairs in the full problem. NaN, which only
+  /// tracking::Family::improve() returns: no steady state with this active set exists at the
+  /// friction of the point. The list is empty if the reduced problem is the full one.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
   /// reduced problem.
@@ -46,31 +47,33 @@ struct Improvement {
 /// the residuals r of all inaccurate pairs. One block solve computes all these vectors, with the
 /// real symmetric factorisation that was computed for the modes. A round reduces the errors to
 /// about a tenth. A pair is certified if its full-order backward error is at most
-/// `-flutter_accuracy` and the estimate of |δs|/|s| at most `-flutter_tolerance`. The whole sweep
-/// shares one basis.
+/// `-flutter_accuracy` and the estimate of |δs|/|s| at most `-flutter_tolerance`. All points of the
+/// object share one basis.
 class ReducedProblem {
  public:
   /// Collective. Borrows the system of the interior unknowns during the lifetime of the object and
-  /// shares the terms of `pencil`, which hold at all points and for all unknowns. `modes` are
-  /// M0-orthonormal with ascending frequencies; they are copied.
+  /// shares the terms of `pencil`. These terms are valid at all points; their matrices have the
+  /// rows of interior and boundary unknowns. `modes` are M0-orthonormal with ascending frequencies;
+  /// they are copied.
   ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                  const modes::Modes& modes, const Settings& settings,
                  Substructure substructure = {});
-  /// Collective. Adds a set of points with the same boundary unknowns: has[i] is 1 for the boundary
-  /// unknowns i, numbered over all ranks, that they have. Returns the index of the set. The set
-  /// shares the terms of `pencil` that come after those passed to the constructor; they hold for
-  /// all parameters. A `passed` set occurs only between points, and must be loaded before use.
-  /// Throws Error if the stiffness is not positive definite.
+  /// Collective. Adds a set of points that have the same boundary unknowns: has[i] is 1 if boundary
+  /// unknown i, numbered over all ranks, is one of them. Returns the index of the set. The set
+  /// shares the terms of `pencil` that come after those passed to the constructor; they are valid
+  /// for all parameters, at the points of this set. A `passed` set has no point of the sweep: the
+  /// contact passes through its active set between two points. Call load() before using it. Throws
+  /// Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
   /// Collective. Makes a set ready for use (ProjectedBasis::load()).
   void load(int set) { basis_.load(set); }
   /// Collective. Returns the free modes in the band for each of these sets, [set]. They are
   /// corrected together, in the same way as the complex modes. Their vectors have the entries of
-  /// all unknowns. Only K and M of `pencil` are used. Their number is confirmed if that of the
-  /// interior problem is confirmed and the two bounds of subspace::ModeCount agree. From then on,
-  /// these modes set the top of the band at the points of the set, so the list of solve() does not
-  /// depend on the other sets of the basis.
+  /// all unknowns. The number of these modes is confirmed if the count of the interior modes is
+  /// confirmed and both bounds of subspace::ModeCount agree. From then on, these modes set the top
+  /// of the band at the points of the set, so the list of solve() does not depend on the other sets
+  /// of the basis. Only K and M of `pencil` are used.
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns their complex modes, [point]. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
@@ -105,7 +108,8 @@ class ReducedProblem {
   }
   /// Collective. Returns the projection of the terms that belong only to the point.
   linalg::DenseProblem projectOwn(const PointProblem& point) const;
-  /// Collective. Returns the same projection of only K0 and M0; Z is empty.
+  /// Collective. Returns the projection as project() does, but only of K0 and M0; the damping
+  /// matrix is empty.
   linalg::DenseProblem projectAssociated(const PointProblem& point) const;
   /// Returns the part of the basis that the points of a set use.
   const subspace::PointSpace& space(int set) const { return basis_.set(set).space; }
@@ -116,8 +120,8 @@ class ReducedProblem {
   linalg::Block responses(const linalg::Block& forces) { return basis_.basis().responses(forces); }
   PetscInt basisSize() const { return basis().size(); }
   const Basis& basis() const { return basis_.basis(); }
-  /// Returns the band that all sets share; its upper limit is 0 if no pair is corrected, and
-  /// infinite if the basis spans the whole space.
+  /// Returns the band that contains the bands of all sets. Its upper limit is 0 with
+  /// `-flutter_basis modal`, and infinite if the basis spans the whole space.
   const pencil::WatchedBand& band() const { return band_; }
   /// Collective. Adds to the basis, by one block solve, corrections from the residuals of these
   /// pairs of several points. Their vectors may belong to an earlier, smaller basis.

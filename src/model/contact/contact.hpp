@@ -3,25 +3,27 @@
 /// Contact as a change of variables, with trial functions T and test functions L(f):
 ///   u = T x + p u0 + u_g,   L(f) = T + f Nᵀ S   [3.6].
 /// Here u are the nodal displacements, x the unknowns, and f the coefficient of friction. u0 are
-/// the prescribed displacements, which the pressure factor p scales, and u_g closes the initial
-/// gaps. N and S are explained below. src/README.md lists all symbols, and docs/method.md has the
-/// equations in brackets. Lists marked [contact node] have one entry per contact node of this rank.
+/// the prescribed displacements; the pressure factor p scales them together with pressures and
+/// forces. u_g closes the initial gaps. N and S are explained below. src/README.md lists all
+/// symbols. Numbers in brackets refer to equations in docs/method.md. Lists marked [contact node]
+/// have one entry per contact node of this rank. Nodal vectors have one entry per component of each
+/// node, and nodal matrices one row and one column per entry of a nodal vector.
 ///
-/// At each contact node, here a node of the pad (the slave side), the variables z are the
-/// tangential displacements and the gap g. At all other nodes they are the Cartesian components of
-/// the displacement. A is the matrix of this change of variables, and n the unit normal from disc
-/// (D) to pad (P):
+/// Let z be new nodal variables: at each contact node the tangential displacements and the gap g,
+/// at all other nodes the Cartesian components of the displacement. Contact nodes belong to the
+/// slave side; in this comment it is the pad (P), and the other side is the disc (D). A is the
+/// matrix of this change of variables, and n the unit normal from disc to pad:
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
 /// A selection B removes held components, periodic images and closed gaps from z: T = A B.
 ///
 /// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
-/// nodal gaps g = E h [M.12]. The forces that belong to h are positive at all nodes for a uniform
-/// pressure. gap_basis.hpp defines E.
+/// nodal gaps g = E h [M.12]. Under a uniform pressure, the forces conjugate to h are positive at
+/// all nodes; those conjugate to g are not. gap_basis.hpp defines E.
 ///
 /// Friction enters through two matrices, N and S. Only their rows that belong to the gaps of
-/// contact nodes are nonempty. N extracts the normal forces from the nodal forces r. S computes the
-/// slip from the displacement jump [u] = u_P − u_D between pad and disc, along the sliding
-/// direction τ, weighted by the friction law φ:
+/// contact nodes are nonempty. N extracts the normal forces from the nodal forces r. S maps the
+/// unknowns x to the displacement φ τ·[u], where [u] = u_P − u_D is the jump between pad and disc,
+/// τ the sliding direction, and φ the friction law; E⁻¹ expresses it by coefficients, as the gap:
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u],   u = T x.
 /// The test functions add the friction force due to R_N to the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.
@@ -45,13 +47,13 @@ namespace squeal::contact {
 using interfaces::ContactNode;
 using interfaces::Role;
 
-/// The sliding of a contact node in steady motion.
+/// The sliding velocity of a contact node in steady motion, and its friction.
 struct Slip {
   Point direction{};  ///< τ = w/|w|, w the relative velocity of the pad; zero where |w| = 0
   double speed = 0;   ///< |w|, m/s
   double law = 1;     ///< friction law φ(|w|)
   double slope = 0;   ///< dφ/d|w|, s/m
-  interfaces::Coefficient coefficient;  ///< factor of φ; zero without sliding
+  interfaces::Coefficient coefficient;  ///< of friction, before φ; zero if the node does not slide
 
   /// Return the coefficient of friction of the node for the value `swept` of the swept friction,
   /// and its derivative with respect to |w|, s/m.
@@ -64,7 +66,7 @@ struct Contact {
   const mesh::Mesh* mesh = nullptr;  ///< borrowed
   interfaces::Interfaces interfaces;
   FrictionLaw law;
-  OwnedMat periodic;  ///< P, N×N: copies the displacement of each node to its periodic image
+  OwnedMat periodic;  ///< nodal matrix: copies the displacement of each node to its periodic image
   Kinematics kinematics;
   Sliding sliding;
 
@@ -72,18 +74,18 @@ struct Contact {
   PetscInt gapRow(const ContactNode& node) const;
   /// Collective. Returns T of an active set (transformationOf()).
   Transformation transformation(const ActiveSet& set) const;
-  /// Returns true if the slip is the same at all points of a sweep, that is, without convective
-  /// terms and with a constant friction law.
+  /// Returns true if S is the same at all points of a sweep, that is, without convective terms and
+  /// with a constant friction law.
   bool slipIsConstant() const { return !sliding.convected && law.constant(); }
-  /// Collective. Returns the slip, [contact node], at the speed factor v (`speed`). Let V be the
-  /// velocity of the disc or obstacle at the factor 1, and let D u_D = (V·∇) u_D be the convective
-  /// part for the displacement u_D of the disc. The relative velocity is
+  /// Collective. Returns the sliding velocities, [contact node], at the speed factor v (`speed`).
+  /// Let V be the velocity of the disc or obstacle at v = 1. The displacement u_D of the disc adds
+  /// the convective derivative D u_D = (V·∇) u_D to it. The relative velocity is
   ///   w = −v (V + D u_D)   [2.15],
   /// projected on the tangent plane. Without convective terms, or if u (`displacement`) is null, it
   /// is w = −v V.
   std::vector<Slip> slip(double speed, Vec displacement) const;
   /// Collective. Returns the normal components E⁻ᵀ R_N of the forces at the nodes, given the forces
-  /// R_N that belong to the gap coefficients h. Both lists are [contact node], in newtons. The two
+  /// R_N conjugate to the gap coefficients h. Both lists are [contact node], in newtons. The two
   /// lists are equal on faces whose E is the identity.
   std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
   /// Collective. Does the same with R_N set to 0 at the nodes that are not closed.
@@ -91,14 +93,14 @@ struct Contact {
   /// Collective. Returns the gaps E h at the nodes, given the gap coefficients h. Both lists are
   /// [contact node], in metres.
   std::vector<double> nodalGap(const std::vector<double>& gap) const;
-  /// Collective. Returns Eᵀ v for forces v at the nodes; both [contact node].
+  /// Collective. Returns Eᵀ r, given the forces r at the nodes. Both lists are [contact node].
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
-  /// Collective. Returns E⁻¹ v for gaps v at the nodes; both [contact node].
+  /// Collective. Returns E⁻¹ g, given the gaps g at the nodes. Both lists are [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
-  /// Collective. Returns the nodal forces after adding the force on each layer node to the force on
-  /// the node of the face below it. At the layer node the force is then zero. The sum is the
-  /// force on the face: tangentially, since the two nodes move together, and along the normal,
-  /// since the layer exerts equal and opposite forces on them.
+  /// Collective. A soft layer has a layer node above each node of its face (mesh::LayerNode), and
+  /// the layer node carries the gap. Returns the nodal forces, with the force on each layer node
+  /// moved to the node below it. The result is the contact force on the face, since the forces that
+  /// the layer exerts on its two nodes cancel, and the two nodes move together tangentially.
   OwnedVec movedFromLayers(Vec forces) const;
   /// Returns the exponents of the swept friction that occur in the coefficients of the interfaces:
   /// the list contains 0 if any coefficient is fixed, and 1 if any is swept. The same on all ranks.
@@ -107,11 +109,10 @@ struct Contact {
   bool hasSticking() const;
   /// Returns true if any interface has friction at `swept`. The same on all ranks.
   bool hasFriction(double swept) const;
-  /// Collective. Returns S_a for a = `exponent`, 0 or 1, with a row per entry of nodal vectors and
-  /// n columns. The rows are S x = E⁻¹ c φ τ·[u] with u = T x, at the gap of each contact node
-  /// whose flag in `slides` is set; all other rows are empty. If a = 0, c is the fixed coefficient
-  /// of the node. If a = 1, c is its factor on the swept friction. If the node has no such
-  /// coefficient, c = 0.
+  /// Collective. Returns S_a, a = `exponent`, 0 or 1, with one row per entry of a nodal vector and
+  /// one column per unknown x. Only the gaps of contact nodes whose flag in `slides` is set have
+  /// nonempty rows, with S_a x = E⁻¹ c φ τ·[u] and u = T x. Here c is the fixed coefficient of the
+  /// node if a = 0, and its factor on the swept friction if a = 1; zero if the node has none.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, int exponent) const;
   /// Collective. Returns S_0 + f S_1 at the swept friction f.

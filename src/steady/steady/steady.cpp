@@ -111,9 +111,9 @@ OwnedVec Problem::displacement(const contact::Transformation& transformation,
   return u;
 }
 
-void Problem::residual(const sweep::Parameters& at, Vec x, Vec f) const {
+void Problem::residual(const sweep::Parameters& at, Vec x, Vec result) const {
   const OwnedVec u = displacement(at, x);
-  check(VecCopy(test(transformation_, all_, at, forces(at, u), slip(at.speed, u)), f));
+  check(VecCopy(test(transformation_, all_, at, forces(at, u), slip(at.speed, u)), result));
 }
 
 /// Returns [M.14]

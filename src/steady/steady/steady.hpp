@@ -4,9 +4,9 @@
 ///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4],
 /// where g is the gap, R_N and R_T the normal and the friction force, f the coefficient of
 /// friction, φ the friction law and τ the sliding direction. src/README.md explains the other
-/// symbols. Numbers in brackets refer to equations in docs/method.md. Nodal vectors have N entries,
-/// one per component of each node. [contact node] marks a list with one entry per contact node of
-/// this rank.
+/// symbols. Numbers in brackets refer to equations in docs/method.md. Nodal vectors have one entry
+/// per component of each node. [contact node] marks a list with one entry per contact node of this
+/// rank.
 #include <string>
 #include <vector>
 
@@ -25,9 +25,9 @@ struct ContactState {
   double gap = 0;  ///< n·(u_P − u_D), m
   /// Gap unknown h, m, ≥ 0. It differs from the gap only on tri6 and quad8 faces (gap_basis.hpp).
   double coefficient = 0;
-  double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
+  double normalForce = 0;  ///< R_N in newtons, ≥ 0 in compression
   double pressure = 0;     ///< R_N over the nodal area, Pa
-  Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces the tangential reaction
+  Point frictionForce{};   ///< R_T on the pad, newtons; where nodes stick, the tangential reaction
 };
 
 /// The contact forces of one interface.
@@ -45,8 +45,8 @@ struct Resultant {
   PetscInt pulled = 0;     ///< of these, nodes under tension, for which no coefficient suffices
   PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
   PetscInt unheld = 0;     ///< closed nodes of a sticking interface without tangential force
-  /// Magnitude of the sum of the moments on both sides, N·m. It is nonzero if surfaces whose meshes
-  /// do not match are a distance apart.
+  /// Magnitude of the sum of the moments of the contact forces on both sides, N·m. It is nonzero if
+  /// surfaces whose meshes do not match are a distance apart.
   double momentDefect = 0;
 };
 
@@ -60,21 +60,22 @@ struct Solution {
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES
   int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
-  /// Relative residual: the 2-norm of the natural residual, divided by that of the residual at zero
-  /// displacements [M.15].
+  /// Relative residual: the 2-norm of the natural residual (naturalResidual()), divided by the
+  /// 2-norm of F at x = 0 [M.15].
   double residual = 0;
-  OwnedVec displacement;              ///< u, N entries, m
+  OwnedVec displacement;              ///< u, nodal vector, m
   std::vector<ContactState> contact;  ///< [contact node]
   std::vector<contact::Slip> slip;    ///< [contact node] slip of sliding interfaces
-  contact::Mask closed;        ///< [contact node] 1: R_N > negligibleForce, or it does not separate
-  Sticking sticking;           ///< holds of the nodes of sticking interfaces
-  int revisions = 0;           ///< number of revisions of `sticking` for this state
-  double negligibleForce = 0;  ///< smaller contact forces are round-off, N
-  PetscInt openNodes = 0;      ///< contact nodes that are not closed, over all ranks
+  /// [contact node] 1 if R_N > negligibleForce, or if the interface of the node cannot separate.
+  contact::Mask closed;
+  Sticking sticking;                  ///< the hold of each node of a sticking interface
+  int revisions = 0;                  ///< number of revisions of `sticking` for this state
+  double negligibleForce = 0;         ///< smaller contact forces are round-off, N
+  PetscInt openNodes = 0;             ///< contact nodes that are not closed, over all ranks
   double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
-  /// Largest resultant of the forces on a connected part of the mesh (contact, supports and loads),
-  /// divided by the sum of the magnitudes of all nodal forces.
+  /// Largest resultant of the forces of contact, supports and loads on a connected part of the
+  /// mesh, divided by the sum of the magnitudes of all nodal forces.
   double imbalance = 0;
   /// Number of contact nodes, over all ranks, whose state differs from that in another known
   /// solution at the same parameters; 0 if no other solution is known.
@@ -88,19 +89,21 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///   r = (K + v² K^R) u − b,   b = p b_p + b_0 + v² b_c,
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
-/// T maps the unknowns x to displacements, N extracts normal forces from nodal forces, and S gives
-/// the slip weighted by φ. The factors v and p scale speed and pressure. The loads are b_p, which
-/// scale with p, the constant loads b_0 and the centrifugal forces b_c. u_g is the displacement due
-/// to gaps that exist without load [M.54].
+/// The matrix T maps the unknowns x to displacements, N extracts normal forces from nodal forces,
+/// and S gives the jump of the displacement along τ, weighted by φ (contact.hpp). The factors v and
+/// p scale speed and pressure. The loads are b_p, which scale with p, the constant loads b_0 and
+/// the centrifugal forces b_c. u_g is the displacement that closes the initial gaps [M.54].
 ///
 /// Convective terms arise because moving matter carries its displacement along. Without them
 /// (-motion_convective off, approximation A of Moirot and Nguyen) the problem is linear except for
 /// the inequalities. With them, S depends on u through the relative velocity w = −v (V + D u_D),
-/// where V is the base velocity of the disc and D u_D = (V·∇) u_D the convective part.
+/// where V is the base velocity of the disc and D u_D = (V·∇) u_D the convective derivative of its
+/// displacement.
 ///
-/// A node of a sticking interface may be held (it sticks), free or released. A free node has
-/// tangential unknowns and no friction. A released node has tangential unknowns and slides; its row
-/// in S has the sticking limit of the interface as coefficient of friction.
+/// A node of a sticking interface may be held (it sticks), free or released. This state is called
+/// its hold. A free node has tangential unknowns and no friction. A released node has tangential
+/// unknowns and slides; its row in S has the sticking limit of the interface as coefficient of
+/// friction.
 class Problem {
  public:
   /// Collective. Borrows mesh, bodies and contact during the lifetime of the object.
@@ -116,29 +119,31 @@ class Problem {
   /// |w| = 0 at a node with friction.
   Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
-  /// Collective. Sets f = F(x), n entries.
-  void residual(const sweep::Parameters& at, Vec x, Vec f) const;
-  /// Collective. Returns the exact derivative dF/dx [M.14], n×n, as a new matrix with the same
-  /// pattern at every x.
+  /// Collective. Sets `result` to F(x), which has one entry per unknown x.
+  void residual(const sweep::Parameters& at, Vec x, Vec result) const;
+  /// Collective. Returns the exact derivative dF/dx [M.14] as a new matrix with the same pattern at
+  /// every x.
   OwnedMat jacobian(const sweep::Parameters& at, Vec x) const;
-  /// Collective. Returns u = T x + p u0 + u_g, N entries, m.
+  /// Collective. Returns the nodal vector u = T x + p u0 + u_g, m.
   OwnedVec displacement(const sweep::Parameters& at, Vec x) const {
     return displacement(transformation_, at, x);
   }
-  /// Collective. Returns r = (K + v² K^R) u − b, the nodal forces of supports and contact, N.
+  /// Collective. Returns r = (K + v² K^R) u − b, the nodal forces of supports and contact, newtons.
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
   /// Collective. Throws Error if f > 0 and |w| = 0 at a node with friction.
   void requireSlip(const sweep::Parameters& at) const;
-  /// Collective. Returns the updated holds, or none if they do not change. If an update is needed
-  /// but impossible, or if the final state has friction under tension, marks the solution as not
-  /// converged and returns none.
+  /// Collective. Returns the updated holds, or none if they do not change. Returns none as well,
+  /// and marks the solution as not converged, if the updated holds would leave a body
+  /// under-constrained, if the limit of revisions is reached, or if a node with friction has a
+  /// tensile normal force and its interface cannot separate.
   std::optional<Sticking> nextHolds(Solution& solution) const;
-  /// Collective. Sets the remaining members of a solution from the unknowns x. `left` is the
-  /// 2-norm, in newtons, of the natural residual at x (naturalResidual()).
+  /// Collective. Completes a solution, whose `at`, `reason` and numbers of SNES are set, from the
+  /// unknowns x. `left` is the 2-norm, in newtons, of the natural residual at x
+  /// (naturalResidual()).
   void conclude(Vec x, double left, Solution& solution) const;
-  /// Collective. Returns the loads b at this point: N entries, in newtons.
+  /// Collective. Returns the loads b at this point, a nodal vector in newtons.
   OwnedVec load(const sweep::Parameters& at) const;
-  /// Collective. Returns (K + v² K^R) u: N entries, in newtons.
+  /// Collective. Returns (K + v² K^R) u, a nodal vector in newtons.
   OwnedVec springForces(double speed, Vec displacement) const;
   /// Collective. Returns R_N = N r of nodal forces r, [contact node].
   std::vector<double> normalForces(Vec forces) const;
