@@ -48,10 +48,26 @@ RealOption::RealOption(std::string stage, std::string name, std::optional<double
              std::move(meaning), range.text()),
       range_(range) {}
 
+RealOption::RealOption(std::string stage, std::string name, std::string defaultText,
+                       std::string unit, Range range, std::string meaning)
+    : Option(std::move(stage), std::move(name), std::move(defaultText), std::move(unit),
+             std::move(meaning), range.text()),
+      range_(range) {}
+
 double RealOption::parsed(const std::string& subject, const std::string& value) const {
   const double x = number(subject, value);
   if (!range_.contains(x)) reject(subject, value);
   return x;
+}
+
+OptionalRealOption::OptionalRealOption(std::string stage, std::string name, std::string unit,
+                                       Range range, std::string meaning)
+    : RealOption(std::move(stage), std::move(name), std::string(), std::move(unit), range,
+                 std::move(meaning)) {}
+
+std::optional<double> OptionalRealOption::get(const std::string& subject) const {
+  if (!given(subject)) return {};
+  return RealOption::get(subject);
 }
 
 WordOrRealOption::WordOrRealOption(std::string stage, std::string name, double byDefault,

@@ -34,10 +34,24 @@ class RealOption : public Option {
   void validate(const std::string& subject) const override { parsed(subject, value(subject)); }
   nlohmann::json valueSchema() const override;
 
+ protected:
+  /// Declares an option whose default is this text.
+  RealOption(std::string stage, std::string name, std::string defaultText, std::string unit,
+             Range range, std::string meaning);
+
  private:
   /// Returns the value of this text. Throws Error if it violates the rule.
   double parsed(const std::string& subject, const std::string& text) const;
   Range range_;
+};
+
+/// A real number that has no default.
+class OptionalRealOption : public RealOption {
+ public:
+  OptionalRealOption(std::string stage, std::string name, std::string unit, Range range,
+                     std::string meaning);
+  /// Returns the number, or none if the option is not given.
+  std::optional<double> get(const std::string& subject = {}) const;
 };
 
 /// A real number, or one word in place of it.

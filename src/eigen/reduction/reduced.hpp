@@ -27,14 +27,15 @@
 
 namespace squeal::reduction {
 
-/// The result of ReducedProblem::improve(). Its lists have one entry per point of the argument.
+/// The result of ReducedProblem::improve(). Its lists have one entry per point passed to it.
 struct Improvement {
   /// True if the pairs must be computed again: the basis has grown or, in the result of
   /// tracking::Family::improve(), the interpolation of the terms between frictions was refined.
   bool changed = false;
-  /// For each point, the largest backward error of its pairs in the full problem. NaN, which only
-  /// tracking::Family::improve() returns: no steady state with this active set exists at the
-  /// friction of the point. The list is empty if the reduced problem is the full one.
+  /// For each point, the largest backward error of its pairs in the full problem. NaN, only in the
+  /// result of tracking::Family::improve(): at this friction, no steady state with the active set
+  /// of the family exists; the round-off is then NaN as well. The list is empty if the reduced
+  /// problem is the full one.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
   /// reduced problem.
@@ -59,26 +60,28 @@ class ReducedProblem {
                  const modes::Modes& modes, const Settings& settings,
                  Substructure substructure = {});
   /// Collective. Adds a set of points that have the same boundary unknowns: has[i] is 1 if boundary
-  /// unknown i, numbered over all ranks, is one of them. Returns the index of the set. The set
-  /// shares the terms of `pencil` that come after those passed to the constructor; they are valid
-  /// for all parameters, at the points of this set. A `passed` set has no point of the sweep: the
-  /// contact passes through its active set between two points. Call load() before using it. Throws
-  /// Error if the stiffness is not positive definite.
+  /// unknown i, numbered over all ranks, is one of them. Returns the index of the set. `pencil`
+  /// begins with the terms passed to the constructor. Its further terms belong to this set, which
+  /// shares them; they are valid at all points of the set. A `passed` set has no point of the
+  /// sweep: the contact passes through its active set between two points. Call load() before each
+  /// use of a passed set. Throws Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
-  /// Collective. Makes a set ready for use (ProjectedBasis::load()).
+  /// Collective. Projects the terms of a passed set, unless they are loaded
+  /// (ProjectedBasis::load()).
   void load(int set) { basis_.load(set); }
   /// Collective. Returns the free modes in the band for each of these sets, [set]. They are
   /// corrected together, in the same way as the complex modes. Their vectors have the entries of
-  /// all unknowns. The number of these modes is confirmed if the count of the interior modes is
-  /// confirmed and both bounds of subspace::ModeCount agree. From then on, these modes set the top
-  /// of the band at the points of the set, so the list of solve() does not depend on the other sets
-  /// of the basis. Only K and M of `pencil` are used.
+  /// all unknowns. Their countConfirmed is true if the number of interior modes
+  /// is confirmed, and if both bounds by subspace::ModeCount of the number of modes below some
+  /// frequency equal the number found. From then on, these modes determine the top of the band at
+  /// the points of the set. The eigenvalues that solve() lists there thus do not depend on the
+  /// other sets of the basis. Only K and M of `pencil` are used.
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns their complex modes, [point]. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
-  /// responses are computed at the first point of the first batch. `trial` (T, N×n) maps shapes to
-  /// nodal displacements.
+  /// responses are computed at the first point of the first batch. `trial` (T) maps vectors of the
+  /// unknowns to nodal displacements.
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Returns true if the basis only grows, as serialise() requires.
   bool grows() const { return !settings_.compressed; }
@@ -91,8 +94,9 @@ class ReducedProblem {
   /// Collective. Returns the eigenpairs of the point with these parameters and this set: those in
   /// the band and in the guard zone around it (see pencil::WatchedBand), with right and left
   /// vectors. The coordinates are those of the basis at the time of the solve. Pairs in the band
-  /// are those of solve(); pairs in the guard zone may be less accurate. Returns none if the point
-  /// has not been solved, or if there was not enough memory to store the pairs.
+  /// are those of solve(); pairs in the guard zone may be less accurate. Returns none if the pairs
+  /// are not stored: the point has not been solved, the memory was short, `-flutter_basis` is not
+  /// `corrected`, or the basis spans the whole space.
   std::optional<std::vector<linalg::DensePair>> watchedPairs(const sweep::Parameters& at,
                                                              int set) const {
     return solved_.at(at, set);
@@ -120,8 +124,9 @@ class ReducedProblem {
   linalg::Block responses(const linalg::Block& forces) { return basis_.basis().responses(forces); }
   PetscInt basisSize() const { return basis().size(); }
   const Basis& basis() const { return basis_.basis(); }
-  /// Returns the band that contains the bands of all sets. Its upper limit is 0 with
-  /// `-flutter_basis modal`, and infinite if the basis spans the whole space.
+  /// Returns the band that contains the bands of all sets. Its upper limit is infinite if
+  /// the basis spans the whole space; otherwise, with `-flutter_basis modal`, it is 0, since no
+  /// eigenvalue is corrected.
   const pencil::WatchedBand& band() const { return band_; }
   /// Collective. Adds to the basis, by one block solve, corrections from the residuals of these
   /// pairs of several points. Their vectors may belong to an earlier, smaller basis.

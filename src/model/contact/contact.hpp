@@ -14,7 +14,8 @@
 /// slave side; in this comment it is the pad (P), and the other side is the disc (D). A is the
 /// matrix of this change of variables, and n the unit normal from disc to pad:
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
-/// A selection B removes held components, periodic images and closed gaps from z: T = A B.
+/// A selection B removes held components, periodic images, closed gaps, and the tangential
+/// components of sticking nodes from z: T = A B.
 ///
 /// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
 /// nodal gaps g = E h [M.12]. Under a uniform pressure, the forces conjugate to h are positive at
@@ -22,8 +23,9 @@
 ///
 /// Friction enters through two matrices, N and S. Only their rows that belong to the gaps of
 /// contact nodes are nonempty. N extracts the normal forces from the nodal forces r. S maps the
-/// unknowns x to the displacement φ τ·[u], where [u] = u_P − u_D is the jump between pad and disc,
-/// τ the sliding direction, and φ the friction law; E⁻¹ expresses it by coefficients, as the gap:
+/// unknowns x to the displacements φ τ·[u] at the nodes, where [u] = u_P − u_D is the jump between
+/// pad and disc, τ the sliding direction, and φ the friction law. E⁻¹ converts them to
+/// coefficients, as it converts the gaps g to h:
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u],   u = T x.
 /// The test functions add the friction force due to R_N to the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.
@@ -53,7 +55,7 @@ struct Slip {
   double speed = 0;   ///< |w|, m/s
   double law = 1;     ///< friction law φ(|w|)
   double slope = 0;   ///< dφ/d|w|, s/m
-  interfaces::Coefficient coefficient;  ///< of friction, before φ; zero if the node does not slide
+  interfaces::Coefficient coefficient;  ///< of friction, without φ; zero if the node does not slide
 
   /// Return the coefficient of friction of the node for the value `swept` of the swept friction,
   /// and its derivative with respect to |w|, s/m.
@@ -93,14 +95,15 @@ struct Contact {
   /// Collective. Returns the gaps E h at the nodes, given the gap coefficients h. Both lists are
   /// [contact node], in metres.
   std::vector<double> nodalGap(const std::vector<double>& gap) const;
-  /// Collective. Returns Eᵀ r, given the forces r at the nodes. Both lists are [contact node].
+  /// Collective. Returns Eᵀ q, given the normal forces q at the nodes. Both lists are
+  /// [contact node].
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
   /// Collective. Returns E⁻¹ g, given the gaps g at the nodes. Both lists are [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
   /// Collective. A soft layer has a layer node above each node of its face (mesh::LayerNode), and
   /// the layer node carries the gap. Returns the nodal forces, with the force on each layer node
   /// moved to the node below it. The result is the contact force on the face, since the forces that
-  /// the layer exerts on its two nodes cancel, and the two nodes move together tangentially.
+  /// the layer exerts on its two nodes cancel.
   OwnedVec movedFromLayers(Vec forces) const;
   /// Returns the exponents of the swept friction that occur in the coefficients of the interfaces:
   /// the list contains 0 if any coefficient is fixed, and 1 if any is swept. The same on all ranks.

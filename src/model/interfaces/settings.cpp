@@ -34,11 +34,11 @@ const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, 
 const RealOption factorOption(
     "contact", "contact_<interface>_friction_factor", 1.0, "", nonNegative,
     "ratio of the coefficient of friction of a sliding interface to -flutter_friction");
-const RealOption frictionOption(
-    "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
-    "fixed coefficient of friction of a sliding interface (0: frictionless); if the option is not "
-    "given, the swept coefficient applies. On a sticking interface: limit of the ratio of "
-    "tangential to normal force at a node; if the option is not given, it is unlimited");
+const OptionalRealOption frictionOption(
+    "contact", "contact_<interface>_friction", "", nonNegative,
+    "on a sliding interface: fixed coefficient of friction, in place of the swept one (0: "
+    "frictionless); on a sticking interface: limit of the ratio of tangential to normal force at a "
+    "node (not given: no limit)");
 const FlagOption releaseOption(
     "contact", "contact_<interface>_release", false,
     "what happens to a node of a sticking interface if its ratio of tangential to normal force "
@@ -53,11 +53,11 @@ const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveName
                                "if the two meshes match, otherwise the side with the finer mesh");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance at which the program pairs two faces if the two "
-                              "meshes do not match; 0 = automatic (half the size of a face)");
+                              "meshes do not match; 0 = automatic (half the size of each face)");
 const FlagOption separationOption("contact", "contact_<interface>_separation", true,
                                   "whether the two sides can separate; off: they stay together "
-                                  "even under tension, but a point of "
-                                  "the sweep fails if a node with friction is then under tension");
+                                  "even under tension; where a node with friction is under "
+                                  "tension, the point of the sweep fails");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
@@ -72,11 +72,11 @@ const TextOption tieMasterOption("tie", "tie_<name>_master", "",
                                  "master surface group of a tie, to which the slave is bonded");
 const RealOption toleranceOption("tie", "tie_<name>_tolerance", 0.0, "m", nonNegative,
                                  "largest distance at which two faces of a tie are bonded; 0 = "
-                                 "automatic (half the size of a face)");
+                                 "automatic (half the size of each face)");
 const FlagOption adjustOption(
     "tie", "tie_<name>_adjust", true,
-    "initial shift of the slave nodes onto the master, without strain, so that the two bodies can "
-    "rotate together without strain; off: no shift");
+    "whether the slave nodes of the mesh are first moved onto the master, so that the two bodies "
+    "can rotate together without strain; this changes the geometry and causes no stress");
 
 mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
   const std::string group = option.get(name);
@@ -172,11 +172,10 @@ InterfaceSettings contactGiven(mesh::InterfaceRequest surfaces) {
   interface.obstacleDisplacement = obstacleDisplacementOption.vector(name);
   interface.slave = valueOf<SlaveChoice>(slaveOption, slaveNames, name);
   interface.searchDistance = searchOption.get(name);
+  const std::optional<double> fixed = frictionOption.get(name);
   if (interface.role == Role::sliding)
-    interface.friction = frictionOption.given(name) ? Coefficient{frictionOption.get(name), 0}
-                                                    : Coefficient{0, factorOption.get(name)};
-  if (interface.role == Role::sticking && frictionOption.given(name))
-    interface.stickingLimit = frictionOption.get(name);
+    interface.friction = fixed ? Coefficient{*fixed, 0} : Coefficient{0, factorOption.get(name)};
+  if (interface.role == Role::sticking) interface.stickingLimit = fixed;
   interface.releases = releaseOption.get(name);
   interface.separates = separationOption.get(name);
   interface.layerStiffness = stiffnessOption.get(name);

@@ -12,10 +12,11 @@
 
 namespace squeal::terms {
 
-/// Collective. Returns the terms that are valid for all parameters: K0, M0, c C0, v G0 and v² K^R0.
-/// If S is the same at all points (contact::Contact::slipIsConstant()), the friction terms
-/// f^a S_aᵀ N X T are included, for each X, with its factor c or v, and for each power a of the
-/// swept friction f that occurs. The arguments may be destroyed after the call.
+/// Collective. Returns the terms that are valid for all parameters: K0, M0, c C0, v G0
+/// and v² K^R0, where c and v are the factors on damping and speed. If S is the same at all points
+/// (contact::Contact::slipIsConstant()), the friction terms f^a S_aᵀ N X T are included for each X,
+/// with the factor of X0 above and for each exponent a of contact::Contact::frictionExponents().
+/// The arguments may be destroyed after the call.
 pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system);
 
 /// Collective. Returns the friction terms of affineTerms() for the contact nodes i for which
@@ -36,20 +37,22 @@ completeness::FrictionFactors frictionFactors(const contact::Contact& contact,
 /// 1. The friction terms f^a S_aᵀ N X T, if S depends on the deformation or on a friction law that
 ///    is not constant.
 /// 2. Friction damping. In a vibration u, the relative velocity changes by w* = [∂u/∂t] − v D u_D,
-///    and the friction force by −B w* [4.7, M.20]. The terms are [M.21], with J and D of
-///    contact::Sliding,
-///      (J T)ᵀ B (J T) in Z̄, which Moirot and Nguyen call f[A],
-///      −v (J T)ᵀ B (D T) in K̄, f[B_T] + f[B_N] there, with convective terms.
-/// 3. Tᵀ X T and the friction terms of X = `prestressChange`, the geometric stiffness at the point
-///    minus that in `system` (a nodal matrix; null: none).
+///    and the friction force by −B w* [4.7, M.20]. With J and D of contact::Sliding, the terms
+///    are [M.21]
+///      (J T)ᵀ B (J T), a damping matrix, f[A] in the paper of Moirot and Nguyen;
+///      −v (J T)ᵀ B (D T), a stiffness matrix, f[B_T] + f[B_N] in their paper; only with convective
+///      terms.
+/// 3. Tᵀ X T and the friction terms of X = `prestressChange`, a nodal matrix: the geometric
+///    stiffness at the point minus that contained in `system`. Omitted if it is null.
 /// The first two kinds are omitted without friction, and the second also without friction damping.
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const contact::CoupledSystem& system,
                                      const steady::Solution& solution, Mat prestressChange,
                                      const Settings& settings);
 
-/// Not collective. Returns the normal forces from which B is computed, [contact node], N: R_N at
-/// the `closed` nodes and zero at the others; zero everywhere without friction damping.
+/// Not collective. Returns the normal forces, in newtons, from which B is computed, one per
+/// contact node of this rank: R_N at the `closed` nodes, zero at the others. All are zero without
+/// friction damping.
 std::vector<double> responseForces(const std::vector<unsigned char>& closed,
                                    std::vector<double> normalForce, const Settings& settings);
 

@@ -22,7 +22,7 @@ namespace squeal::steady {
 
 /// The steady state of one contact node.
 struct ContactState {
-  double gap = 0;  ///< n·(u_P − u_D), m
+  double gap = 0;  ///< g = n·(u_P − u_D) plus the initial gap, m
   /// Gap unknown h, m, ≥ 0. It differs from the gap only on tri6 and quad8 faces (gap_basis.hpp).
   double coefficient = 0;
   double normalForce = 0;  ///< R_N in newtons, ≥ 0 in compression
@@ -68,11 +68,11 @@ struct Solution {
   std::vector<contact::Slip> slip;    ///< [contact node] slip of sliding interfaces
   /// [contact node] 1 if R_N > negligibleForce, or if the interface of the node cannot separate.
   contact::Mask closed;
-  Sticking sticking;                  ///< the hold of each node of a sticking interface
-  int revisions = 0;                  ///< number of revisions of `sticking` for this state
-  double negligibleForce = 0;         ///< smaller contact forces are round-off, N
-  PetscInt openNodes = 0;             ///< contact nodes that are not closed, over all ranks
-  double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
+  Sticking sticking;            ///< which nodes of sticking interfaces are held, free or released
+  int revisions = 0;            ///< number of revisions of `sticking` for this state
+  double negligibleForce = 0;   ///< smaller contact forces are round-off, N
+  PetscInt openNodes = 0;       ///< contact nodes that are not closed, over all ranks
+  double smallestPressure = 0;  ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
   /// Largest resultant of the forces of contact, supports and loads on a connected part of the
   /// mesh, divided by the sum of the magnitudes of all nodal forces.
@@ -89,16 +89,16 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///   r = (K + v² K^R) u − b,   b = p b_p + b_0 + v² b_c,
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
-/// The matrix T maps the unknowns x to displacements, N extracts normal forces from nodal forces,
-/// and S gives the jump of the displacement along τ, weighted by φ (contact.hpp). The factors v and
+/// The matrix T maps the unknowns x to displacements, and N extracts normal forces from nodal
+/// forces. S contains the coefficients of friction: it is the f S of contact.hpp. The factors v and
 /// p scale speed and pressure. The loads are b_p, which scale with p, the constant loads b_0 and
 /// the centrifugal forces b_c. u_g is the displacement that closes the initial gaps [M.54].
 ///
 /// Convective terms arise because moving matter carries its displacement along. Without them
 /// (-motion_convective off, approximation A of Moirot and Nguyen) the problem is linear except for
 /// the inequalities. With them, S depends on u through the relative velocity w = −v (V + D u_D),
-/// where V is the base velocity of the disc and D u_D = (V·∇) u_D the convective derivative of its
-/// displacement.
+/// where V is the velocity of the disc or obstacle at v = 1, and D u_D = (V·∇) u_D the convective
+/// derivative of its displacement.
 ///
 /// A node of a sticking interface may be held (it sticks), free or released. This state is called
 /// its hold. A free node has tangential unknowns and no friction. A released node has tangential
@@ -106,10 +106,11 @@ contact::ActiveSet activeSet(const Solution& solution);
 /// friction.
 class Problem {
  public:
-  /// Collective. Borrows mesh, bodies and contact during the lifetime of the object.
+  /// Collective. Borrows mesh, bodies and contact during the lifetime of the object. All nodes of
+  /// sticking interfaces are held.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
-  /// Collective. The same with given holds of the nodes of sticking interfaces.
+  /// Collective. The same with given holds.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
           Sticking sticking);
   /// Collective. Solves with SNES VI (-steady_snes_*). The initial guess is the solution on the
@@ -132,14 +133,14 @@ class Problem {
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
   /// Collective. Throws Error if f > 0 and |w| = 0 at a node with friction.
   void requireSlip(const sweep::Parameters& at) const;
-  /// Collective. Returns the updated holds, or none if they do not change. Returns none as well,
-  /// and marks the solution as not converged, if the updated holds would leave a body
-  /// under-constrained, if the limit of revisions is reached, or if a node with friction has a
-  /// tensile normal force and its interface cannot separate.
+  /// Collective. Returns the updated holds, or none if they do not change or if the solution has
+  /// not converged. Returns none as well, and marks the solution as not converged, if the updated
+  /// holds would leave a body under-constrained, if the limit of revisions is reached, or if a node
+  /// with friction has a tensile normal force and its interface cannot separate.
   std::optional<Sticking> nextHolds(Solution& solution) const;
-  /// Collective. Completes a solution, whose `at`, `reason` and numbers of SNES are set, from the
-  /// unknowns x. `left` is the 2-norm, in newtons, of the natural residual at x
-  /// (naturalResidual()).
+  /// Collective. Completes, from the unknowns x, a solution in which `at`, `converged`, `reason`,
+  /// `tolerance`, `iterations` and `residual` are set. `left` is the 2-norm, in newtons, of the
+  /// natural residual at x (naturalResidual()).
   void conclude(Vec x, double left, Solution& solution) const;
   /// Collective. Returns the loads b at this point, a nodal vector in newtons.
   OwnedVec load(const sweep::Parameters& at) const;
@@ -147,8 +148,7 @@ class Problem {
   OwnedVec springForces(double speed, Vec displacement) const;
   /// Collective. Returns R_N = N r of nodal forces r, [contact node].
   std::vector<double> normalForces(Vec forces) const;
-  /// Collective. Returns an estimate of the round-off of F, in newtons, as in the numerator of
-  /// [M.16],
+  /// Collective. Returns the numerator of [M.16], an estimate of the round-off of F, in newtons:
   ///   ε (‖diag(K) u‖ + ‖b‖).
   /// `loads` b may be null.
   double rounding(Vec displacement, Vec loads) const;
@@ -190,8 +190,8 @@ class Problem {
   bool anyReleased_ = false;                                   // on any rank
   contact::Transformation transformation_;                     // all gaps unknown
   mutable contact::Projection stiffness_, rotationStiffness_;  // created on first use
-  OwnedVec diagonal_;                                          // diagonal of K, N entries
-  OwnedMat jumps_, convected_;  // J T and D T, N×n; empty without convective terms
+  OwnedVec diagonal_;                                          // diagonal of K, a nodal vector
+  OwnedMat jumps_, convected_;  // J T and D T of contact::Sliding; empty without convective terms
 };
 
 }  // namespace squeal::steady
