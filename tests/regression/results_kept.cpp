@@ -120,6 +120,8 @@ TEST(ResultsKept, OneRunAtATimeInAFolder) {
 
 // --- a run that is ended ---
 
+// mpirun leaves the ranks one second to remove what they have written. The run with most files has
+// it alone.
 TEST(ResultsKept, WhenARunIsEnded) {
   earlierResults();
   std::vector<std::future<void>> runs;
@@ -127,10 +129,10 @@ TEST(ResultsKept, WhenARunIsEnded) {
        {Ending{"kill_rank_0", SIGKILL, 0, "report"},
         Ending{"kill_rank_1", SIGKILL, 1, "elasticity"}, Ending{"terminate", SIGTERM, -1, "modes"},
         Ending{"abort", SIGABRT, 1,
-               "modes"},  // as the allocator does where it finds a damaged heap
-        Ending{"interrupt", SIGINT, -1, "report"}})
+               "modes"}})  // as the allocator does where it finds a damaged heap
     runs.push_back(std::async(std::launch::async, expectKept, ending));
   for (auto& run : runs) run.get();
+  expectKept({"interrupt", SIGINT, -1, "report"});
 }
 
 }  // namespace
