@@ -121,7 +121,7 @@ TEST(ResultsKept, OneRunAtATimeInAFolder) {
 // --- a run that is ended ---
 
 // mpirun leaves the ranks one second to remove what they have written. The run with most files has
-// it alone.
+// no other run beside it.
 TEST(ResultsKept, WhenARunIsEnded) {
   earlierResults();
   std::vector<std::future<void>> runs;

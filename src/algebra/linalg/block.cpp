@@ -73,7 +73,7 @@ OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block) {
   return matrix;
 }
 
-RowSet::RowSet(Mat matrix) {
+RowSet::RowSet(Mat matrix, double share) {
   PetscInt end = 0;
   check(MatGetOwnershipRange(matrix, &firstRow_, &end));
   localRows_ = end - firstRow_;
@@ -84,8 +84,11 @@ RowSet::RowSet(Mat matrix) {
   check(MatFindNonzeroRows(matrix, &kept));
   if (!kept) return;
   const OwnedIS owner(kept);
+  PetscInt count = 0, all = 0;
+  check(ISGetSize(kept, &count));
+  check(MatGetSize(matrix, &all, nullptr));
+  if (count > share * all) return;
   all_ = false;
-  PetscInt count = 0;
   const PetscInt* rows = nullptr;
   check(ISGetLocalSize(kept, &count));
   check(ISGetIndices(kept, &rows));

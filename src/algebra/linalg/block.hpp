@@ -42,8 +42,9 @@ Block unitColumns(MPI_Comm comm, const Block& columns);
 /// only at the contact nodes, and products skip all other rows.
 class RowSet {
  public:
-  /// Collective. Finds the rows. Borrows the matrix only during this call.
-  explicit RowSet(Mat matrix);
+  /// Collective. Finds the rows; the set contains all rows if more than this share of them has
+  /// nonzero entries. Borrows the matrix only during this call.
+  explicit RowSet(Mat matrix, double share = 1);
   PetscInt size() const { return all_ ? localRows_ : std::ssize(rows_); }
   /// Returns true if the set contains all rows of the matrix, on every rank.
   bool all() const { return all_; }

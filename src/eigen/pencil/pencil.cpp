@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 namespace squeal::pencil {
 
@@ -67,6 +68,32 @@ Pencil Pencil::with(std::vector<Term> pointTerms) const {
   pencil.affineCount_ = affineCount_;
   pencil.singular_ = singular_;
   return pencil;
+}
+
+std::vector<Term> Pencil::pointSums(const sweep::Parameters& at) const {
+  std::vector<Term> sums;
+  std::vector<unsigned char> isSum;  // [sum] its matrix is not one of a term
+  for (const Term& term : std::span(terms_).subspan(affineCount_)) {
+    const auto same = std::ranges::find_if(sums, [&](const Term& sum) {
+      return sum.power == term.power && sum.isAssociated() == term.isAssociated();
+    });
+    if (same == sums.end()) {
+      sums.push_back(term.share());
+      isSum.push_back(0);
+      continue;
+    }
+    if (auto& begun = isSum[same - sums.begin()]; !begun) {
+      OwnedMat scaled;
+      check(MatDuplicate(same->matrix, MAT_COPY_VALUES, scaled.out()));
+      check(MatScale(scaled, same->coefficient(at)));
+      check(MatSetOption(scaled, MAT_SYMMETRIC, PETSC_FALSE));
+      *same = {
+          .matrix = std::move(scaled), .power = term.power, .ofFriction = !term.isAssociated()};
+      begun = 1;
+    }
+    check(MatAXPY(same->matrix, term.coefficient(at), term.matrix, DIFFERENT_NONZERO_PATTERN));
+  }
+  return sums;
 }
 
 bool Pencil::hasPower(int power) const {

@@ -55,6 +55,10 @@ class Pencil {
   /// Returns a pencil with the terms of this one, whose matrices it shares, and with `pointTerms`,
   /// which hold only at one point of the sweep. Collective unless `pointTerms` is empty.
   Pencil with(std::vector<Term> pointTerms) const;
+  /// Collective. Returns the terms that hold only at one point, the one with these parameters.
+  /// Terms with the same power of s and the same isAssociated() are added, with their coefficients,
+  /// to one term; a term that has no other to be added to shares its matrix.
+  std::vector<Term> pointSums(const sweep::Parameters& at) const;
   /// Returns true if there are terms with this power of s.
   bool hasPower(int power) const;
   MPI_Comm comm() const;

@@ -72,20 +72,20 @@ linalg::DenseMatrix Coordinates::times(pencil::Side side, int power, double c) c
   return matrix;
 }
 
-ProjectedTerms::ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first,
-                               std::size_t last)
+ProjectedTerms::ProjectedTerms(const Basis& basis, std::span<const pencil::Term> terms)
     : basis_(basis) {
-  for (std::size_t t = first; t < last; ++t) parts_.push_back(partOf(pencil.terms()[t].share()));
+  for (const auto& term : terms) parts_.push_back(partOf(term.share()));
   extend();
 }
 
 ProjectedTerms::Part ProjectedTerms::partOf(pencil::Term term) const {
-  const linalg::RowSet rows(term.matrix);
+  constexpr double few = 0.25;
+  const linalg::RowSet rows(term.matrix, few);
   const bool symmetric = isSymmetric(term.matrix);
-  Part part{std::move(term), rows, {}, symmetric, {}, {}, {}, {}, {}, {}, {}};
+  Part part{std::move(term), rows, {}, symmetric, {}, {}, {}, {}, {}, {}};
   const Mat whole = part.term.matrix;
   part.matrix = rows.of(whole);
-  part.timesV = part.rowsOfV = part.timesSigns = linalg::Block(rows.size());
+  part.timesV = part.timesSigns = linalg::Block(rows.size());
   if (symmetric) return part;
   if (rows.all())
     check(MatTranspose(whole, MAT_INITIAL_MATRIX, part.adjoint.out()));
@@ -104,8 +104,8 @@ void ProjectedTerms::extend(Part& part) const {
   const PetscInt old = part.sketch.columns(), size = basis_.size();
   if (old == size) return;
   const bool known = hasProductsFrom(part, old), thin = !part.rows.all();
-  if (thin) part.rowsOfV.append(part.rows.of(basis_.columns().columnRange(old, size)));
-  const linalg::DenseView v = thin ? part.rowsOfV : basis_.columns();
+  const linalg::Block rowsOfV = thin ? part.rows.of(basis_.columns()) : linalg::Block();
+  const linalg::DenseView v = thin ? linalg::DenseView(rowsOfV) : basis_.columns();
   linalg::DenseMatrix right(size, size - old), below(part.isSymmetric ? 0 : size - old, old);
   const auto copy = [](const linalg::DenseMatrix& from, linalg::DenseMatrix& to, PetscInt first) {
     for (PetscInt j = 0; j < from.columns(); ++j)
@@ -128,12 +128,12 @@ void ProjectedTerms::extend(Part& part) const {
     // Where A has few rows, V and A V are known in these rows, and Aᵀ is not needed.
     linalg::Block left(thin ? 0 : basis_.localRows());
     if (!thin) basis_.appendProducts(part.adjoint, begin, end, left);
-    part.leftSketch.append(thin ? linalg::transposedProduct(basis_.comm(), part.timesSigns,
-                                                            part.rowsOfV.columnRange(begin, end))
-                                : basis_.sketch().of(left));
+    part.leftSketch.append(
+        thin ? linalg::transposedProduct(basis_.comm(), part.timesSigns, v.columnRange(begin, end))
+             : basis_.sketch().of(left));
     const linalg::DenseMatrix some =
         thin ? linalg::transposedProduct(basis_.comm(), part.timesV.columnRange(0, old),
-                                         part.rowsOfV.columnRange(begin, end))
+                                         v.columnRange(begin, end))
              : linalg::transposedProduct(basis_.comm(), basis_.columns().columnRange(0, old), left);
     for (PetscInt j = 0; j < some.columns(); ++j)
       for (PetscInt i = 0; i < old; ++i) below(begin - old + j, i) = some(i, j);
@@ -150,10 +150,7 @@ bool ProjectedTerms::hasProductsFrom(const Part& part, PetscInt old) const {
 
 void ProjectedTerms::combine(const linalg::DenseMatrix& combinations) {
   for (auto& part : parts_) {
-    if (!part.rows.all()) {
-      part.timesV = linalg::product(part.timesV, combinations);
-      part.rowsOfV = linalg::product(part.rowsOfV, combinations);
-    }
+    if (!part.rows.all()) part.timesV = linalg::product(part.timesV, combinations);
     part.sketch = linalg::product(part.sketch, combinations);
     if (!part.isSymmetric) part.leftSketch = linalg::product(part.leftSketch, combinations);
     part.projection = linalg::congruent(part.projection, combinations);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The terms of a pencil, projected on a growing basis V. Stored are the projections VᵀAV, and
-/// sketches of A V and AᵀV for the norms of residuals [M.39]. The product A V is stored only if A
-/// has few nonzero rows, since otherwise it would take as much memory as V.
+/// sketches of A V and AᵀV for the norms of residuals [M.39]. The product A V is stored only if at
+/// most a quarter of the rows of A are nonzero, since otherwise it would take nearly as much memory
+/// as V.
+#include <span>
 #include <vector>
 
 #include "algebra/linalg/block.hpp"
@@ -60,10 +62,9 @@ struct PointPairs {
 /// Some terms of a pencil with their projections.
 class ProjectedTerms {
  public:
-  /// Collective. Projects the terms [first, last) of the pencil and shares their matrices. Borrows
-  /// the basis during the lifetime of the object.
-  ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first,
-                 std::size_t last);
+  /// Collective. Projects these terms and shares their matrices. Borrows the basis during the
+  /// lifetime of the object.
+  ProjectedTerms(const Basis& basis, std::span<const pencil::Term> terms);
   std::size_t count() const { return parts_.size(); }
   /// Collective. Extends the projections to the new vectors of the basis.
   void extend();
@@ -85,13 +86,12 @@ class ProjectedTerms {
  private:
   struct Part {
     pencil::Term term;
-    linalg::RowSet rows;             // nonzero rows of A
+    linalg::RowSet rows;             // nonzero rows of A if they are few, otherwise all rows
     OwnedMat matrix;                 // A in these rows
     bool isSymmetric;                // A is
     OwnedMat adjoint;                // Aᵀ; null if A is symmetric or has few rows
     linalg::Block timesSigns;        // A Ω in `rows`; empty if A is symmetric or has all rows
     linalg::Block timesV;            // A V in `rows`; empty if these are all rows
-    linalg::Block rowsOfV;           // V in `rows`; empty if these are all rows
     linalg::DenseMatrix sketch;      // sketch of A V
     linalg::DenseMatrix leftSketch;  // sketch of AᵀV; empty if A is symmetric
     linalg::DenseMatrix projection;  // VᵀAV

@@ -10,8 +10,7 @@ namespace squeal::reduction {
 
 ProjectedBasis::ProjectedBasis(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                                const modes::Modes& modes, Substructure substructure)
-    : basis_(modes, system, std::move(substructure)),
-      terms_(basis_, pencil, 0, pencil.terms().size()) {
+    : basis_(modes, system, std::move(substructure)), terms_(basis_, pencil.terms()) {
   check(MatGetSize(basis_.stiffness(), &unknowns_, nullptr));
   serialised_ = basis_.size();
 }
@@ -44,16 +43,16 @@ void ProjectedBasis::load(int number) {
 }
 
 void ProjectedBasis::projectTerms(PointSet& set) const {
-  set.terms.emplace(basis_, set.pencil, terms_.count(), set.pencil.affineCount());
+  set.terms.emplace(
+      basis_,
+      std::span(set.pencil.terms()).first(set.pencil.affineCount()).subspan(terms_.count()));
 }
 
 PointState ProjectedBasis::state(const PointProblem& point, const Norms& norms) const {
-  const auto& pencil = point.pencil;
-  PointState state{
-      .point = &point,
-      .set = sets_[point.set].get(),
-      .ownTerms = ProjectedTerms(basis_, pencil, pencil.affineCount(), pencil.terms().size()),
-      .damped = pencil.hasPower(1)};
+  PointState state{.point = &point,
+                   .set = sets_[point.set].get(),
+                   .ownTerms = ProjectedTerms(basis_, point.pencil.pointSums(point.at)),
+                   .damped = point.pencil.hasPower(1)};
   state.solution.norms = norms;
   return state;
 }

@@ -130,5 +130,37 @@ TEST(BackwardError, OfARealVectorAndOfZero) {
   EXPECT_LT(pencil::backwardError(pencil, {}, 0, d), 1e-15);
 }
 
+// The terms of one point with the same power of s are added, with their coefficients at that point:
+// 2 f A and 3 v B. Terms of K0 and M0 are added to each other only, and a single term keeps its
+// matrix.
+TEST(PointSums, AreTheSumsOfTheTermsOfThePoint) {
+  const auto entry = [](PetscInt row, PetscInt column, double value) {
+    return test::matrixOf(2, {{row, column, value}});
+  };
+  std::vector<pencil::Term> affine, own;
+  affine.push_back({entry(0, 0, 7)});
+  own.push_back({.matrix = entry(0, 1, 5), .frictionExponent = 1, .factor = 2});
+  own.push_back({.matrix = entry(1, 1, 11)});  // of K0
+  own.push_back({.matrix = entry(1, 0, 13), .power = 1, .ofFriction = true});
+  own.push_back({.matrix = entry(1, 0, 17), .factor = 3, .speedExponent = 1, .ofFriction = true});
+  const pencil::Pencil pencil = pencil::Pencil(std::move(affine)).with(std::move(own));
+  const auto sums = pencil.pointSums({.friction = 0.5, .speed = 4});
+  ASSERT_EQ(sums.size(), 3u);
+  EXPECT_TRUE(sums[1].isAssociated());
+  EXPECT_EQ(sums[1].matrix.get(), pencil.terms()[2].matrix.get());
+  EXPECT_EQ(sums[2].power, 1);
+  EXPECT_EQ(sums[2].matrix.get(), pencil.terms()[3].matrix.get());
+  EXPECT_EQ(sums[0].power, 0);
+  EXPECT_FALSE(sums[0].isAssociated());
+  EXPECT_EQ(sums[0].coefficient({.friction = 0.1, .speed = 9}), 1);
+  const linalg::DenseMatrix sum = test::denseCopy(sums[0].matrix);
+  EXPECT_EQ(sum(0, 1), 2 * 0.5 * 5);
+  EXPECT_EQ(sum(1, 0), 3 * 4 * 17);
+  EXPECT_EQ(sum(0, 0), 0);
+  EXPECT_EQ(sum(1, 1), 0);
+  // The terms of the pencil are as before.
+  EXPECT_EQ(test::denseCopy(pencil.terms()[1].matrix)(0, 1), 5);
+}
+
 }  // namespace
 }  // namespace squeal
