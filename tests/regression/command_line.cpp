@@ -229,14 +229,15 @@ TEST(CommandLine, DryRunSaysWhatARunWouldDo) {
       EXPECT_NE(out.find(piece), std::string::npos) << piece << "\n" << out;
   };
   // 12 x 4 cells; 12 columns of three free nodes, and one on the plate that slides.
-  expect(dry("-options_file options/layer.yaml -mesh_set nx=12,ny=4 -flutter_friction 0,0.2 "
-             "-flutter_speed 1,2,3",
-             program),
-         {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)",
-          "bottom (12 nodes, clamped xy)", "plate (12 nodes on a rigid obstacle)",
-          "6 points: 2 frictions x 3 speeds x 1 pressures x 1 dampings; 6 steady states",
-          "unknowns     84", "GB on all ranks", "\naudit ", "\n# Audit of the model\n",
-          "\nNo finding.\n", "| layer | 48 | 3 | (1.5, -0.5, 0) | 2.5 |"});
+  expect(
+      dry("-options_file options/layer.yaml -mesh_set nx=12,ny=4 -flutter_friction 0,0.2 "
+          "-flutter_speed 1,2,3",
+          program),
+      {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)", "bottom (12 nodes, clamped xy)",
+       "plate (12 nodes on a rigid obstacle)",
+       "6 points: 2 frictions x 3 speeds x 1 pressures x 1 dampings; 6 steady states",
+       "unknowns     84", "GB on all ranks", "\ntime         about ", "\naudit ",
+       "\n# Audit of the model\n", "\nNo finding.\n", "| layer | 48 | 3 | (1.5, -0.5, 0) | 2.5 |"});
   EXPECT_EQ(dry("-options_file options/layer.yaml -audit off").find("audit"), std::string::npos);
   // A loose body: the audit comes before the error, which points to it.
   EXPECT_EQ(shell(place, onOneRank +

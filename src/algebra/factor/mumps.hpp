@@ -59,6 +59,8 @@ class MumpsFactor {
   Inertia inertia() const { return {id_.infog[11], id_.infog[27]}; }
   /// Returns INFOG(i), in the notation of MUMPS's manual.
   PetscInt infog(int i) const { return id_.infog[i - 1]; }
+  /// Returns RINFOG(i), in the notation of MUMPS's manual.
+  double rinfog(int i) const { return id_.rinfog[i - 1]; }
 
  private:
   MUMPS_INT& icntl(int i) { return id_.icntl[i - 1]; }

@@ -188,10 +188,13 @@ void SymmetricSolver::factorise() const {
 
 void rejectUnusedSolverOptions() { factorisation.rejectUnused(); }
 
-double factorMemory(Mat matrix) {
+FactorSize factorSize(Mat matrix) {
   MumpsFactor factor(commOf(matrix), factorisation.prefix);
   factor.analyse(matrix);
-  return factor.memory();
+  const double entries = factor.infog(20);  // negative: in millions
+  return {.bytes = factor.memory(),
+          .entries = entries < 0 ? -1e6 * entries : entries,
+          .operations = factor.rinfog(1)};
 }
 
 std::unique_ptr<MumpsFactor> shiftedFactor(Mat k, Mat m, double sigma, KSP like) {

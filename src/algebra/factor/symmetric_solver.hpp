@@ -42,9 +42,16 @@ class SymmetricSolver {
   mutable OwnedKSP solver_;
 };
 
-/// Collective. Returns MUMPS's estimate of the memory for the LDLᵀ factorisation of a symmetric
-/// matrix, in bytes, summed over all ranks. Only the pattern of the matrix is analysed.
-double factorMemory(Mat matrix);
+/// The size of an LDLᵀ factorisation by MUMPS, summed over all ranks.
+struct FactorSize {
+  double bytes = 0;       ///< memory, factor included
+  double entries = 0;     ///< of the factor
+  double operations = 0;  ///< of the factorisation
+};
+
+/// Collective. Returns MUMPS's estimates for the factorisation of a symmetric matrix. Only the
+/// pattern of the matrix is analysed.
+FactorSize factorSize(Mat matrix);
 
 /// Collective. Throws Error for unused options -modes_st_*. Call it after the solver is configured:
 /// an option that is still unused then is misspelled.

@@ -48,10 +48,10 @@ RealOption::RealOption(std::string stage, std::string name, std::optional<double
              std::move(meaning), range.text()),
       range_(range) {}
 
-RealOption::RealOption(std::string stage, std::string name, std::string defaultText,
-                       std::string unit, Range range, std::string meaning)
-    : Option(std::move(stage), std::move(name), std::move(defaultText), std::move(unit),
-             std::move(meaning), range.text()),
+RealOption::RealOption(std::string stage, std::string name, std::string unit, Range range,
+                       std::string meaning)
+    : Option(std::move(stage), std::move(name), std::string(), std::move(unit), std::move(meaning),
+             range.text()),
       range_(range) {}
 
 double RealOption::parsed(const std::string& subject, const std::string& value) const {
@@ -62,8 +62,7 @@ double RealOption::parsed(const std::string& subject, const std::string& value) 
 
 OptionalRealOption::OptionalRealOption(std::string stage, std::string name, std::string unit,
                                        Range range, std::string meaning)
-    : RealOption(std::move(stage), std::move(name), std::string(), std::move(unit), range,
-                 std::move(meaning)) {}
+    : RealOption(std::move(stage), std::move(name), std::move(unit), range, std::move(meaning)) {}
 
 std::optional<double> OptionalRealOption::get(const std::string& subject) const {
   if (!given(subject)) return {};

@@ -35,9 +35,9 @@ class RealOption : public Option {
   nlohmann::json valueSchema() const override;
 
  protected:
-  /// Declares an option whose default is this text.
-  RealOption(std::string stage, std::string name, std::string defaultText, std::string unit,
-             Range range, std::string meaning);
+  /// Declares an option with the default `none`.
+  RealOption(std::string stage, std::string name, std::string unit, Range range,
+             std::string meaning);
 
  private:
   /// Returns the value of this text. Throws Error if it violates the rule.

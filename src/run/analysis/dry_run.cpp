@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "algebra/factor/symmetric_solver.hpp"
 #include "base/options/options.hpp"
@@ -15,6 +16,7 @@
 #include "model/mesh/mesh.hpp"
 #include "run/analysis/analysis.hpp"
 #include "run/analysis/checks.hpp"
+#include "run/analysis/cost.hpp"
 #include "run/analysis/inventory.hpp"
 #include "run/analysis/matrix_flutter.hpp"
 #include "run/analysis/matrix_referee.hpp"
@@ -85,33 +87,78 @@ void printSweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
   printLine(comm, text);
 }
 
-/// Collective. Prints the memory in use (mesh, matrices, libraries) and estimates of the memory for
-/// the factor of K0, by the analysis of MUMPS, and for the basis and its products: about
-/// `vectorsPerMode` vectors per free mode, measured with 53,151 to 225,715 unknowns in three
-/// dimensions and 119,600 in the plane.
-void printMemory(MPI_Comm comm, const Settings& settings, Mat k0) {
-  constexpr double vectorsPerMode = 12;
+std::string duration(double seconds) {
+  if (seconds < 90) return formatted("%.2g s", std::max(seconds, 1.0));
+  if (seconds < 90 * 60) return formatted("%.2g min", seconds / 60);
+  return formatted("%.2g h", seconds / 3600);
+}
+
+/// Returns the size of the run with the matrix K0, as far as it is independent of contact.
+RunSize sizeOf(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep, Mat k0) {
   PetscInt unknowns = 0;
-  MatInfo info;
   check(MatGetSize(k0, &unknowns, nullptr));
-  check(MatGetInfo(k0, MAT_GLOBAL_SUM, &info));
-  const int modes =
-      std::min<PetscInt>(settings.solver.modes.value_or(modes::Settings()).count, unknowns);
-  const double factor = factor::factorMemory(k0);
+  const factor::FactorSize factor = factor::factorSize(k0);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const double held = mpi::sum(comm, 1024.0 * usage.ru_maxrss);
-  const double vectors = 8.0 * vectorsPerMode * modes * unknowns;
+  RunSize size;
+  size.unknowns = unknowns;
+  size.modes =
+      std::min<PetscInt>(settings.solver.modes.value_or(modes::Settings()).count, unknowns);
+  size.points =
+      sweep.frictions.size() * sweep.speeds.size() * sweep.pressures.size() * sweep.dampings.size();
+  size.factorBytes = factor.bytes;
+  size.factorEntries = factor.entries;
+  size.factorFlops = factor.operations;
+  size.bytesInUse = mpi::sum(comm, 1024.0 * usage.ru_maxrss);
+  for (const auto& stage : stageRecords()) size.secondsSoFar += stage.seconds;
+  return size;
+}
+
+/// Collective. Prints estimates of memory and time, for points that have the same active set and,
+/// if `separates` (contact can open), for points that have different ones: two points then share a
+/// basis.
+void printCost(MPI_Comm comm, const Settings& settings, const RunSize& size, bool separates) {
+  if (settings.solver.direct) {
+    printLine(comm, formatted("%-12s %.0f; memory and time are not estimated for -flutter_method "
+                              "direct",
+                              "unknowns", size.unknowns));
+    return;
+  }
   const double machine = 1.0 * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
-  printLine(comm, formatted("%-12s %" PetscInt_FMT ", %.0f entries in the stiffness", "unknowns",
-                            unknowns, info.nz_used));
-  printLine(
-      comm,
-      formatted("%-12s about %.2g GB on all ranks: %.2g in use now, %.2g for the factor, %.2g "
-                "for vectors of %d modes; this machine "
-                "has %.3g GB",
-                "memory", 1e-9 * (held + factor + vectors), 1e-9 * held, 1e-9 * factor,
-                1e-9 * vectors, modes, 1e-9 * machine));
+  const double speed = denseSpeed(comm);
+  const RunCost one = runCost(size, 1, speed);
+  std::string memory = formatted("about %.2g GB on all ranks", 1e-9 * one.bytes);
+  std::string time = "about " + duration(one.seconds);
+  if (separates && size.steadyPoints > 1) {
+    const RunCost several = runCost(size, std::ceil(size.steadyPoints / 2), speed);
+    const std::string whenever = " if the closed contact nodes change with the friction";
+    if (several.bytes > 1.05 * one.bytes)
+      memory += formatted(", %.2g GB", 1e-9 * several.bytes) + whenever;
+    time += ", " + duration(several.seconds) + whenever;
+  }
+  printLine(comm, formatted("%-12s %.0f, %.3g million entries in the factor", "unknowns",
+                            size.unknowns, 1e-6 * size.factorEntries));
+  printLine(comm, formatted("%-12s %s; in use now %.2g GB; this machine has %.3g GB", "memory",
+                            memory.c_str(), 1e-9 * size.bytesInUse, 1e-9 * machine));
+  if (settings.regime.enabled()) time += "; without the motion after flutter";
+  printLine(comm, formatted("%-12s %s", "time", time.c_str()));
+}
+
+/// Collective. Returns the number of gaps that can open, and of tangential displacements of nodes
+/// that stick.
+double contactUnknowns(const Model& model) {
+  double count = 0;
+  for (const auto& node : model.contact.interfaces.nodes)
+    count +=
+        node.separates + (node.role == interfaces::Role::sticking ? model.mesh->dimension - 1 : 0);
+  return mpi::sum(model.mesh->comm, count);
+}
+
+bool hasFrictionDamping(const Model& model, const Settings& settings, const sweep::Sweep& sweep) {
+  return settings.mesh->terms.frictionDamping &&
+         (model.mesh->dimension == 3 || !model.contact.law.constant()) &&
+         std::ranges::any_of(sweep.frictions,
+                             [&](double f) { return model.contact.hasFriction(f); });
 }
 
 void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep) {
@@ -137,7 +184,10 @@ void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& 
   PetscInt unknowns = 0;
   check(MatGetSize(named.front().term.matrix, &unknowns, nullptr));
   warnOfDenseWork(comm, settings, sweep, unknowns);
-  if (pattern) printMemory(comm, settings, pattern);
+  if (!pattern) return;
+  RunSize size = sizeOf(comm, settings, sweep, pattern);
+  for (const auto& [name, term] : named) size.damped = size.damped || term.power == 1;
+  printCost(comm, settings, size, false);
 }
 
 }  // namespace
@@ -161,7 +211,14 @@ void dryRun(MPI_Comm comm, const Settings& settings) {
     printContact(model.contact, comm);
     printSweep(comm, sweep, true);
     const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
-    printMemory(comm, settings, system.k0());
+    RunSize size = sizeOf(comm, settings, sweep, system.k0());
+    size.steadyPoints = sweep.steadyPoints().size();
+    size.contactUnknowns = contactUnknowns(model);
+    const bool convected = model.contact.sliding.convected;
+    size.varied = convected || model.bodies.damping;
+    size.damped = size.varied || hasFrictionDamping(model, settings, sweep);
+    size.pointTerms = convected ? 3 : size.damped ? 1 : 0;
+    printCost(comm, settings, size, size.contactUnknowns > 0);
     if (settings.mesh->audit) printLine(comm, audit);
   }
   printLine(comm,

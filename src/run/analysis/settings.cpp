@@ -14,7 +14,7 @@ namespace {
 
 const FlagOption dryRunOption(
     "general", "dry_run", false,
-    "check of the input and estimate of the memory of a run; nothing is solved or written");
+    "check of the input, and estimates of memory and time of a run; nothing is solved or written");
 const FlagOption fullOption(
     "steady", "steady_full", false,
     "solution for steady sliding in all unknowns, as a check; off: in the unknowns of the contact");

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "run/analysis/cost.hpp"
+
+#include <algorithm>
+
+#include "algebra/linalg/dense.hpp"
+#include "base/system/mpi.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+/// Returns the number of vectors in the basis at the end of a group of points. Complex eigenvectors
+/// need two vectors each, and differ more between points if the speed or loss factors vary.
+double basisSize(const RunSize& size, bool setsDiffer) {
+  double perMode = setsDiffer ? 4.6 : 2.3;
+  if (size.damped) perMode = 3.5 + std::min(3.5, 0.1 * size.points);
+  if (size.damped && size.varied) perMode += 2;
+  return std::min(perMode * size.modes, size.unknowns);
+}
+
+}  // namespace
+
+double denseSpeed(MPI_Comm comm) {
+  constexpr PetscInt order = 400;
+  linalg::DenseMatrix a(order, order);
+  for (PetscInt j = 0; j < order; ++j)
+    for (PetscInt i = 0; i < order; ++i) a(i, j) = 1.0 / (1 + i + j);
+  linalg::product(a, a);  // the first product also starts the library
+  constexpr int times = 3;
+  check(MPI_Barrier(comm));
+  const double begin = MPI_Wtime();
+  for (int i = 0; i < times; ++i) linalg::product(a, a);
+  return mpi::sum(comm, times * 2.0 * order * order * order / (MPI_Wtime() - begin));
+}
+
+RunCost runCost(const RunSize& size, double groups, double speed) {
+  // Operations of sparse factors are slower than those of dense products.
+  constexpr double factorSpeed = 0.24, solveSpeed = 0.12;
+  const double basis = basisSize(size, groups > 1), n = size.unknowns,
+               contact = size.contactUnknowns;
+  const double factor = size.factorFlops / (factorSpeed * speed),
+               solve = 4 * size.factorEntries / (solveSpeed * speed);
+  const double freeModes = 2.1 * size.modes * solve + 150 * n * size.modes * size.modes / speed;
+  const double corrections = (basis - size.modes) * solve + 6 * n * basis * basis / speed;
+  // The first points, and tracking, need more solves than the later ones.
+  const double dense = 200 * (size.points + 8) * basis * basis * basis / speed;
+  const double steady = 6 * contact * contact * contact / speed + 5 * solve;
+  RunCost cost;
+  cost.seconds = 1.2 * size.secondsSoFar + 2e-5 * n + (1 + 2 * groups) * factor +
+                 groups * (freeModes + corrections) + dense + size.steadyPoints * steady;
+  // Matrices of the order of the basis: the pairs of all points, the terms that belong to one point
+  // for the points that are solved together, and the linearised problems of the ranks.
+  constexpr double together = 16;
+  const double denseMatrices =
+      size.damped ? 40 + 1.5 * size.points + 8 * size.pointTerms * std::min(size.points, together)
+                  : 80 + 3 * size.points;
+  cost.bytes = size.bytesInUse + 2 * size.factorBytes +
+               8 * (2.7 * n * basis + denseMatrices * basis * basis +
+                    4 * std::min(7.0, size.steadyPoints) * contact * contact);
+  return cost;
+}
+
+}  // namespace squeal::analysis

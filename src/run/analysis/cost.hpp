@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// Estimates of the memory and the time of a run, before anything is solved. They follow the counts
+/// of operations of the stages; the constants and the size of the basis are measured
+/// (docs/performance.md).
+#include <mpi.h>
+
+namespace squeal::analysis {
+
+/// The size of a run, as far as the input determines it.
+struct RunSize {
+  double unknowns = 0;
+  double modes = 0;         ///< free modes
+  double points = 0;        ///< of the sweep
+  double steadyPoints = 0;  ///< of these, points with a steady state of their own
+  /// Number of unknowns that contact adds when it opens or slides: gaps of interfaces that can
+  /// separate, and tangential displacements of nodes that stick.
+  double contactUnknowns = 0;
+  double factorBytes = 0;    ///< memory of a factorisation of K0
+  double factorEntries = 0;  ///< entries of the factor
+  double factorFlops = 0;    ///< operations of a factorisation
+  double bytesInUse = 0;     ///< mesh, matrices and libraries, on all ranks
+  double secondsSoFar = 0;   ///< for mesh, matrices and contact
+  bool damped = false;       ///< the problem has terms in s
+  /// The problem has terms that depend on the speed or on loss factors, so that the eigenvectors
+  /// of the points differ more.
+  bool varied = false;
+  int pointTerms = 0;  ///< number of powers of s with terms that belong to one point
+};
+
+struct RunCost {
+  double bytes = 0, seconds = 0;
+};
+
+/// Collective. Returns the speed of dense matrix products on all ranks together, operations/s,
+/// measured in some hundredths of a second.
+double denseSpeed(MPI_Comm comm);
+
+/// Returns the estimates for a run whose points are solved in `groups` groups, each with its own
+/// factorisations and basis, on ranks with this speed. With more than one group, the active sets
+/// within a group differ. The motion after flutter is not included.
+RunCost runCost(const RunSize& size, double groups, double speed);
+
+}  // namespace squeal::analysis

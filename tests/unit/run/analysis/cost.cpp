@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Estimates of memory and time before a run.
+#include "run/analysis/cost.hpp"
+
+#include <gtest/gtest.h>
+#include <petscsys.h>
+
+#include <vector>
+
+namespace squeal::analysis {
+namespace {
+
+struct Measured {
+  const char* name;
+  RunSize size;
+  double groups, gigabytes;  ///< of the run, and its largest memory
+};
+
+/// Runs of the cases in options/ on two ranks, with the sizes that -dry_run finds.
+std::vector<Measured> runs() {
+  const auto withFactor = [](RunSize size, double bytes, double inUse) {
+    size.factorBytes = bytes;
+    size.bytesInUse = inUse;
+    return size;
+  };
+  return {
+      {"disc_brake",
+       withFactor({.unknowns = 53151,
+                   .modes = 200,
+                   .points = 13,
+                   .steadyPoints = 13,
+                   .contactUnknowns = 275},
+                  0.26e9, 0.44e9),
+       1, 1.51},
+      {"disc_brake_map",
+       withFactor({.unknowns = 6531,
+                   .modes = 50,
+                   .points = 96,
+                   .steadyPoints = 48,
+                   .contactUnknowns = 45,
+                   .damped = true,
+                   .varied = true,
+                   .pointTerms = 3},
+                  0.05e9, 0.19e9),
+       1, 1.21},
+      {"disc_brake_rotating",
+       withFactor({.unknowns = 53151,
+                   .modes = 120,
+                   .points = 30,
+                   .steadyPoints = 30,
+                   .contactUnknowns = 275,
+                   .damped = true,
+                   .varied = true,
+                   .pointTerms = 3},
+                  0.26e9, 0.55e9),
+       1, 8.17},
+      {"layer", withFactor({.unknowns = 828, .modes = 200, .points = 4}, 0.002e9, 0.13e9), 1, 0.32},
+      {"floating_caliper",
+       withFactor({.unknowns = 100276,
+                   .modes = 200,
+                   .points = 7,
+                   .steadyPoints = 7,
+                   .contactUnknowns = 3542},
+                  0.6e9, 1.4e9),
+       4, 7.42}};
+}
+
+// The runs show a quarter at most; peaks of memory differ by some per cent from run to run.
+TEST(RunCost, ForetellsTheMemoryOfMeasuredRuns) {
+  for (const auto& run : runs()) {
+    const double ratio = 1e-9 * runCost(run.size, run.groups, 1e11).bytes / run.gigabytes;
+    EXPECT_GT(ratio, 0.74) << run.name;
+    EXPECT_LT(ratio, 1.3) << run.name;
+  }
+}
+
+// Without contact, all operations are counted in products at the given speed. Twice the factors
+// take twice the time of their operations.
+TEST(RunCost, FollowsTheCountsOfOperations) {
+  RunSize size{.unknowns = 1e5, .modes = 100, .points = 5};
+  const double fixed = 2e-5 * size.unknowns;
+  EXPECT_NEAR(runCost(size, 1, 2e10).seconds - fixed,
+              (runCost(size, 1, 1e10).seconds - fixed) / 2, 1e-9);
+  const double before = runCost(size, 3, 1e10).seconds;
+  size.factorFlops = 2.4e9;  // a second at 0.24 of the speed
+  EXPECT_NEAR(runCost(size, 3, 1e10).seconds - before, 1 + 2 * 3, 1e-9);
+  size.secondsSoFar = 10;
+  EXPECT_NEAR(runCost(size, 3, 1e10).seconds - before, 1 + 2 * 3 + 12, 1e-9);
+}
+
+TEST(DenseSpeed, IsThatOfAProcessor) {
+  const double speed = denseSpeed(PETSC_COMM_WORLD);
+  EXPECT_GT(speed, 1e8);   // also with sanitizers on a busy machine
+  EXPECT_LT(speed, 1e13);  // more than any two cores reach
+}
+
+}  // namespace
+}  // namespace squeal::analysis
