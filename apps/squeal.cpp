@@ -32,7 +32,7 @@ constexpr const char* usage =
     "defines a mesh, materials, supports,\n"
     "loads and contact surfaces, or matrices; later options override it. Lists are separated by "
     "commas.\n"
-    "  -dry_run   checks a case, and estimates the memory of its run\n"
+    "  -dry_run   checks a case, and estimates memory and time of its run\n"
     "  -help      the manual: all options with units, defaults and ranges; -help STAGE: those of "
     "one stage\n"
     "  -help_json the same for programs; -help_json STAGE\n"

@@ -34,8 +34,8 @@ struct Improvement {
   bool changed = false;
   /// For each point, the largest backward error of its pairs in the full problem. NaN, only in the
   /// result of tracking::Family::improve(): at this friction, no steady state with the active set
-  /// of the family exists; the round-off is then NaN as well. The list is empty if the reduced
-  /// problem is the full one.
+  /// of the family exists; the round-off is then NaN as well. The list is empty in the result of
+  /// the default Family::improve(), for families whose problem is the full one.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
   /// reduced problem.
@@ -96,7 +96,7 @@ class ReducedProblem {
   /// vectors. The coordinates are those of the basis at the time of the solve. Pairs in the band
   /// are those of solve(); pairs in the guard zone may be less accurate. Returns none if the pairs
   /// are not stored: the point has not been solved, the memory was short, `-flutter_basis` is not
-  /// `corrected`, or the basis spans the whole space.
+  /// `corrected`, or the free modes span the whole space.
   std::optional<std::vector<linalg::DensePair>> watchedPairs(const sweep::Parameters& at,
                                                              int set) const {
     return solved_.at(at, set);
@@ -124,8 +124,8 @@ class ReducedProblem {
   linalg::Block responses(const linalg::Block& forces) { return basis_.basis().responses(forces); }
   PetscInt basisSize() const { return basis().size(); }
   const Basis& basis() const { return basis_.basis(); }
-  /// Returns the band that contains the bands of all sets. Its upper limit is infinite if
-  /// the basis spans the whole space; otherwise, with `-flutter_basis modal`, it is 0, since no
+  /// Returns the band that contains the bands of all sets. Its upper limit is infinite if the
+  /// free modes span the whole space; otherwise, with `-flutter_basis modal`, it is 0, since no
   /// eigenvalue is corrected.
   const pencil::WatchedBand& band() const { return band_; }
   /// Collective. Adds to the basis, by one block solve, corrections from the residuals of these

@@ -31,11 +31,11 @@ double Sweep::pointCount() const {
 }
 
 void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes) {
-  constexpr double many = 1000, perSecond = 1e10;
+  constexpr double many = 1000, perSecond = 5e10;
   if (sweep.pointCount() < many) return;
-  // QZ on the linearised problem takes some 25 (2 m)³ operations for a basis of m vectors; assume
-  // that m is twice the number of modes.
-  const double hours = sweep.pointCount() * 25 * std::pow(4.0 * modes, 3) / perSecond / 3600;
+  // For a basis of m vectors, the dense problems of a point take as long as 200 m³ operations of a
+  // matrix product; assume that m is 2.3 times the number of modes.
+  const double hours = sweep.pointCount() * 200 * std::pow(2.3 * modes, 3) / perSecond / 3600;
   printWarning(comm, formatted("a sweep of %.0f points, %.0f steady states: their dense eigenvalue "
                                "problems will take about %.2g hours (%d free modes)",
                                sweep.pointCount(), sweep.pointCount() / sweep.dampings.size(),

@@ -3,19 +3,21 @@
 /// Contact as a change of variables, with trial functions T and test functions L(f):
 ///   u = T x + p u0 + u_g,   L(f) = T + f Nᵀ S   [3.6].
 /// Here u are the nodal displacements, x the unknowns, and f the coefficient of friction. u0 are
-/// the prescribed displacements; the pressure factor p scales them together with pressures and
-/// forces. u_g closes the initial gaps. N and S are explained below. src/README.md lists all
-/// symbols. Numbers in brackets refer to equations in docs/method.md. Lists marked [contact node]
-/// have one entry per contact node of this rank. Nodal vectors have one entry per component of each
-/// node, and nodal matrices one row and one column per entry of a nodal vector.
+/// the prescribed displacements; the pressure factor p scales them together with the hydraulic
+/// loads. u_g closes the initial gaps and shortens tightened bolts. N and S are explained below.
+/// src/README.md lists all symbols. Numbers in brackets refer to equations in docs/method.md. Lists
+/// marked [contact node] have one entry per contact node of this rank. Nodal vectors have one entry
+/// per component of each node, and nodal matrices one row and one column per entry of a nodal
+/// vector.
 ///
 /// Let z be new nodal variables: at each contact node the tangential displacements and the gap g,
 /// at all other nodes the Cartesian components of the displacement. Contact nodes belong to the
 /// slave side; in this comment it is the pad (P), and the other side is the disc (D). A is the
 /// matrix of this change of variables, and n the unit normal from disc to pad:
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
-/// A selection B removes held components, periodic images, closed gaps, and the tangential
-/// components of sticking nodes from z: T = A B.
+/// A selection B removes held components, periodic images, components of tied nodes, closed gaps,
+/// and the tangential components of nodes that stick from z: T = A B. With u_g, n·u_P − n·u_D is g
+/// minus the initial gap [M.54].
 ///
 /// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
 /// nodal gaps g = E h [M.12]. Under a uniform pressure, the forces conjugate to h are positive at

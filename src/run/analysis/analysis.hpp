@@ -35,7 +35,7 @@ struct Analysis {
 
   /// Returns true if a stop was requested before the run had all results.
   bool interrupted() const { return !(steady.complete && uniqueness.complete && flutter.complete); }
-  /// Returns true if the steady state was found at every point of the sweep and no later stage has
+  /// Returns true if every steady state that the run looked for was found, and no later stage has
   /// failed. For matrices from files, only the second condition applies.
   bool converged() const;
   /// Returns the complex modes at a point of the sweep, borrowed; null if the point has none.

@@ -13,6 +13,7 @@ namespace {
 /// need two vectors each, and differ more between points if the speed or loss factors vary.
 double basisSize(const RunSize& size, bool setsDiffer) {
   double perMode = setsDiffer ? 4.6 : 2.3;
+  if (!size.corrected) return size.modes;
   if (size.damped) perMode = 3.5 + std::min(3.5, 0.1 * size.points);
   if (size.damped && size.varied) perMode += 2;
   return std::min(perMode * size.modes, size.unknowns);
@@ -33,10 +34,10 @@ double denseSpeed(MPI_Comm comm) {
   return mpi::sum(comm, times * 2.0 * order * order * order / (MPI_Wtime() - begin));
 }
 
-RunCost runCost(const RunSize& size, double groups, double speed) {
+RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double speed) {
   // Operations of sparse factors are slower than those of dense products.
   constexpr double factorSpeed = 0.24, solveSpeed = 0.12;
-  const double basis = basisSize(size, groups > 1), n = size.unknowns,
+  const double basis = basisSize(size, setsDiffer), n = size.unknowns,
                contact = size.contactUnknowns;
   const double factor = size.factorFlops / (factorSpeed * speed),
                solve = 4 * size.factorEntries / (solveSpeed * speed);

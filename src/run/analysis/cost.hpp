@@ -20,7 +20,8 @@ struct RunSize {
   double factorEntries = 0;  ///< entries of the factor
   double factorFlops = 0;    ///< operations of a factorisation
   double bytesInUse = 0;     ///< mesh, matrices and libraries, on all ranks
-  double secondsSoFar = 0;   ///< for mesh, matrices and contact
+  double secondsSoFar = 0;   ///< for mesh, matrices, contact and audit
+  bool corrected = true;     ///< the basis gets corrections (`-flutter_basis` is not modal)
   bool damped = false;       ///< the problem has terms in s
   /// The problem has terms that depend on the speed or on loss factors, so that the eigenvectors
   /// of the points differ more.
@@ -37,8 +38,8 @@ struct RunCost {
 double denseSpeed(MPI_Comm comm);
 
 /// Returns the estimates for a run whose points are solved in `groups` groups, each with its own
-/// factorisations and basis, on ranks with this speed. With more than one group, the active sets
-/// within a group differ. The motion after flutter is not included.
-RunCost runCost(const RunSize& size, double groups, double speed);
+/// factorisations and basis, on ranks with this speed. `setsDiffer`: a basis serves several active
+/// sets. The motion after flutter is not included.
+RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double speed);
 
 }  // namespace squeal::analysis

@@ -90,58 +90,70 @@ void printSweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
 std::string duration(double seconds) {
   if (seconds < 90) return formatted("%.2g s", std::max(seconds, 1.0));
   if (seconds < 90 * 60) return formatted("%.2g min", seconds / 60);
-  return formatted("%.2g h", seconds / 3600);
+  return formatted("%.3g h", seconds / 3600);
 }
 
-/// Returns the size of the run with the matrix K0, as far as it is independent of contact.
+std::string gigabytes(double bytes) {
+  return formatted(bytes < 1e11 ? "%.2g GB" : "%.0f GB", 1e-9 * bytes);
+}
+
+PetscInt rowsOf(Mat matrix) {
+  PetscInt rows = 0;
+  check(MatGetSize(matrix, &rows, nullptr));
+  return rows;
+}
+
+/// Collective. Returns the size of the run with the matrix K0, as far as it is independent of
+/// contact.
 RunSize sizeOf(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep, Mat k0) {
-  PetscInt unknowns = 0;
-  check(MatGetSize(k0, &unknowns, nullptr));
   const factor::FactorSize factor = factor::factorSize(k0);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   RunSize size;
-  size.unknowns = unknowns;
+  size.unknowns = rowsOf(k0);
   size.modes =
-      std::min<PetscInt>(settings.solver.modes.value_or(modes::Settings()).count, unknowns);
-  size.points =
-      sweep.frictions.size() * sweep.speeds.size() * sweep.pressures.size() * sweep.dampings.size();
+      std::min<double>(settings.solver.modes.value_or(modes::Settings()).count, size.unknowns);
+  size.points = sweep.pointCount();
   size.factorBytes = factor.bytes;
   size.factorEntries = factor.entries;
   size.factorFlops = factor.operations;
   size.bytesInUse = mpi::sum(comm, 1024.0 * usage.ru_maxrss);
   for (const auto& stage : stageRecords()) size.secondsSoFar += stage.seconds;
+  size.corrected = settings.solver.reduction && settings.solver.reduction->corrected;
+  size.damped = settings.pencil.isModallyDamped();
   return size;
 }
 
-/// Collective. Prints estimates of memory and time, for points that have the same active set and,
-/// if `separates` (contact can open), for points that have different ones: two points then share a
-/// basis.
-void printCost(MPI_Comm comm, const Settings& settings, const RunSize& size, bool separates) {
-  if (settings.solver.direct) {
-    printLine(comm, formatted("%-12s %.0f; memory and time are not estimated for -flutter_method "
-                              "direct",
-                              "unknowns", size.unknowns));
-    return;
-  }
+/// Collective. Prints the number of unknowns, and estimates of memory and time unless the run has
+/// another method. `mayDiffer`: the active sets of the points may differ; a second estimate is then
+/// for sets of which two share a basis.
+void printCost(MPI_Comm comm, const Settings& settings, Mat k0, const RunSize& size,
+               bool mayDiffer) {
+  MatInfo info;
+  check(MatGetInfo(k0, MAT_GLOBAL_SUM, &info));
+  printLine(comm, formatted("%-12s %.0f, %.0f entries in the stiffness", "unknowns", size.unknowns,
+                            info.nz_used));
   const double machine = 1.0 * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
   const double speed = denseSpeed(comm);
-  const RunCost one = runCost(size, 1, speed);
-  std::string memory = formatted("about %.2g GB on all ranks", 1e-9 * one.bytes);
-  std::string time = "about " + duration(one.seconds);
-  if (separates && size.steadyPoints > 1) {
-    const RunCost several = runCost(size, std::ceil(size.steadyPoints / 2), speed);
-    const std::string whenever = " if the closed contact nodes change with the friction";
-    if (several.bytes > 1.05 * one.bytes)
-      memory += formatted(", %.2g GB", 1e-9 * several.bytes) + whenever;
-    time += ", " + duration(several.seconds) + whenever;
+  const RunCost same = runCost(size, 1, false, speed);
+  std::string memory = "about " + gigabytes(same.bytes) + " on all ranks";
+  std::string time = "about " + duration(same.seconds);
+  if (mayDiffer && size.steadyPoints > 1) {
+    const RunCost different = runCost(size, std::ceil(size.steadyPoints / 2), true, speed);
+    const std::string whenever = " if the closed contact nodes differ between the points";
+    if (different.bytes > 1.05 * same.bytes) memory += ", " + gigabytes(different.bytes) + whenever;
+    time += ", " + duration(different.seconds) + whenever;
   }
-  printLine(comm, formatted("%-12s %.0f, %.3g million entries in the factor", "unknowns",
-                            size.unknowns, 1e-6 * size.factorEntries));
-  printLine(comm, formatted("%-12s %s; in use now %.2g GB; this machine has %.3g GB", "memory",
-                            memory.c_str(), 1e-9 * size.bytesInUse, 1e-9 * machine));
+  printLine(comm,
+            formatted("%-12s %s; in use now %s; this machine has %s", "memory", memory.c_str(),
+                      gigabytes(size.bytesInUse).c_str(), gigabytes(machine).c_str()));
   if (settings.regime.enabled()) time += "; without the motion after flutter";
   printLine(comm, formatted("%-12s %s", "time", time.c_str()));
+}
+
+void printUnknownCost(MPI_Comm comm, Mat k0, const char* what) {
+  printLine(comm, formatted("%-12s %.0f; memory and time are not estimated for %s", "unknowns",
+                            static_cast<double>(rowsOf(k0)), what));
 }
 
 /// Collective. Returns the number of gaps that can open, and of tangential displacements of nodes
@@ -154,11 +166,35 @@ double contactUnknowns(const Model& model) {
   return mpi::sum(model.mesh->comm, count);
 }
 
-bool hasFrictionDamping(const Model& model, const Settings& settings, const sweep::Sweep& sweep) {
-  return settings.mesh->terms.frictionDamping &&
-         (model.mesh->dimension == 3 || !model.contact.law.constant()) &&
-         std::ranges::any_of(sweep.frictions,
+/// Returns true if contact can open, or sticking nodes can slide. The same on all ranks.
+bool setsMayDiffer(const Model& model) {
+  return std::ranges::any_of(model.contact.interfaces.options, [](const auto& one) {
+    return !one.isTied() && (one.separates || one.releases);
+  });
+}
+
+bool hasFriction(const Model& model, const sweep::Sweep& sweep) {
+  return std::ranges::any_of(sweep.frictions,
                              [&](double f) { return model.contact.hasFriction(f); });
+}
+
+/// Adds what the contact and the motion determine.
+RunSize withContact(RunSize size, const Model& model, const Settings& settings,
+                    const sweep::Sweep& sweep) {
+  const auto& contact = model.contact;
+  const bool friction = hasFriction(model, sweep);
+  const bool frictionDamping = friction && settings.mesh->terms.frictionDamping &&
+                               (model.mesh->dimension == 3 || !contact.law.constant());
+  size.steadyPoints = sweep.steadyPoints().size();
+  size.contactUnknowns = contactUnknowns(model);
+  size.varied = model.bodies.gyroscopic || model.bodies.damping;
+  size.damped = size.damped || size.varied || frictionDamping;
+  // K̄ and M̄ have friction terms; Z̄ has them with damping.
+  if (friction && !contact.slipIsConstant())
+    size.pointTerms = size.damped ? 3 : 2;
+  else if (frictionDamping)
+    size.pointTerms = 1;
+  return size;
 }
 
 void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep) {
@@ -185,9 +221,14 @@ void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& 
   check(MatGetSize(named.front().term.matrix, &unknowns, nullptr));
   warnOfDenseWork(comm, settings, sweep, unknowns);
   if (!pattern) return;
+  if (settings.referee) return printUnknownCost(comm, pattern, "-referee_list");
+  if (settings.solver.direct) return printUnknownCost(comm, pattern, "-flutter_method direct");
   RunSize size = sizeOf(comm, settings, sweep, pattern);
-  for (const auto& [name, term] : named) size.damped = size.damped || term.power == 1;
-  printCost(comm, settings, size, false);
+  for (const auto& [name, term] : named) {
+    size.damped = size.damped || term.power == 1;
+    size.varied = size.varied || term.speedExponent != 0 || term.dampingExponent != 0;
+  }
+  printCost(comm, settings, pattern, size, false);
 }
 
 }  // namespace
@@ -211,14 +252,12 @@ void dryRun(MPI_Comm comm, const Settings& settings) {
     printContact(model.contact, comm);
     printSweep(comm, sweep, true);
     const contact::CoupledSystem system(model.bodies, model.contact, model.bonded());
-    RunSize size = sizeOf(comm, settings, sweep, system.k0());
-    size.steadyPoints = sweep.steadyPoints().size();
-    size.contactUnknowns = contactUnknowns(model);
-    const bool convected = model.contact.sliding.convected;
-    size.varied = convected || model.bodies.damping;
-    size.damped = size.varied || hasFrictionDamping(model, settings, sweep);
-    size.pointTerms = convected ? 3 : size.damped ? 1 : 0;
-    printCost(comm, settings, size, size.contactUnknowns > 0);
+    if (settings.solver.direct)
+      printUnknownCost(comm, system.k0(), "-flutter_method direct");
+    else
+      printCost(comm, settings, system.k0(),
+                withContact(sizeOf(comm, settings, sweep, system.k0()), model, settings, sweep),
+                setsMayDiffer(model));
     if (settings.mesh->audit) printLine(comm, audit);
   }
   printLine(comm,

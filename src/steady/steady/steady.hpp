@@ -92,7 +92,8 @@ contact::ActiveSet activeSet(const Solution& solution);
 /// The matrix T maps the unknowns x to displacements, and N extracts normal forces from nodal
 /// forces. S contains the coefficients of friction: it is the f S of contact.hpp. The factors v and
 /// p scale speed and pressure. The loads are b_p, which scale with p, the constant loads b_0 and
-/// the centrifugal forces b_c. u_g is the displacement that closes the initial gaps [M.54].
+/// the centrifugal forces b_c. u_g closes the initial gaps [M.54] and
+/// shortens tightened bolts.
 ///
 /// Convective terms arise because moving matter carries its displacement along. Without them
 /// (-motion_convective off, approximation A of Moirot and Nguyen) the problem is linear except for

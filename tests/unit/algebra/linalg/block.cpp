@@ -167,6 +167,8 @@ TEST(Block, SetsOfRows) {
     EXPECT_FALSE(rows.all());
     EXPECT_EQ(rows.localRows(), layout.end - layout.first);
     EXPECT_EQ(test::total(rows.size()), 2);  // rows 1 and 4
+    EXPECT_FALSE(linalg::RowSet(matrix, 2.1 / size).all());
+    EXPECT_TRUE(linalg::RowSet(matrix, 1.9 / size).all());
     for (PetscInt k = 0; k < rows.size(); ++k) EXPECT_EQ((layout.first + rows[k]) % 3, 1);
     const Block part = rows.of(layout.local(y));
     EXPECT_EQ(part.rows(), rows.size());

@@ -14,6 +14,7 @@
 #include "algebra/linalg/complexvector.hpp"
 #include "algebra/linalg/lapack.hpp"
 #include "algebra/linalg/quadratic.hpp"
+#include "base/petsc/matrix.hpp"
 #include "problem/terms/terms.hpp"
 #include "support/algebra/sparse.hpp"
 #include "support/eigen/full_problem.hpp"
@@ -139,7 +140,8 @@ TEST(PointSums, AreTheSumsOfTheTermsOfThePoint) {
   };
   std::vector<pencil::Term> affine, own;
   affine.push_back({entry(0, 0, 7)});
-  own.push_back({.matrix = entry(0, 1, 5), .frictionExponent = 1, .factor = 2});
+  own.push_back({.matrix = entry(0, 0, 5), .frictionExponent = 1, .factor = 2});
+  check(MatSetOption(own[0].matrix, MAT_SYMMETRIC, PETSC_TRUE));
   own.push_back({.matrix = entry(1, 1, 11)});  // of K0
   own.push_back({.matrix = entry(1, 0, 13), .power = 1, .ofFriction = true});
   own.push_back({.matrix = entry(1, 0, 17), .factor = 3, .speedExponent = 1, .ofFriction = true});
@@ -154,12 +156,14 @@ TEST(PointSums, AreTheSumsOfTheTermsOfThePoint) {
   EXPECT_FALSE(sums[0].isAssociated());
   EXPECT_EQ(sums[0].coefficient({.friction = 0.1, .speed = 9}), 1);
   const linalg::DenseMatrix sum = test::denseCopy(sums[0].matrix);
-  EXPECT_EQ(sum(0, 1), 2 * 0.5 * 5);
+  EXPECT_EQ(sum(0, 0), 2 * 0.5 * 5);
   EXPECT_EQ(sum(1, 0), 3 * 4 * 17);
-  EXPECT_EQ(sum(0, 0), 0);
+  EXPECT_EQ(sum(0, 1), 0);
   EXPECT_EQ(sum(1, 1), 0);
   // The terms of the pencil are as before.
-  EXPECT_EQ(test::denseCopy(pencil.terms()[1].matrix)(0, 1), 5);
+  EXPECT_EQ(test::denseCopy(pencil.terms()[1].matrix)(0, 0), 5);
+  EXPECT_TRUE(isSymmetric(pencil.terms()[1].matrix));
+  EXPECT_FALSE(isSymmetric(sums[0].matrix));
 }
 
 }  // namespace
