@@ -32,10 +32,10 @@ struct Improvement {
   /// True if the pairs must be computed again: the basis has grown or, in the result of
   /// tracking::Family::improve(), the interpolation of the terms between frictions was refined.
   bool changed = false;
-  /// For each point, the largest backward error of its pairs in the full problem. NaN, only in the
-  /// result of tracking::Family::improve(): at this friction, no steady state with the active set
-  /// of the family exists; the round-off is then NaN as well. The list is empty in the result of
-  /// the default Family::improve(), for families whose problem is the full one.
+  /// For each point, the largest backward error of its pairs in the full problem. NaN means that no
+  /// steady state with the active set of the family exists at this friction; `roundOff` is then NaN
+  /// as well. Only tracking::Family::improve() returns NaN. The list is empty if the family does
+  /// not override Family::improve(), since it solves the full problem.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
   /// reduced problem.
@@ -61,9 +61,10 @@ class ReducedProblem {
                  Substructure substructure = {});
   /// Collective. Adds a set of points that have the same boundary unknowns: has[i] is 1 if boundary
   /// unknown i, numbered over all ranks, is one of them. Returns the index of the set. `pencil`
-  /// begins with the terms passed to the constructor. Its further terms belong to this set, which
-  /// shares them; they are valid at all points of the set. A `passed` set has no point of the
-  /// sweep: the contact passes through its active set between two points. Call load() before each
+  /// begins with the terms passed to the constructor. Its further terms apply to this set only, at
+  /// all of its points; the object and `pencil` share their matrices. A `passed` set contains no
+  /// point of the sweep; it stands for an active set through which the contact passes between two
+  /// points. Call load() before each
   /// use of a passed set. Throws Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
@@ -72,11 +73,11 @@ class ReducedProblem {
   void load(int set) { basis_.load(set); }
   /// Collective. Returns the free modes in the band for each of these sets, [set]. They are
   /// corrected together, in the same way as the complex modes. Their vectors have the entries of
-  /// all unknowns. Their countConfirmed is true if the number of interior modes
-  /// is confirmed, and if both bounds by subspace::ModeCount of the number of modes below some
-  /// frequency equal the number found. From then on, these modes determine the top of the band at
-  /// the points of the set. The eigenvalues that solve() lists there thus do not depend on the
-  /// other sets of the basis. Only K and M of `pencil` are used.
+  /// all unknowns. Their countConfirmed is true if two conditions hold: the number of interior
+  /// modes is confirmed, and there is a frequency below which the number of modes found equals both
+  /// the lower and the upper bound by subspace::ModeCount. From then on, these modes determine the
+  /// top of the band at the points of the set. The eigenvalues that solve() lists there thus do not
+  /// depend on the other sets of the basis. Only K and M of `pencil` are used.
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns their complex modes, [point]. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
@@ -124,9 +125,9 @@ class ReducedProblem {
   linalg::Block responses(const linalg::Block& forces) { return basis_.basis().responses(forces); }
   PetscInt basisSize() const { return basis().size(); }
   const Basis& basis() const { return basis_.basis(); }
-  /// Returns the band that contains the bands of all sets. Its upper limit is infinite if the
-  /// free modes span the whole space; otherwise, with `-flutter_basis modal`, it is 0, since no
-  /// eigenvalue is corrected.
+  /// Returns the band that contains the bands of all sets. Its upper limit has two special
+  /// values: infinity if the free modes span the whole space, and otherwise 0 with `-flutter_basis
+  /// modal`, which corrects no eigenvalue.
   const pencil::WatchedBand& band() const { return band_; }
   /// Collective. Adds to the basis, by one block solve, corrections from the residuals of these
   /// pairs of several points. Their vectors may belong to an earlier, smaller basis.

@@ -15,9 +15,9 @@
 /// slave side; in this comment it is the pad (P), and the other side is the disc (D). A is the
 /// matrix of this change of variables, and n the unit normal from disc to pad:
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
-/// A selection B removes held components, periodic images, components of tied nodes, closed gaps,
-/// and the tangential components of nodes that stick from z: T = A B. With u_g, n·u_P − n·u_D is g
-/// minus the initial gap [M.54].
+/// A selection B removes from z the held components, periodic images, components of tied nodes,
+/// closed gaps, and the tangential components of nodes that stick: T = A B. Once u_g is added to u,
+/// n·u_P − n·u_D equals g minus the initial gap [M.54].
 ///
 /// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
 /// nodal gaps g = E h [M.12]. Under a uniform pressure, the forces conjugate to h are positive at
@@ -25,9 +25,9 @@
 ///
 /// Friction enters through two matrices, N and S. Only their rows that belong to the gaps of
 /// contact nodes are nonempty. N extracts the normal forces from the nodal forces r. S maps the
-/// unknowns x to the displacements φ τ·[u] at the nodes, where [u] = u_P − u_D is the jump between
-/// pad and disc, τ the sliding direction, and φ the friction law. E⁻¹ converts them to
-/// coefficients, as it converts the gaps g to h:
+/// unknowns x to the slip φ τ·[u], where [u] = u_P − u_D is the jump between pad and disc, τ the
+/// sliding direction, and φ the friction law. S includes the factor E⁻¹, which converts slips at
+/// the nodes to coefficients, as it converts the gaps g to h:
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u],   u = T x.
 /// The test functions add the friction force due to R_N to the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.

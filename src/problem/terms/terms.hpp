@@ -38,10 +38,10 @@ completeness::FrictionFactors frictionFactors(const contact::Contact& contact,
 ///    is not constant.
 /// 2. Friction damping. In a vibration u, the relative velocity changes by w* = [∂u/∂t] − v D u_D,
 ///    and the friction force by −B w* [4.7, M.20]. With J and D of contact::Sliding, the terms
-///    are [M.21]
-///      (J T)ᵀ B (J T), a damping matrix, f[A] in the paper of Moirot and Nguyen;
-///      −v (J T)ᵀ B (D T), a stiffness matrix, f[B_T] + f[B_N] in their paper; only with convective
-///      terms.
+///    are, by equation M.21,
+///      (J T)ᵀ B (J T), a damping matrix, which Moirot and Nguyen write as f times their matrix A;
+///      −v (J T)ᵀ B (D T), a stiffness matrix, only with convective terms: f times the sum of their
+///      matrices B_T and B_N.
 /// 3. Tᵀ X T and the friction terms of X = `prestressChange`, a nodal matrix: the geometric
 ///    stiffness at the point minus that contained in `system`. Omitted if it is null.
 /// The first two kinds are omitted without friction, and the second also without friction damping.
