@@ -124,9 +124,9 @@ RunSize sizeOf(MPI_Comm comm, const Settings& settings, const sweep::Sweep& swee
   return size;
 }
 
-/// Collective. Prints the number of unknowns, and estimates of memory and time unless the run has
-/// another method. `mayDiffer`: the active sets of the points may differ; a second estimate is then
-/// for sets of which two share a basis.
+/// Collective. Prints the number of unknowns, and estimates of memory and time. `mayDiffer`: the
+/// active sets of the points may differ; a second estimate is then for sets of which two share a
+/// basis.
 void printCost(MPI_Comm comm, const Settings& settings, Mat k0, const RunSize& size,
                bool mayDiffer) {
   MatInfo info;
@@ -178,7 +178,7 @@ bool hasFriction(const Model& model, const sweep::Sweep& sweep) {
                              [&](double f) { return model.contact.hasFriction(f); });
 }
 
-/// Adds what the contact and the motion determine.
+/// Collective. Returns the size with the members that contact and motion determine.
 RunSize withContact(RunSize size, const Model& model, const Settings& settings,
                     const sweep::Sweep& sweep) {
   const auto& contact = model.contact;
