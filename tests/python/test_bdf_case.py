@@ -309,6 +309,15 @@ class State(unittest.TestCase):
         (row,) = refusals(cube("LOAD,20,1.,1.,30\nLOAD,30,1.,1.,20\n"))
         self.assertIn("LOAD 20 contains itself", row)
 
+    def test_unions_that_contain_themselves(self):
+        for cards, number in (
+            ("SPC1,11,123,1,2\nSPCADD,10,11,12\nSPCADD,12,10\n", 10),
+            ("SPC1,11,123,1,2\nSPCADD,10,11,10\n", 10),
+            ("SPCADD,10,12,13\nSPCADD,12,13\nSPCADD,13,14\nSPCADD,14,12\n", 12),
+        ):
+            (row,) = refusals(cube(force(), held=cards))
+            self.assertIn(f"SPCADD {number} contains itself", row)
+
     def test_forces_along_two_grids(self):
         one = imported(cube("FORCE1,20,5,10.,1,7\n"))
         wanted = 10 / np.sqrt(3) * np.ones(3)

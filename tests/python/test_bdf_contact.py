@@ -100,6 +100,11 @@ class Contacts(unittest.TestCase):
         self.assertEqual(tie, {"slave": "bsurfs_13", "master": "bsurfs_14", "tolerance": 0.2})
         self.assertIn("PENN is not used", one.account)
 
+    def test_both_distances_of_a_pair(self):
+        one = imported(NX + brake() + SIMCENTER.replace(",.3,0.,.1", ",.3,-.1,.1"))
+        self.assertEqual(len(one.options["contact"]), 1)
+        self.assertTrue(any("MIND and MAXD are not used" in text for text in one.journal.choices))
+
     def test_sets_that_are_not_selected(self):
         one = imported(NX.replace("BCSET = 5\n", "") + brake() + SIMCENTER)
         self.assertNotIn("contact", one.options)
@@ -138,6 +143,23 @@ class Contacts(unittest.TestCase):
         self.assertEqual(contact["role"], "sliding")
         self.assertEqual(one.options["flutter"]["friction"], 0.3)
         self.assertEqual(list(one.options["motion"]), ["psolid_1"])
+
+    def test_two_pads_on_one_disc(self):
+        """Two contacts name surfaces of the same disc."""
+        pads = "BSURF,24,201\nBCBODY1,32,,3D,DEFORM,24\nBSURF,25,202\nBCBODY1,34,,3D,DEFORM,25\n"
+        cards = HEXAGON.replace("BCBODY1,32,,3D,DEFORM,22\n", pads).replace("BCPROP,22,2\n", "")
+        cards = cards.replace("41,42", "41,43").replace(
+            "BCONECT,42,52,,33,32", "BCONECT,43,,51,34,31"
+        )
+        one = imported(MSC + brake() + cards + BSQUEAL)
+        self.assertEqual(len(one.options["contact"]), 2)
+        self.assertEqual(list(one.options["motion"]), ["psolid_1"])
+
+    def test_friction_of_a_brake_needs_no_ftype(self):
+        one = imported(MSC + brake() + HEXAGON + BSQUEAL.split("BCPARA")[0])
+        (contact,) = one.options["contact"].values()
+        self.assertEqual(contact["role"], "sliding")
+        self.assertEqual(one.options["flutter"]["friction"], 0.3)
 
     def test_the_stiffness_of_contact(self):
         """A penalty is hard contact, unless it is a soft layer."""

@@ -114,6 +114,15 @@ class State(unittest.TestCase):
         one = Imported(cube(step=step, after=last))
         self.assertEqual(one.options["constraint"], {"TOP": {"clamped": "xy"}})
 
+    def test_new_on_a_later_card_of_a_step(self):
+        """Abaqus does not accept it, and CalculiX ignores it."""
+        (row,) = refused(cube(step="*BOUNDARY\n7, 3, 3\n*BOUNDARY, OP=NEW\nTOP, 1, 2\n"))
+        self.assertIn("OP=NEW must stand on the first *BOUNDARY of the step", row)
+        both = "*BOUNDARY, OP=NEW\nTOP, 1, 2\n*BOUNDARY, OP=NEW\n7, 3, 3\n"
+        self.assertEqual(
+            Imported(cube(step=both)).options["constraint"]["node_7"], {"clamped": "xyz"}
+        )
+
     def test_components_without_a_meaning(self):
         (row,) = refused(cube(step="*BOUNDARY\nTOP, 11, 11, 20.\n"))
         self.assertIn("temperatures (11) are not supported", row)

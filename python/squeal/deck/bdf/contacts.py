@@ -119,7 +119,8 @@ def bctset(card, reader):
             continue
         pair = card.identifier(first), card.identifier(first + 1)
         friction = card.real(first + 2, 0.0)
-        if card.real(first + 3, 0.0) or card.word(first + 4):
+        distances = card.real(first + 3, 0.0), card.real(first + 4, 0.0)
+        if any(distances):
             reader.journal.choose(
                 f"{card.source}: the distances MIND and MAXD are not used; faces within half their"
                 " size are paired"
@@ -155,7 +156,12 @@ def _contact(card, reader, pair, friction, adjust):
         friction = squeal.friction if squeal.friction else friction
         one.stiffness, one.behavior = squeal.stiffness, squeal.source
         squeal.interactions.append(key)
-    elif friction and card.name in ("BCTABLE", "BCONECT") and not _has_friction(reader):
+    elif (
+        friction
+        and card.name in ("BCTABLE", "BCONECT")
+        and not _has_friction(reader)
+        and reader.all_squeal is None
+    ):
         journal.choose(f"{card.source}: FRIC is not used, since FTYPE of BCPARA is 0")
         friction = 0.0
     if friction:

@@ -176,19 +176,21 @@ def _of_all(reader):
 
 def _disc(reader, brake):
     """Returns the body, or the surface, whose nodes go around the axis. Raises Fault."""
-    around = [
-        one for one in brake.bodies if _goes_around(_nodes(reader, one, brake), reader, brake)
-    ]
+    around = {}  # by their nodes: surfaces may belong to one body
+    for one in brake.bodies:
+        nodes = _nodes(reader, one, brake)
+        if _goes_around(nodes, reader, brake):
+            around.setdefault(nodes.tobytes(), one)
     if len(around) != 1:
         raise Fault(
             f"{len(around)} of the bodies in contact go around the axis; the disc is not determined"
         )
+    disc = next(iter(around.values()))
     reader.journal.choose(
         f"{brake.source}: the body that moves is that of"
-        f" {around[0] if isinstance(around[0], str) else f'contact body {around[0]}'}, which goes"
-        " around the axis"
+        f" {disc if isinstance(disc, str) else f'contact body {disc}'}, which goes around the axis"
     )
-    return around[0]
+    return disc
 
 
 def _nodes(reader, one, brake):

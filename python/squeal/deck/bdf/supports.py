@@ -12,7 +12,7 @@ def sets_of(reader, kind, union, simple):
     that joins sets, which has precedence over `simple` ones of its number; None if all of them
     count."""
     selected = getattr(reader.selection, kind)
-    joined = {}
+    joined, sources = {}, {}
     for card in reader.deck.each(union):
         try:
             number = card.identifier(1)
@@ -21,6 +21,7 @@ def sets_of(reader, kind, union, simple):
                 raise Fault("THRU is not supported", line=card.line)
             card.unread()
             joined.setdefault(number, set()).update(first for first, _ in ranges)
+            sources[number] = card.source
         except Fault as fault:
             reader.journal.refuse(card.source, fault.reason, fault.name, fault.line)
             continue
@@ -31,15 +32,18 @@ def sets_of(reader, kind, union, simple):
         return None
     if selected is None:
         return set()
-    chosen, rest = set(), [selected]
+    chosen, opened, rest = set(), set(), [selected]
     while rest:
         number = rest.pop()
-        if number in joined and number not in chosen:
-            rest += [one for one in joined[number] if one != number and one not in chosen]
-            if number in joined[number]:
-                chosen.add(number)
-        else:
+        if number not in joined:
             chosen.add(number)
+        elif number not in opened:
+            opened.add(number)
+            rest += joined[number]
+    number = _in_itself(joined, opened)
+    if number is not None:
+        reader.journal.refuse(sources[number], f"{union} {number} contains itself")
+        return set()
     known = {number for name in simple for number in _numbers(reader, name)}
     if kind == "contact" and 0 in known:
         chosen.add(0)  # the table of number 0 always counts
@@ -47,6 +51,21 @@ def sets_of(reader, kind, union, simple):
         source = reader.selection.sources[kind]
         reader.journal.refuse(source, f"there is no set {number} of {' or '.join(simple)}")
     return chosen
+
+
+def _in_itself(joined, some):
+    """Returns one of `some` sets that contains itself, directly or through others; None if there
+    is none. `joined`: the sets that each of them joins."""
+    left = set(some)
+    while ends := {number for number in left if not joined[number] & left}:
+        left -= ends
+    if not left:
+        return None
+    number, passed = min(left), set()
+    while number not in passed:
+        passed.add(number)
+        number = min(joined[number] & left)
+    return number
 
 
 def _numbers(reader, name):

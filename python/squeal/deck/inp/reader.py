@@ -52,9 +52,9 @@ CHANGES_OF_FRICTION = {"STEP", "STATIC", "CHANGE FRICTION", "FRICTION", "END STE
 
 @dataclass
 class Step:
-    """The step that is read: kinds of cards that it has given already, and places that it has
-    loaded. `frequency`: it computes modes; `timed`: it is static; `only_friction`: it changes
-    nothing but friction."""
+    """The step that is read: OP of the first card of each kind, and places that it has loaded.
+    `frequency`: it computes modes; `timed`: it is static; `only_friction`: it changes nothing but
+    friction."""
 
     frequency: bool = False
     timed: bool = False
@@ -62,7 +62,7 @@ class Step:
     only_friction: bool = False
     perturbation: bool = False
     request: Squeal = None
-    renewed: set = field(default_factory=set)
+    operations: dict = field(default_factory=dict)
     loaded: set = field(default_factory=set)
 
 

@@ -22,15 +22,20 @@ BODY_LOADS = {"GRAV": 4, "CENTRIF": 7, "CENT": 7, "BX": 1, "BY": 1, "BZ": 1}
 
 
 def _clear_if_new(card, reader, *tables):
-    """OP=NEW on the first card of a kind in a step removes what earlier steps have left."""
+    """OP=NEW on the first card of a kind in a step removes what earlier steps have left. Abaqus
+    does not accept it on a later card unless the first one has it, and CalculiX ignores it there.
+    """
     operation = card.key("OP", "MOD")
     if operation not in ("MOD", "NEW"):
         raise Fault(f"OP={operation} is not supported")
     kind = "DLOAD" if card.keyword == "DSLOAD" else card.keyword
-    if operation == "NEW" and kind not in reader.step.renewed:
+    known = reader.step.operations
+    if operation == "NEW" and known.get(kind, "NEW") != "NEW":
+        raise Fault(f"OP=NEW must stand on the first *{kind} of the step, too", "OP")
+    if operation == "NEW" and kind not in known:
         for table in tables:
             table.clear()
-    reader.step.renewed.add(kind)
+    known.setdefault(kind, operation)
 
 
 @handles("BOUNDARY", used=("OP", "TYPE", "FIXED", "AMPLITUDE"))
