@@ -40,7 +40,7 @@ TEST(MeshReader, AFaultOfTheProgramIsAnError) {
     std::vector<std::string> words;
   };
   for (const Case& fault :
-       {Case{"missing", "", {"'squeal_gmsh'", "neither in", "install"}},
+       {Case{"missing", "", {"'squeal_gmsh'", "is not in", "install"}},
         {"interpreter", "#!/nowhere/sh\n", {"squeal_gmsh'", "No such file"}},
         {"killed", "#!/bin/sh\nkill -9 $$\n", {"gmsh was killed"}},
         {"crashed", "#!/bin/sh\nkill -11 $$\n", {"gmsh crashed (Segmentation fault)"}},

@@ -32,9 +32,9 @@ std::string installedProgram(const std::string& name) {
   for (const auto& place : {folder, (folder / SQUEAL_INTERNAL_PROGRAMS).lexically_normal()}) {
     std::error_code unreadable;
     if (std::filesystem::exists(place / name, unreadable)) return place / name;
-    places += (places.empty() ? "'" : " and '") + place.string() + "'";
+    places += (places.empty() ? "'" : " or '") + place.string() + "'";
   }
-  throw Error("the program '" + name + "', which belongs to squeal, is neither in " + places +
+  throw Error("the program '" + name + "', which belongs to squeal, is not in " + places +
               ": install squeal completely");
 }
 

@@ -7,11 +7,14 @@
 #include <cmath>
 
 #include "base/petsc/check.hpp"
+#include "regime/march/newton.hpp"
 
 namespace squeal::march {
 namespace {
 
 constexpr int mostSweeps = 100'000;
+// Newton's method is tried after `firstTrial` sweeps, and each time their number has doubled.
+constexpr int firstTrial = 200;
 
 /// Adds the columns [first, first + count) of W times `change` to d.
 void addColumns(const DenseMatrix& w, PetscInt first, int count, const double* change,
@@ -72,6 +75,14 @@ double StepSolver::sweep(const std::vector<double>& friction,
 int StepSolver::solve(const std::vector<double>& friction, const std::vector<unsigned char>& active,
                       double tolerance, std::vector<double>& r, std::vector<double>& d,
                       const StopRequested& stopRequested) const {
+  const StepProblem problem{.w = w_,
+                            .dimension = dimension_,
+                            .moves = moves_,
+                            .normalScale = normalStep_,
+                            .slipScale = slipStep_,
+                            .friction = friction,
+                            .active = active};
+  int trial = firstTrial;
   for (int count = 1; count <= mostSweeps; ++count) {
     if (stopRequested && stopRequested()) throw Interrupted();
     // The tolerance of forces far above those of steady sliding is their round-off.
@@ -79,6 +90,10 @@ int StepSolver::solve(const std::vector<double>& friction, const std::vector<uns
     for (const double force : r) largest = std::max(largest, std::abs(force));
     const double accuracy = std::max(tolerance, 1e-10 * largest);
     if (sweep(friction, active, accuracy / 10, r, d) <= accuracy) return count;
+    // The next sweep verifies the forces that Newton's method finds.
+    if (count != trial) continue;
+    newton(problem, accuracy / 10, r, d);
+    trial *= 2;
   }
   throw Error("the contact forces of a time step do not converge");
 }
