@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Assemblies, and decks of which cards are left out, through import and program:
 test_assembly.py PROGRAM."""
+import re
 import subprocess
 import sys
 import tempfile
@@ -13,6 +14,7 @@ sys.path[:0] = [str(repository / one) for one in ("python", "tests/support/deck"
 sys.dont_write_bytecode = True
 import assembled
 import numpy as np
+from pin_on_plate import box
 from small_decks import cube
 from solved import Solved
 
@@ -52,6 +54,37 @@ class Assemblies(unittest.TestCase):
             results = Results(Path(folder) / "results")
             self.assertEqual(results.summary["options"]["report_note"], note)
             self.assertIn(f"Note: {note}.", build(results))
+
+
+class Ties(unittest.TestCase):
+    def test_tied_nodes_are_those_of_the_program(self):
+        """Three by three cells over four by four, of which the last row overhangs in part or as a
+        whole."""
+        for shift, tied in ((0.5, 16), (1.5, 16), (2.5, 12), (2.95, 8), (2.0, 12)):
+            lower_nodes, lower, place = box((4, 4, 1), (0, 0, 0), 1, 1)
+            upper_nodes, upper, _ = box((3, 3, 1), (shift, 0.5, 1), 101, 101)
+            lines = ["*NODE", *lower_nodes, *upper_nodes, "*NSET, NSET=BASE"]
+            lines += map(str, place[:, :, 0].ravel())
+            for name, cells, face in (("LOW", lower, 2), ("UP", upper, 1)):
+                lines += [f"*ELEMENT, TYPE=C3D8, ELSET={name}", *cells]
+                lines += [f"*SURFACE, NAME={name}_FACE", f"{name}, S{face}"]
+                lines.append(f"*SOLID SECTION, ELSET={name}, MATERIAL=M")
+            lines += ["*MATERIAL, NAME=M", "*ELASTIC", "1000., 0.3", "*DENSITY", "1."]
+            lines += ["*TIE, NAME=T", "UP_FACE, LOW_FACE", "*BOUNDARY", "BASE, 1, 3"]
+            lines += ["*STEP", "*FREQUENCY", "1", "*END STEP", ""]
+            with tempfile.TemporaryDirectory() as folder:
+                (Path(folder) / "deck.inp").write_text("\n".join(lines))
+                import_deck(Path(folder) / "deck.inp", Path(folder) / "case")
+                account = (Path(folder) / "case/import.md").read_text()
+                self.assertIn(f"| T | faces | {tied} | {16 - tied} |\n", account)
+                command = [PROGRAM, "-options_file", "case/case.yaml", "-report_dir", "results"]
+                run = subprocess.run(
+                    command, cwd=folder, capture_output=True, text=True, check=False
+                )
+                found = re.search(
+                    r"tie 'T' tied: (\d+) nodes .*tied, (\d+) nodes are not", run.stdout
+                )
+                self.assertEqual(found.groups(), (str(tied), str(16 - tied)), run.stdout)
 
 
 if __name__ == "__main__":

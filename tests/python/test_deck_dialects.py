@@ -221,11 +221,11 @@ class Different(unittest.TestCase):
             text = cube(brick.format(height) + tie)
             for dialect, count in zip(("calculix", "abaqus"), tied):
                 one = Imported(text, dialect=dialect)
-                self.assertIn(f"| T | {count} | {1 - count} |", one.account)
+                self.assertIn(f"| T | nodes | {count} | {1 - count} |", one.account)
             if tied == (0, 1):
                 self.assertIn("tie different nodes", refused(text)[0])
             else:
-                self.assertIn(f"| T | {tied[0]} |", Imported(text).account)
+                self.assertIn(f"| T | nodes | {tied[0]} |", Imported(text).account)
 
 
 class Readings(unittest.TestCase):

@@ -280,7 +280,7 @@ class Properties(unittest.TestCase):
         tie = "*SURFACE, NAME=UP\nLOWER, S2\n*NSET, NSET=N\n41, 42, 43, 44\n"
         tie += "*SURFACE, NAME=N, TYPE=NODE\nN\n*TIE, NAME=T\nN, UP\n"
         one = Imported(cube(brick + tie))
-        self.assertIn("| T | 2 | 2 |", one.account)
+        self.assertIn("| T | nodes | 2 | 2 |", one.account)
         self.assertIn("2 nodes tied, 2 free", one.remarks("TIE")[1])
 
 

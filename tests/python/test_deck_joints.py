@@ -155,7 +155,7 @@ class Joints(unittest.TestCase):
         self.assertEqual(len(found), 3)
         place = one.coordinates[list(one.nodes).index(41)]
         self.assertLess(np.max(np.abs(place - [0.25, 0.5, 1.0])), 1e-14)
-        self.assertIn("| T | 1 | 1 |", one.account)
+        self.assertIn("| T | nodes | 1 | 1 |", one.account)
         one = Imported(cube(brick + tie.format(", ADJUST=NO, POSITION TOLERANCE=0.3"), ""))
         self.assertEqual(len(one.options["equation"]), 6)
         self.assertEqual(one.coordinates[list(one.nodes).index(41)].tolist(), [0.25, 0.5, 1.005])

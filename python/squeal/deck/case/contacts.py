@@ -10,7 +10,7 @@ import numpy as np
 
 from squeal.deck.case.frictions import Frictions, coefficient
 from squeal.deck.case.groups import FACES
-from squeal.deck.case.projection import Surface
+from squeal.deck.case.reached import count_reached
 from squeal.deck.case.sliding import Bodies, moving_bodies
 from squeal.deck.journal import TRANSLATED, UNUSED, Fault
 
@@ -111,6 +111,11 @@ def _add(sides, path, model, case, journal, faces):
             _set_stiffness(interaction, model, case, journal, path, surface.rows, faces)
     case.set((*path, "slave"), "pad" if sides.pad == contact.slave else "disc", contact.source)
     case.set((*path, "gap"), _gap(contact, model, faces), contact.source)
+    slave, master = model.surfaces[contact.slave], model.surfaces[contact.master]
+    reached, beyond = count_reached(slave, master, faces, None)
+    case.contacts.append((path[-1], reached, beyond))
+    if not reached:
+        journal.choose(f"{contact.source}: no node of the slave is within reach of the master")
     if not interaction.separation:
         case.set((*path, "separation"), False, interaction.behavior)
     for source in (interaction.source, interaction.behavior):
@@ -123,16 +128,16 @@ def _gap(contact, model, faces):
     if contact.adjust is None:
         return "measured"
     slave, master = model.surfaces[contact.slave], model.surfaces[contact.master]
-    surface = Surface([model.nodes.at(one) for one in faces.nodes(master.rows)])
-    numbers = faces.nodes_of(slave)
-    found = [surface.face_of(point, surface.size) for point in model.nodes.at(numbers)]
-    near = [one is not None and one[1] <= contact.adjust + 1e-6 * surface.size for one in found]
-    if all(near):
+    surface = faces.surface(master.rows)
+    points = model.nodes.at(faces.nodes_of(slave))
+    owners, _ = surface.assign(points, surface.size, contact.adjust + 1e-6 * surface.size)
+    near = int(np.sum(owners >= 0))
+    if near == len(points):
         return 0.0
-    if not any(near):
+    if not near:
         return "measured"
     raise Fault(
-        f"ADJUST moves {sum(near)} of {len(near)} slave nodes onto the master; all of them or none"
+        f"ADJUST moves {near} of {len(points)} slave nodes onto the master; all of them or none"
         " are supported",
         "ADJUST",
     )

@@ -2,6 +2,7 @@
 """Faces of solid elements by number of element and face."""
 import numpy as np
 
+from squeal.deck.case.projection import Surface
 from squeal.deck.journal import Fault, Missing
 from squeal.deck.mesh import EMPTY
 from squeal.deck.topology import corners_of, hashes
@@ -43,6 +44,12 @@ class Faces:
             for place, nodes in zip(places.tolist(), table):
                 found[place] = nodes
         return found
+
+    def surface(self, rows):
+        """Returns the surface of faces for assigning points. Raises Fault."""
+        return Surface(
+            [(places, self.model.nodes.at(table)) for places, table in self.tables(rows)]
+        )
 
     def nodes_of(self, surface):
         """Returns the nodes of a surface of nodes or of faces, in ascending order for faces. Raises

@@ -11,12 +11,15 @@ NODES, FACES, CELLS = 0, 2, 3  # dimension of a group
 
 class Case:
     """`options`: prefix -> name -> key -> (text, source). `groups`: dimension -> name -> members:
-    node numbers; rows (element number, face from 0); element numbers. All members are sorted."""
+    node numbers; rows (element number, face from 0); element numbers. All members are sorted.
+    `ties`: rows (name, side of the slave, tied nodes, free nodes). `contacts`: rows (name, nodes of
+    the slave within reach of the master, others)."""
 
     def __init__(self):
         self.options = {}
         self.groups = {NODES: {}, FACES: {}, CELLS: {}}
         self.bodies = {}  # name -> numbers of their cells
+        self.ties, self.contacts = [], []
         self._names = {}
         self._taken = set()  # names of groups and reserved ones
         self._numbers = {}  # the number after the last name that was numbered

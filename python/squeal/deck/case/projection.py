@@ -2,8 +2,13 @@
 """Points on faces of cells: to which face they belong, and the nearest point there."""
 import numpy as np
 
+from squeal.deck.case.proximity import pairs_nearby
+
 STEPS = 30
 OUTSIDE = 1e-6  # of the reference face: nodes on an edge belong to it
+# By this part of Surface.size a node of a tie may lie beside a triangle, and above it without
+# POSITION TOLERANCE: measured with CalculiX 2.20.
+CALCULIX = 0.025
 
 
 # The triangles of a face with 3, 4, 6 or 8 nodes.
@@ -13,15 +18,6 @@ TRIANGLES = {
     6: ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
     8: ((0, 4, 7), (4, 1, 5), (5, 2, 6), (6, 3, 7), (7, 4, 6), (4, 5, 6)),
 }
-
-
-def _distances(face):
-    """Returns for each triangle of a face the distance of its centre from the side opposite to its
-    first node: a third of its height."""
-    for first, second, third in TRIANGLES[len(face)]:
-        side = face[third] - face[second]
-        area = np.linalg.norm(np.cross(side, face[first] - face[second]))
-        yield area / np.linalg.norm(side) / 3
 
 
 def shape_functions(size, xi, eta):
@@ -124,34 +120,83 @@ def _nearest_on_edge(point, edge, t):
     return t
 
 
-class Surface:
-    """Faces, each an array of coordinates of its nodes, corners first, and the triangles by which
-    CalculiX assigns points to them. `size`: the typical size of a face that sets its tolerances."""
+def _nonzero(sizes):
+    """A triangle that has collapsed has no size, and no point belongs to it by its plane."""
+    return np.where(sizes > 0, sizes, 1.0)
 
-    def __init__(self, faces):
-        self.faces = faces
-        distances = [distance for face in faces for distance in _distances(face)]
-        self.size = float(np.mean(distances))
-        triangles = [face[list(one)] for face in faces for one in TRIANGLES[len(face)]]
-        self.owners = [number for number, face in enumerate(faces) for _ in TRIANGLES[len(face)]]
-        self.corners = np.array(triangles)
+
+class Surface:
+    """Faces, and the triangles by which CalculiX assigns points to them. `tables`: for each size of
+    face the numbers of the faces and the coordinates of their nodes, corners first. `size`: the
+    typical size of a face that sets CalculiX' tolerances, a third of the height of a triangle over
+    its first node. `edge`: the mean length of the first edges."""
+
+    def __init__(self, tables):
+        count = sum(len(numbers) for numbers, _ in tables)
+        self.faces = [None] * count
+        owners, corners, edges = [], [np.zeros((0, 3, 3))], np.zeros(count)
+        for numbers, places in tables:
+            division = np.array(TRIANGLES[places.shape[1]])
+            corners.append(places[:, division].reshape(-1, 3, 3))
+            owners.append(np.repeat(numbers, len(division)))
+            edges[numbers] = np.linalg.norm(places[:, 1] - places[:, 0], axis=1)
+            for number, face in zip(numbers.tolist(), places):
+                self.faces[number] = face
+        self.owners = np.concatenate([np.zeros(0, np.int64), *owners])
+        order = np.argsort(self.owners, kind="stable")
+        self.owners, self.corners = self.owners[order], np.concatenate(corners)[order]
         sides = np.roll(self.corners, -1, axis=1) - self.corners
         normals = np.cross(sides[:, 0], sides[:, 1])
-        self.normals = normals / np.linalg.norm(normals, axis=1)[:, None]
-        outwards = np.cross(sides, self.normals[:, None])
-        self.outwards = outwards / np.linalg.norm(outwards, axis=2)[:, :, None]
+        areas = np.linalg.norm(normals, axis=1)
+        self.normals = normals / _nonzero(areas)[:, None]
+        lengths = np.linalg.norm(sides, axis=2)
+        self.outwards = np.cross(sides, self.normals[:, None]) / _nonzero(lengths)[:, :, None]
+        heights = areas / _nonzero(lengths[:, 1])
+        self.size = float(np.mean(heights)) / 3 if count else 0.0
+        self.edge = float(np.mean(edges)) if count else 0.0
 
-    def face_of(self, point, tolerance):
-        """Returns the number of the face of a point and its distance from the plane of its
-        triangle, or None if it lies beside all triangles by more than a tolerance."""
-        away = point - self.corners
-        beside = np.maximum(np.einsum("tij,tij->ti", away, self.outwards).max(axis=1), 0.0)
-        distances = np.abs(np.einsum("tj,tj->t", away[:, 0], self.normals))
-        inside = beside <= tolerance
-        if not np.any(inside):
-            return None
-        # One that contains the foot comes first, and then the nearest.
-        contained = inside & (beside <= 1e-9 * self.size)
-        chosen = np.flatnonzero(contained if np.any(contained) else inside)
-        best = chosen[np.argmin(distances[chosen])]
-        return self.owners[best], float(distances[best])
+    def assign(self, points, beside, reach):
+        """Returns for each point the number of its face, -1 for none, and its distance from the
+        plane of a triangle of that face. A point belongs to a triangle if it lies at a distance of
+        at most `reach`, beside the lines of the sides by at most `beside`, and in the bounding box
+        widened by both. A triangle that contains the foot of the point comes first, then the
+        nearest one."""
+        best = Nearest(len(points))
+        left = np.arange(len(points))
+        level = min(reach, 3 * self.size)
+        while True:
+            self._compare(points, left, beside, level, best)
+            if level >= reach:
+                return best.owners, best.distances
+            left = left[~best.contained[left]]  # no triangle farther off comes before these
+            level = min(reach, 4 * level)
+
+    def _compare(self, points, some, beside, reach, best):
+        for at, triangles in pairs_nearby(points[some], self.corners, np.hypot(beside, reach)):
+            at = some[at]
+            away = points[at][:, None] - self.corners[triangles]
+            aside = np.einsum("pij,pij->pi", away, self.outwards[triangles]).max(axis=1)
+            distance = np.abs(np.einsum("pj,pj->p", away[:, 0], self.normals[triangles]))
+            near = (aside <= beside) & (distance <= reach)
+            contained = aside <= 1e-9 * self.size
+            best.take(at[near], self.owners[triangles[near]], distance[near], contained[near])
+
+
+class Nearest:
+    """The best face of each point so far: one that contains its foot, and then the nearest."""
+
+    def __init__(self, points):
+        self.owners = np.full(points, -1)
+        self.distances = np.full(points, np.inf)
+        self.contained = np.zeros(points, bool)
+
+    def take(self, points, owners, distances, contained):
+        """Takes better faces; of equal ones the first."""
+        order = np.lexsort((distances, ~contained, points))
+        first = order[np.unique(points[order], return_index=True)[1]]
+        at = points[first]
+        closer = distances[first] < self.distances[at]
+        better = np.where(contained[first] == self.contained[at], closer, contained[first])
+        first, at = first[better], at[better]
+        self.owners[at], self.distances[at] = owners[first], distances[first]
+        self.contained[at] = contained[first]

@@ -1,35 +1,41 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Ties of a case: of two surfaces, or of nodes and a surface.
 
-Nodes are tied one by one, as CalculiX does: each follows the nearest point of its master face.
-These are equations in the case, whose ties need faces on both sides. A node is tied if its distance
-from the plane of a triangle of a face is within POSITION TOLERANCE, and if it lies beside this
-triangle by no more than the default of that.
+The nodes of a slave without faces are tied one by one, as CalculiX does: each follows the nearest
+point of its master face. These are equations in the case, whose ties need faces on both sides. A
+node is tied if its distance from the plane of a triangle of a face is within POSITION TOLERANCE,
+and if it lies beside this triangle by no more than the default of that.
 """
 import numpy as np
 
 from squeal.deck.case.groups import FACES, clean
 from squeal.deck.case.joints import set_equation
-from squeal.deck.case.projection import Surface, project
+from squeal.deck.case.projection import CALCULIX, project
+from squeal.deck.case.reached import count_reached
 from squeal.deck.journal import TRANSLATED, Fault
 
-# Largest distance of tied nodes without POSITION TOLERANCE, over the size of the master faces: the
-# measured one of CalculiX 2.20, and that of Abaqus' manual, 5 % of an edge.
-CALCULIX, ABAQUS = 0.025, 0.05
+# Largest distance of tied nodes without POSITION TOLERANCE in Abaqus' manual, over the edge of the
+# master faces.
+ABAQUS = 0.05
 
 
 def add_ties(model, roles, case, journal, faces):
-    """Returns for import.md the rows (name, tied, free) of ties of nodes. Moves their nodes onto
-    the master if the deck adjusts them; to be called before coordinates are used."""
+    """Returns for import.md the rows (name, side, tied nodes, free nodes). Moves the nodes of ties
+    of nodes onto the master if the deck adjusts them; to be called before coordinates are used."""
     counted = []
     for tie in model.ties:
         try:
             slave, master = model.surfaces[tie.slave], model.surfaces[tie.master]
             if slave.nodes is None:
                 _tie_of_faces(tie, slave, master, model, case, journal, faces)
+                side, (tied, free) = "faces", count_reached(slave, master, faces, tie.tolerance)
             else:
-                counted.append(_tie_of_nodes(tie, slave, master, model, roles, case, faces))
-                journal.remark(tie.source, "{1} nodes tied, {2} free".format(*counted[-1]))
+                tied = _tie_of_nodes(tie, slave, master, model, roles, case, faces)
+                side, free = "nodes", len(slave.nodes) - tied
+            counted.append((tie.name, side, tied, free))
+            journal.remark(tie.source, f"{tied} nodes tied, {free} free")
+            if not tied:
+                journal.choose(f"{tie.source}: no node of the slave is within reach of the master")
             for source in (tie.source, slave.source, master.source):
                 journal.mark(source, TRANSLATED)
         except Fault as fault:
@@ -56,11 +62,12 @@ def _tie_of_faces(tie, slave, master, model, case, journal, faces):
 
 
 def _tie_of_nodes(tie, slave, master, model, roles, case, faces):
+    """Returns the number of tied nodes."""
     nodes = faces.nodes(master.rows)
     if not nodes:
         raise Fault("the master surface has no faces")
-    surface = Surface([model.nodes.at(one) for one in nodes])
-    tolerances = _tolerances(surface)
+    surface = faces.surface(master.rows)
+    tolerances = {"CalculiX": CALCULIX * surface.size, "Abaqus": ABAQUS * surface.edge}
     for number in slave.nodes.tolist():
         roles.place(number, 0)
     found = [
@@ -78,24 +85,18 @@ def _tie_of_nodes(tie, slave, master, model, roles, case, faces):
         if tie.adjust:
             model.nodes.move(number, place)
         _follow(tie, number, nodes[face], weights, roles, case)
-    return tie.name, len(found[0]), len(slave.nodes) - len(found[0])
-
-
-def _tolerances(surface):
-    """Returns the default tolerance of each program."""
-    edges = [np.linalg.norm(face[1] - face[0]) for face in surface.faces]
-    return {"CalculiX": CALCULIX * surface.size, "Abaqus": ABAQUS * float(np.mean(edges))}
+    return len(found[0])
 
 
 def _assign(tie, slave, model, nodes, surface, beside):
     """Returns the face of each node that is tied."""
     bound = beside if tie.tolerance is None else tie.tolerance
-    tied = {}
-    for number in slave.nodes.tolist():
-        found = surface.face_of(model.nodes.at([number])[0], beside)
-        if found is not None and found[1] <= bound and number not in nodes[found[0]]:
-            tied[number] = found[0]
-    return tied
+    owners, _ = surface.assign(model.nodes.at(slave.nodes), beside, bound)
+    return {
+        number: face
+        for number, face in zip(slave.nodes.tolist(), owners.tolist())
+        if face >= 0 and number not in nodes[face]
+    }
 
 
 def _follow(tie, number, nodes, weights, roles, case):

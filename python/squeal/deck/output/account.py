@@ -6,6 +6,13 @@ from squeal.deck.case.groups import CELLS, FACES, NODES
 from squeal.deck.journal import Fault
 
 
+REACH = (
+    "A node of a slave with faces counts as tied, or in reach, if the master covers a part of one"
+    " of its faces within the distance of the tie, by default half the size of that face. The log"
+    " of the program states the areas."
+)
+
+
 def write_account(path, model, case, journal):
     """`case` is None if the deck is refused. Raises OSError."""
     text = [f"# {model.title}", ""]
@@ -98,6 +105,18 @@ def _groups(case):
         for name, members in case.groups[dimension].items():
             lines.append(f"| {word} | {_cell(name)} | {len(members)} |")
     if case.ties:
-        lines += ["", "## Ties of nodes", "", "| tie | tied | free |", "|---|---|---|"]
-        lines += [f"| {_cell(name)} | {tied} | {free} |" for name, tied, free in case.ties]
+        lines += [
+            "",
+            "## Ties",
+            "",
+            "| tie | slave | tied nodes | free nodes |",
+            "|---|---|---|---|",
+        ]
+        for name, side, tied, free in case.ties:
+            lines.append(f"| {_cell(name)} | {side} | {tied} | {free} |")
+    if case.contacts:
+        lines += ["", "## Contacts", "", "| interface | nodes in reach | others |", "|---|---|---|"]
+        lines += [f"| {name} | {reached} | {beyond} |" for name, reached, beyond in case.contacts]
+    if case.contacts or any(row[1] == "faces" for row in case.ties):
+        lines += ["", REACH]
     return [*lines, ""]
