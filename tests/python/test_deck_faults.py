@@ -283,6 +283,21 @@ class Properties(unittest.TestCase):
         self.assertIn("| T | nodes | 2 | 2 |", one.account)
         self.assertIn("2 nodes tied, 2 free", one.remarks("TIE")[1])
 
+    def test_members_that_are_missing_are_a_choice(self):
+        one = Imported(cube("*NSET, NSET=SOME\n5, 6, 77\n*BOUNDARY\nSOME, 1\n"))
+        text = "the node set 'SOME': 1 of 3 members, which are not in the deck, are left out"
+        self.assertIn(text, one.journal.choices)
+        self.assertEqual(sorted(one.groups["SOME"]), [5, 6])
+
+    def test_a_decimal_comma_is_shown(self):
+        one = Imported(cube().replace("7.8E-9", "7,8E-9"))
+        wanted = "7 at the temperature 8e-09, which is not used"
+        self.assertTrue(any(wanted in text for text in one.journal.choices), one.journal.choices)
+
+    def test_loads_outside_of_steps(self):
+        (row,) = refused(cube("*CLOAD\n5, 1, 2.\n"))
+        self.assertIn("*CLOAD: this card belongs after *STEP", row)
+
 
 if __name__ == "__main__":
     unittest.main()

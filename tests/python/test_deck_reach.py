@@ -10,7 +10,7 @@ import numpy as np
 repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/deck")]
 sys.dont_write_bytecode = True
-from small_decks import Imported, cube
+from small_decks import Imported, cube, refused
 
 from squeal.deck.case import proximity
 from squeal.deck.case.projection import Surface
@@ -51,6 +51,12 @@ class Counts(unittest.TestCase):
             self.assertIn(f"{count} nodes tied, {free} free", one.remarks("TIE"))
             missed = [text for text in one.journal.choices if "within reach" in text]
             self.assertEqual(len(missed), count == "0", missed)
+
+    def test_a_distance_of_zero(self):
+        """The program would take it as its default."""
+        for value in ("0.", "-1."):
+            text = cube(blocks(0.0, 1.0) + f"*TIE, NAME=T, POSITION TOLERANCE={value}\nDOWN, UP\n")
+            self.assertIn("within which faces are tied is not positive", refused(text)[0])
 
     def test_contacts(self):
         pair = "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nDOWN, UP\n"

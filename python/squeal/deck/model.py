@@ -306,6 +306,14 @@ class Model:
                 return f"{number - offset} of {one.name or 'the assembly'}"
         return str(number)
 
+    def absent(self, members, sets):
+        """Returns how many members of a set of nodes or of elements the deck does not have."""
+        if not len(members):
+            return 0
+        nodal = sets is self.node_sets
+        there = self.nodes.has(members) if nodal else self.find_elements(members)[0] >= 0
+        return int(np.sum(~there))
+
     def merge_blocks(self):
         """Joins the elements of each type; their source is that of the first. To be called once,
         when all are read: decks may have a card for each element."""

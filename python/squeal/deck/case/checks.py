@@ -2,6 +2,7 @@
 """Checks of a model before it is translated."""
 import numpy as np
 
+from squeal.deck.journal import Fault
 from squeal.deck.mesh import EMPTY
 
 
@@ -37,7 +38,22 @@ def check_mesh(model, journal):
         words = "1 node is" if len(repeated) == 1 else f"{len(repeated)} nodes are"
         such = model.node_label(int(repeated[0]))
         journal.choose(f"{words} defined twice, such as {such}; the last coordinates count")
+    _name_absent_members(model, journal)
     return complete
+
+
+def _name_absent_members(model, journal):
+    for what, sets in (("node", model.node_sets), ("element", model.element_sets)):
+        for key in sets:
+            try:
+                members = sets.members(key)
+            except Fault:  # refused where it is used
+                continue
+            if absent := model.absent(members, sets):
+                journal.choose(
+                    f"the {what} set '{sets.spelled[key]}': {absent} of {len(members)} members,"
+                    " which are not in the deck, are left out"
+                )
 
 
 def _check_distinct(block, model, journal):

@@ -44,6 +44,8 @@ def add_ties(model, roles, case, journal, faces):
 
 
 def _tie_of_faces(tie, slave, master, model, case, journal, faces):
+    if tie.tolerance is not None and not tie.tolerance > 0:
+        raise Fault(f"the distance {tie.tolerance:g} within which faces are tied is not positive")
     path = ("tie", clean(tie.name))
     for key, surface in (("slave", slave), ("master", master)):
         faces.tables(surface.rows)
@@ -52,7 +54,7 @@ def _tie_of_faces(tie, slave, master, model, case, journal, faces):
         case.set((*path, "tolerance"), tie.tolerance, tie.source)
     if not tie.adjust:
         case.set((*path, "adjust"), False, tie.source)
-    other = "" if model.program == "Abaqus" else ", not node by node as in CalculiX"
+    other = "" if model.program in ("Abaqus", "Nastran") else ", not node by node as in CalculiX"
     journal.choose(f"{tie.source}: the faces are tied by a mortar method{other}")
     if tie.tolerance is None:
         journal.choose(

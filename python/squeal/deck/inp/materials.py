@@ -78,7 +78,12 @@ def _at_temperature(card, table, count, reader):
     linearly, beyond its ends they stay constant."""
     if len(table) == 1:
         if len(table[0]) > count:
-            reader.journal.remark(card.source, "the temperature of the constants is not used")
+            # A decimal comma would read as a temperature, too.
+            constants = ", ".join(f"{one:g}" for one in table[0][:count])
+            reader.journal.choose(
+                f"{card.source}: {constants} at the temperature {table[0][count]:g}, which is not"
+                " used"
+            )
         return tuple(table[0][:count])
     values = np.array([row + [0.0] * (count + 1 - len(row)) for row in table])
     temperatures = values[:, count]

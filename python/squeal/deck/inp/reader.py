@@ -32,13 +32,15 @@ REASONS = {
     **dict.fromkeys(("CONTACT", "CONTACT INCLUSIONS", "CONTACT PROPERTY ASSIGNMENT"), GENERAL),
     "BUCKLE": "buckling loads are not computed",
 }
+BELONGS = "this card belongs after *STEP"
+OF_STEPS = {"CLOAD", "DLOAD", "DSLOAD", "CHANGE FRICTION"}
 
 
 def _reason(card):
     if card.keyword in REASONS:
         return REASONS[card.keyword]
     if card.keyword in SUPPORTED:
-        return "this card belongs after *STEP"
+        return BELONGS
     if card.keyword in PROCEDURES:
         return "this procedure is not computed"
     return "this card is not supported" if card.known else "unknown card"
@@ -138,7 +140,10 @@ class Reader(Names):
                 self._step(rest[at : end + ended])
                 at = end + ended
             else:
-                self._apply(rest[at])
+                if rest[at].keyword in OF_STEPS:
+                    self.journal.refuse(rest[at].source, BELONGS)
+                else:
+                    self._apply(rest[at])
                 at += 1
 
     def _apply(self, card):

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Writes import.md: what became of each card, the sets with their sizes, and the choices made."""
-import numpy as np
 
 from squeal.deck.case.groups import CELLS, FACES, NODES
 from squeal.deck.journal import Fault
@@ -77,20 +76,15 @@ def _instances(model):
 def _sets(model):
     lines = ["## Sets and surfaces", "", "| kind | name | members | not in the deck |"]
     lines.append("|---|---|---|---|")
-    for what, sets, exist in (
-        ("node set", model.node_sets, model.nodes.has),
-        ("element set", model.element_sets, lambda one: model.find_elements(one)[0] >= 0),
-    ):
+    for what, sets in (("node set", model.node_sets), ("element set", model.element_sets)):
         for key in sets:
             try:
                 members = sets.members(key)
             except Fault as fault:  # refused where it is used
                 lines.append(f"| {what} | {_cell(sets.spelled[key])} | {_cell(str(fault))} | |")
                 continue
-            missing = int(np.sum(~exist(members))) if len(members) else 0
-            lines.append(
-                f"| {what} | {_cell(sets.spelled[key])} | {len(members)} | {missing or ''} |"
-            )
+            absent = model.absent(members, sets) or ""
+            lines.append(f"| {what} | {_cell(sets.spelled[key])} | {len(members)} | {absent} |")
     for surface in model.surfaces.values():
         nodal = surface.nodes is not None
         size = len(surface.nodes if nodal else surface.faces)
