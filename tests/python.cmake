@@ -36,7 +36,8 @@ python_test(scripts/run_signals scripts/test_run_signals.py ${program} LABELS sc
 python_test(scripts/run_deck scripts/test_run_deck.py LABELS scripts MPIRUN)
 python_test(scripts/what_if scripts/test_what_if.py LABELS scripts MPIRUN)
 python_test(scripts/options scripts/test_options.py ${program} LABELS scripts)
-foreach(name IN ITEMS language dialects case joints contact reach assembly faults squeal values mutated)
+foreach(name IN ITEMS language dialects case joints contact reach assembly faults squeal values
+        mutated)
   python_test(python/deck_${name} python/test_deck_${name}.py LABELS scripts)
 endforeach()
 foreach(name IN ITEMS language case joints contact mutated)
