@@ -49,6 +49,17 @@ std::vector<Term> withoutZeros(std::vector<Term> terms) {
   return terms;
 }
 
+/// Collective. Adds a term, multiplied by its coefficient, to a sum; null: starts the sum.
+void addTo(OwnedMat& sum, const Term& term, const sweep::Parameters& at) {
+  if (!sum) {
+    check(MatDuplicate(term.matrix, MAT_COPY_VALUES, sum.out()));
+    check(MatScale(sum, term.coefficient(at)));
+  } else {
+    check(MatAXPY(sum, term.coefficient(at), term.matrix, DIFFERENT_NONZERO_PATTERN));
+  }
+  check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
+}
+
 }  // namespace
 
 Pencil::Pencil(std::vector<Term> terms)
@@ -71,27 +82,25 @@ Pencil Pencil::with(std::vector<Term> pointTerms) const {
 }
 
 std::vector<Term> Pencil::pointSums(const sweep::Parameters& at) const {
-  std::vector<Term> sums;
-  std::vector<unsigned char> isSum;  // [sum] its matrix is not one of a term
+  std::vector<std::vector<const Term*>> groups;
   for (const Term& term : std::span(terms_).subspan(affineCount_)) {
-    const auto same = std::ranges::find_if(sums, [&](const Term& sum) {
-      return sum.power == term.power && sum.isAssociated() == term.isAssociated();
+    const auto same = std::ranges::find_if(groups, [&](const auto& group) {
+      return group.front()->power == term.power &&
+             group.front()->isAssociated() == term.isAssociated();
     });
-    if (same == sums.end()) {
-      sums.push_back(term.share());
-      isSum.push_back(0);
+    (same == groups.end() ? groups.emplace_back() : *same).push_back(&term);
+  }
+  std::vector<Term> sums;
+  for (const auto& group : groups) {
+    const Term& first = *group.front();
+    if (group.size() == 1) {
+      sums.push_back(first.share());
       continue;
     }
-    if (auto& begun = isSum[same - sums.begin()]; !begun) {
-      OwnedMat scaled;
-      check(MatDuplicate(same->matrix, MAT_COPY_VALUES, scaled.out()));
-      check(MatScale(scaled, same->coefficient(at)));
-      check(MatSetOption(scaled, MAT_SYMMETRIC, PETSC_FALSE));
-      *same = {
-          .matrix = std::move(scaled), .power = term.power, .ofFriction = !term.isAssociated()};
-      begun = 1;
-    }
-    check(MatAXPY(same->matrix, term.coefficient(at), term.matrix, DIFFERENT_NONZERO_PATTERN));
+    OwnedMat sum;
+    for (const Term* term : group) addTo(sum, *term, at);
+    sums.push_back(
+        {.matrix = std::move(sum), .power = first.power, .ofFriction = !first.isAssociated()});
   }
   return sums;
 }
@@ -105,16 +114,8 @@ MPI_Comm Pencil::comm() const { return commOf(terms_.at(0).matrix.get()); }
 
 OwnedMat Pencil::assembled(int power, const sweep::Parameters& at) const {
   OwnedMat sum;
-  for (const auto& term : terms_) {
-    if (term.power != power) continue;
-    if (!sum) {
-      check(MatDuplicate(term.matrix, MAT_COPY_VALUES, sum.out()));
-      check(MatScale(sum, term.coefficient(at)));
-    } else {
-      check(MatAXPY(sum, term.coefficient(at), term.matrix, DIFFERENT_NONZERO_PATTERN));
-    }
-    check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
-  }
+  for (const auto& term : terms_)
+    if (term.power == power) addTo(sum, term, at);
   return sum;
 }
 

@@ -78,12 +78,11 @@ void printContact(const contact::Contact& contact, MPI_Comm comm) {
 }
 
 void printSweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
-  const std::size_t states = sweep.frictions.size() * sweep.speeds.size() * sweep.pressures.size();
   std::string text =
-      formatted("%-12s %zu points: %zu frictions x %zu speeds x %zu pressures x %zu dampings",
-                "sweep", states * sweep.dampings.size(), sweep.frictions.size(),
-                sweep.speeds.size(), sweep.pressures.size(), sweep.dampings.size());
-  if (steady) text += formatted("; %zu steady states", states);
+      formatted("%-12s %.0f points: %zu frictions x %zu speeds x %zu pressures x %zu dampings",
+                "sweep", sweep.pointCount(), sweep.frictions.size(), sweep.speeds.size(),
+                sweep.pressures.size(), sweep.dampings.size());
+  if (steady) text += formatted("; %zu steady states", sweep.steadyPoints().size());
   printLine(comm, text);
 }
 
@@ -203,12 +202,10 @@ void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& 
   OwnedMat pattern;  // of K0
   for (const auto& [name, term] : named) {
     MatInfo info;
-    PetscInt rows = 0;
     check(MatGetInfo(term.matrix, MAT_GLOBAL_SUM, &info));
-    check(MatGetSize(term.matrix, &rows, nullptr));
     printLine(comm, formatted("%-12s %s: %" PetscInt_FMT
                               " rows, %.0f entries, with s^%d, friction^%d, speed^%d, damping^%d",
-                              "matrix", name.c_str(), rows, info.nz_used, term.power,
+                              "matrix", name.c_str(), rowsOf(term.matrix), info.nz_used, term.power,
                               term.frictionExponent, term.speedExponent, term.dampingExponent));
     if (term.power != 0) continue;
     if (!pattern)
@@ -217,9 +214,7 @@ void checkMatrices(MPI_Comm comm, const Settings& settings, const sweep::Sweep& 
       check(MatAXPY(pattern, 1, term.matrix, DIFFERENT_NONZERO_PATTERN));
   }
   printSweep(comm, sweep, false);
-  PetscInt unknowns = 0;
-  check(MatGetSize(named.front().term.matrix, &unknowns, nullptr));
-  warnOfDenseWork(comm, settings, sweep, unknowns);
+  warnOfDenseWork(comm, settings, sweep, rowsOf(named.front().term.matrix));
   if (!pattern) return;
   if (settings.referee) return printUnknownCost(comm, pattern, "-referee_list");
   if (settings.solver.direct) return printUnknownCost(comm, pattern, "-flutter_method direct");
