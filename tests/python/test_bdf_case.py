@@ -306,6 +306,16 @@ class State(unittest.TestCase):
         cards = "FORCE,1,5,,1.,1.,0.,0.\nFORCE,2,5,,1.,0.,1.,0.\nLOAD,30,2.,5.,1\n"
         one = imported(cube(cards + "LOAD,20,3.,1.,30,-1.,2,2.,1\n"))
         self.assertEqual(numbers(one.options["load"]["node_5"]["force"]).tolist(), [36, -3, 0])
+        self.assertNotIn("is not selected", one.account)
+        # Each union of 60 levels joins two unions, which both join those of the next level.
+        chain = "".join(
+            f"LOAD,{one},1.,.5,{after},.5,{after + 1}\n"
+            for level in range(60)
+            for after in (2 * level + 22,)
+            for one in (after - 2, after - 1)
+        )
+        one = imported(cube("FORCE,140,5,,1.,1.,0.,0.\nFORCE,141,5,,1.,0.,1.,0.\n" + chain))
+        self.assertEqual(numbers(one.options["load"]["node_5"]["force"]).tolist(), [0.5, 0.5, 0])
         (row,) = refusals(cube("LOAD,20,1.,1.,30\nLOAD,30,1.,1.,20\n"))
         self.assertIn("LOAD 20 contains itself", row)
 

@@ -270,6 +270,11 @@ class Sets(unittest.TestCase):
         self.assertIn("'1_0' is not", refused(cube().replace("\n7, 1.", "\n1_0, 1."))[0])
         self.assertIn("'0_5' is not", refused(cube().replace("\n7, 1.", "\n7, 0_5"))[0])
 
+    def test_sets_of_sets_to_any_depth(self):
+        chain = "".join(f"*NSET, NSET=S{one}\nS{one + 1}, TOP\n" for one in range(2000))
+        one = Imported(cube(chain + "*NSET, NSET=S2000\n6\n", "*CLOAD\nS0, 1, 2.\n"))
+        self.assertEqual(sorted(one.groups["S0"]), [5, 6, 7, 8])
+
     def test_sets_that_are_wrong(self):
         for text, reason in (
             ("*NSET, NSET=S, GENERATE\n5, 3\n", "the range 5, 3, 1 is empty"),
@@ -281,6 +286,9 @@ class Sets(unittest.TestCase):
             self.assertIn(reason, row)
         (row,) = refused(cube("*NSET, NSET=S\nS, 1\n", "*CLOAD\nS, 1, 1.\n"))
         self.assertIn("the node set 'S' contains itself", row)
+        loop = "*NSET, NSET=A\nB\n*NSET, NSET=B\n5, C\n*NSET, NSET=C\nB\n"
+        (row,) = refused(cube(loop, "*CLOAD\nA, 1, 1.\n"))
+        self.assertIn("the node set 'B' contains itself", row)
         (row,) = refused(cube("", "*CLOAD\nNONE, 1, 1.\n"))
         self.assertIn("there is no node set 'NONE'", row)
 

@@ -111,22 +111,33 @@ class Sets:
         self._parts.setdefault(key, []).extend(parts)
         self._members.clear()
 
-    def members(self, key, above=()):
+    def members(self, key):
         """Returns the numbers of a set in the order of the deck, each once. Raises Fault."""
-        if key not in self._parts:
-            raise Fault(f"there is no {self.what} set '{key}'")
-        if key in above:
-            raise Fault(f"the {self.what} set '{key}' contains itself")
-        if key not in self._members:
-            parts = [self._numbers(part, (*above, key)) for part in self._parts[key]]
-            numbers = np.concatenate([EMPTY, *parts])
+        # Not recursive: decks may have sets of sets to any depth.
+        path = {} if key in self._members else {key: self._names(key)}
+        while path:
+            above, names = next(reversed(path.items()))
+            inner = next((name for name in names if name not in self._members), None)
+            if inner in path:
+                raise Fault(f"the {self.what} set '{inner}' contains itself")
+            if inner is not None:
+                path[inner] = self._names(inner)
+                continue
+            numbers = np.concatenate([EMPTY, *map(self._numbers, self._parts[above])])
             _, first = np.unique(numbers, return_index=True)
-            self._members[key] = numbers[np.sort(first)]
+            self._members[above] = numbers[np.sort(first)]
+            del path[above]
         return self._members[key]
 
-    def _numbers(self, part, above):
+    def _names(self, key):
+        """Returns an iterator over the names of sets in a set. Raises Fault."""
+        if key not in self._parts:
+            raise Fault(f"there is no {self.what} set '{key}'")
+        return (part for part in self._parts[key] if isinstance(part, str))
+
+    def _numbers(self, part):
         if isinstance(part, str):
-            return self.members(part, above)
+            return self._members[part]
         return part() if callable(part) else part
 
 

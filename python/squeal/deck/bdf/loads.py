@@ -3,6 +3,7 @@
 import numpy as np
 
 from squeal.deck.bdf.handlers import LOADS, handles
+from squeal.deck.bdf.unions import in_itself, opened
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault, Missing
 from squeal.deck.model import BodyLoad, Value
 
@@ -24,13 +25,13 @@ def factors_of(reader):
         except Fault as fault:
             reader.journal.refuse(card.source, fault.reason, fault.name, fault.line)
     taken = _taken(reader, combined)
-    factors = {}
+    factors, unions = {}, set()
     if taken is not None:
-        _expand(reader, combined, taken, 1.0, factors, ())
+        unions = _expand(reader, combined, taken, factors)
     elif reader.selection.everything:
         factors = dict.fromkeys(_simple(reader), 1.0)
     for card in reader.deck.each("LOAD"):
-        used = taken is not None and (card.word(1) == str(taken) or card.word(1) in factors)
+        used = card.word(1) in map(str, unions)
         remark = "" if used else f"set {card.word(1)} is not selected"
         reader.journal.mark(card.source, USED if used else UNUSED, remark)
     return factors
@@ -56,17 +57,25 @@ def _taken(reader, combined):
     return next(iter(combined), None)
 
 
-def _expand(reader, combined, number, factor, factors, above):
-    """Adds the factors of a set, which may join others."""
-    if number in above:
+def _expand(reader, combined, selected, factors):
+    """Adds the factors of the simple sets that a set comprises. Returns the numbers of the LOAD
+    cards that join them."""
+    simple, unions = opened(combined, selected)
+    number = in_itself(combined, unions)
+    if number is not None:
         reader.journal.refuse(reader.load_source(), f"LOAD {number} contains itself")
-    elif number in combined:
-        for part, own in combined[number].items():
-            _expand(reader, combined, part, factor * own, factors, (*above, number))
-    else:
-        if number not in _simple(reader):
-            reader.journal.refuse(reader.load_source(), f"no load has the set {number}")
-        factors[number] = factors.get(number, 0.0) + factor
+        return unions
+    for number in sorted(simple - _simple(reader)):
+        reader.journal.refuse(reader.load_source(), f"no load has the set {number}")
+    weights = {selected: 1.0}
+    left = set(unions)
+    while tops := left.difference(*(combined[number] for number in left)):
+        for union in sorted(tops):
+            for part, own in combined[union].items():
+                weights[part] = weights.get(part, 0.0) + weights[union] * own
+        left -= tops
+    factors.update((number, weights[number]) for number in simple)
+    return unions
 
 
 def _factor(card, reader):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from squeal.deck.bdf.handlers import handles
+from squeal.deck.bdf.unions import in_itself, opened
 from squeal.deck.journal import TRANSLATED, UNUSED, USED, Fault
 from squeal.deck.model import Equation, Value
 
@@ -32,15 +33,8 @@ def sets_of(reader, kind, union, simple):
         return None
     if selected is None:
         return set()
-    chosen, opened, rest = set(), set(), [selected]
-    while rest:
-        number = rest.pop()
-        if number not in joined:
-            chosen.add(number)
-        elif number not in opened:
-            opened.add(number)
-            rest += joined[number]
-    number = _in_itself(joined, opened)
+    chosen, unions = opened(joined, selected)
+    number = in_itself(joined, unions)
     if number is not None:
         reader.journal.refuse(sources[number], f"{union} {number} contains itself")
         return set()
@@ -51,21 +45,6 @@ def sets_of(reader, kind, union, simple):
         source = reader.selection.sources[kind]
         reader.journal.refuse(source, f"there is no set {number} of {' or '.join(simple)}")
     return chosen
-
-
-def _in_itself(joined, some):
-    """Returns one of `some` sets that contains itself, directly or through others; None if there
-    is none. `joined`: the sets that each of them joins."""
-    left = set(some)
-    while ends := {number for number in left if not joined[number] & left}:
-        left -= ends
-    if not left:
-        return None
-    number, passed = min(left), set()
-    while number not in passed:
-        passed.add(number)
-        number = min(joined[number] & left)
-    return number
 
 
 def _numbers(reader, name):
