@@ -52,11 +52,36 @@ class Counts(unittest.TestCase):
             missed = [text for text in one.journal.choices if "within reach" in text]
             self.assertEqual(len(missed), count == "0", missed)
 
+    def test_faces_that_do_not_face_each_other(self):
+        """A side of the upper cube, its top with the lower one below, and all its free faces."""
+        for z, faces, row in (
+            (1.0, "2, S3", "0 | 4"),
+            (-0.2, "2, S2", "0 | 4"),
+            (1.0, "2,", "4 | 4"),
+        ):
+            text = blocks(0.0, z).replace("2, S1\n3, S1\n", faces + "\n")
+            one = Imported(cube(text + "*TIE, NAME=T\nDOWN, UP\n"))
+            self.assertIn(f"| T | faces | {row} |\n", one.account)
+
+    def test_collapsed_faces(self):
+        """With one of two triangles, and with none."""
+        tie = "*SURFACE, NAME=UP\n1, S2\n*NSET, NSET=N\n41, 42, 43\n"
+        tie += "*SURFACE, NAME=N, TYPE=NODE\nN\n*TIE, NAME=T, POSITION TOLERANCE=0.4\nN, UP\n"
+        brick = (
+            "*NODE\n41, 0.5, 0.5, 1.05\n42, 1.3, 0.6, 1.05\n43, 1.3, 1.3, 1.3\n44, .6, .6, 1.9\n"
+        )
+        brick += "*ELEMENT, TYPE=C3D4, ELSET=CUBE\n2, 41, 42, 43, 44\n"
+        one = Imported(cube(brick + tie).replace("\n8, 0., 1., 1.", "\n8, 1., 1., 1."))
+        self.assertIn("| T | nodes | 1 | 2 |\n", one.account)
+        text = cube(blocks(0.0, 1.0) + "*TIE, NAME=T\nDOWN, UP\n")
+        text = text.replace("\n8, 0., 1., 1.", "\n8, 1., 1., 1.").replace("\n5, 0.,", "\n5, 1.,")
+        self.assertIn("| T | faces | 0 | 6 |\n", Imported(text).account)
+
     def test_a_distance_of_zero(self):
         """The program would take it as its default."""
         for value in ("0.", "-1."):
             text = cube(blocks(0.0, 1.0) + f"*TIE, NAME=T, POSITION TOLERANCE={value}\nDOWN, UP\n")
-            self.assertIn("within which faces are tied is not positive", refused(text)[0])
+            self.assertIn("faces need a positive distance", refused(text)[0])
 
     def test_contacts(self):
         pair = "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nDOWN, UP\n"
@@ -120,6 +145,17 @@ class Assignment(unittest.TestCase):
             self.assertTrue(10 < np.sum(found) < 70, np.sum(found))
             exact = np.array([one[1] for one in wanted])
             self.assertLess(np.abs(distances[found] - exact[found]).max(), 1e-14)
+
+    def test_one_large_face_among_small_ones(self):
+        corners = np.array([(0, 0, 0), (60, 0, 60), (60, 60, 60), (0, 60, 0)], float)
+        small = np.array([(0, 0, 0), (0.1, 0, 0), (0.1, 0.1, 0), (0, 0.1, 0)])
+        places = np.concatenate(
+            [corners[None], small + self.generator.uniform(0, 60, (5000, 1, 3))]
+        )
+        surface = Surface([(np.arange(5001), places)])
+        points = places[1:].mean(axis=1)
+        owners, _ = surface.assign(points, 1e-6, 1e-6)
+        self.assertGreater(np.sum(owners == np.arange(1, 5001)), 4990)
 
     def test_in_parts(self):
         points = self.generator.uniform((0, 0, -0.2), (2, 2, 0.2), (300, 3))

@@ -92,7 +92,7 @@ int StepSolver::solve(const std::vector<double>& friction, const std::vector<uns
     if (sweep(friction, active, accuracy / 10, r, d) <= accuracy) return count;
     // The next sweep verifies the forces that Newton's method finds.
     if (count != trial) continue;
-    newton(problem, accuracy / 10, r, d);
+    newton(problem, accuracy / 10, r, d, stopRequested);
     trial *= 2;
   }
   throw Error("the contact forces of a time step do not converge");

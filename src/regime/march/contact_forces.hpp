@@ -24,11 +24,11 @@ class StepSolver {
 
   /// Improves the forces R by the projected Gauss–Seidel method until they change by at most
   /// `tolerance`, N, in a sweep. With strong friction the sweeps may never converge; after many of
-  /// them Newton's method is tried. On entry, d must be b + W R for the initial forces; it is
-  /// updated with R. `friction` are the coefficients f, [node]. active[node] is 0 for a node that
-  /// is known to be open; its forces must be zero. Returns the number of sweeps. Throws Error if
-  /// the largest number of sweeps is not sufficient. Throws Interrupted, only on this rank, once
-  /// stopRequested() is true.
+  /// them Newton's method is tried. The forces of open nodes are exactly zero at the end. On entry,
+  /// d must be b + W R for the initial forces; it is updated with R. `friction` are the
+  /// coefficients f, [node]. active[node] is 0 for a node that is known to be open; its forces must
+  /// be zero. Returns the number of sweeps. Throws Error if the largest number of sweeps is not
+  /// sufficient. Throws Interrupted, only on this rank, once stopRequested() is true.
   int solve(const std::vector<double>& friction, const std::vector<unsigned char>& active,
             double tolerance, std::vector<double>& r, std::vector<double>& d,
             const StopRequested& stopRequested = {}) const;

@@ -37,17 +37,31 @@ Projection projected(const StepProblem& p, std::size_t node, const std::vector<d
   return result;
 }
 
-/// Returns F, [row].
-std::vector<double> residual(const StepProblem& p, const std::vector<double>& r,
-                             const std::vector<double>& d) {
-  std::vector<double> f = r;
+/// Returns the projections of R − κ d, [row].
+std::vector<double> projections(const StepProblem& p, const std::vector<double>& r,
+                                const std::vector<double>& d) {
+  std::vector<double> result(r.size());
   for (std::size_t node = 0; node < p.active.size(); ++node) {
     const Projection to = projected(p, node, r, d);
     const std::size_t row = node * p.dimension;
-    f[row] -= to.normal;
-    for (int c = 1; c < p.dimension; ++c) f[row + c] -= to.factor * to.force[c - 1];
+    result[row] = to.normal;
+    for (int c = 1; c < p.dimension; ++c) result[row + c] = to.factor * to.force[c - 1];
   }
+  return result;
+}
+
+/// Returns F, [row].
+std::vector<double> residual(const StepProblem& p, const std::vector<double>& r,
+                             const std::vector<double>& d) {
+  std::vector<double> f = projections(p, r, d);
+  for (std::size_t i = 0; i < f.size(); ++i) f[i] = r[i] - f[i];
   return f;
+}
+
+double largestOf(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
 }
 
 /// Subtracts from row i of A the factor times the derivative of R_row − κ d_row.
@@ -106,15 +120,10 @@ std::vector<double> searchAlong(const StepProblem& p, const std::vector<double>&
 }  // namespace
 
 bool newton(const StepProblem& problem, double accuracy, std::vector<double>& r,
-            std::vector<double>& d) {
+            std::vector<double>& d, const StopRequested& stopRequested) {
   std::vector<double> force = r, jump = d, f = residual(problem, r, d);
-  for (int step = 0; step < mostSteps && !f.empty(); ++step) {
-    const double largest = std::abs(
-        *std::ranges::max_element(f, [](double a, double b) { return std::abs(a) < std::abs(b); }));
-    if (largest <= accuracy) {
-      r = std::move(force), d = std::move(jump);
-      return true;
-    }
+  for (int step = 0; step < mostSteps && !f.empty() && !(largestOf(f) <= accuracy); ++step) {
+    if (stopRequested && stopRequested()) throw Interrupted();
     const double norm = std::sqrt(dot(f, f));
     const linalg::Lu<double> lu(derivative(problem, force, jump));
     if (!(lu.pivotRatio() > 0)) return false;
@@ -122,7 +131,12 @@ bool newton(const StepProblem& problem, double accuracy, std::vector<double>& r,
     for (double& entry : f) entry = -entry;
     f = searchAlong(problem, f, norm, force, jump);
   }
-  return false;
+  if (f.empty() || !(largestOf(f) <= accuracy)) return false;
+  // Forces of open nodes are now round-off; the projections are zero there.
+  r = projections(problem, force, jump), d = std::move(jump);
+  for (std::size_t i = 0; i < r.size(); ++i) force[i] = r[i] - force[i];
+  addProduct(problem.w, force, d);
+  return true;
 }
 
 }  // namespace squeal::march

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
+#include "base/system/termination.hpp"
 
 namespace squeal::march {
 
@@ -22,9 +23,11 @@ struct StepProblem {
 };
 
 /// Not collective. Improves the forces R, and d = b + W R with them, until no entry of F exceeds
-/// `accuracy`, N. Each step reduces the norm of F. Returns false, with R and d unchanged, if a step
-/// does not, if the derivative is singular or if there are too many steps.
+/// `accuracy`, N. Each step reduces the norm of F. Open nodes then have no force, not even
+/// round-off. Returns false, with R and d unchanged, if a step does not reduce the norm, if the
+/// derivative is singular or if there are too many steps. Throws Interrupted, only on this rank,
+/// once stopRequested() is true.
 bool newton(const StepProblem& problem, double accuracy, std::vector<double>& r,
-            std::vector<double>& d);
+            std::vector<double>& d, const StopRequested& stopRequested = {});
 
 }  // namespace squeal::march

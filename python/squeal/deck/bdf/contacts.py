@@ -137,7 +137,7 @@ def bgset(card, reader):
     for first in range(2, len(card.fields), 8):
         if card.word(first):
             pair = card.identifier(first), card.identifier(first + 1)
-            distance = card.real(first + 2, None)
+            distance = card.real(first + 2, None) or None  # 0 is the default
             card.pass_over(first + 4)  # extension of the search beside the faces
             _glue(card, reader, pair, distance)
 

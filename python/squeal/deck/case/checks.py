@@ -51,8 +51,8 @@ def _name_absent_members(model, journal):
                 continue
             if absent := model.absent(members, sets):
                 journal.choose(
-                    f"the {what} set '{sets.spelled[key]}': {absent} of {len(members)} members,"
-                    " which are not in the deck, are left out"
+                    f"the {what} set '{sets.spelled[key]}': left out are {absent} of {len(members)}"
+                    " members, which are not in the deck or not translated"
                 )
 
 

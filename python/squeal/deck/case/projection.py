@@ -120,11 +120,6 @@ def _nearest_on_edge(point, edge, t):
     return t
 
 
-def _nonzero(sizes):
-    """A triangle that has collapsed has no size, and no point belongs to it by its plane."""
-    return np.where(sizes > 0, sizes, 1.0)
-
-
 class Surface:
     """Faces, and the triangles by which CalculiX assigns points to them. `tables`: for each size of
     face the numbers of the faces and the coordinates of their nodes, corners first. `size`: the
@@ -148,36 +143,44 @@ class Surface:
         sides = np.roll(self.corners, -1, axis=1) - self.corners
         normals = np.cross(sides[:, 0], sides[:, 1])
         areas = np.linalg.norm(normals, axis=1)
-        self.normals = normals / _nonzero(areas)[:, None]
         lengths = np.linalg.norm(sides, axis=2)
-        self.outwards = np.cross(sides, self.normals[:, None]) / _nonzero(lengths)[:, :, None]
-        heights = areas / _nonzero(lengths[:, 1])
-        self.size = float(np.mean(heights)) / 3 if count else 0.0
+        whole = areas > 1e-12 * lengths.max(axis=1, initial=0) ** 2  # others have collapsed
+        self.owners, self.corners, sides = self.owners[whole], self.corners[whole], sides[whole]
+        areas, lengths = areas[whole], lengths[whole]
+        self.normals = normals[whole] / areas[:, None]
+        self.outwards = np.cross(sides, self.normals[:, None]) / lengths[:, :, None]
+        self.size = float(np.mean(areas / lengths[:, 1])) / 3 if len(areas) else 0.0
         self.edge = float(np.mean(edges)) if count else 0.0
 
-    def assign(self, points, beside, reach):
+    def assign(self, points, beside, reach, normals=None):
         """Returns for each point the number of its face, -1 for none, and its distance from the
         plane of a triangle of that face. A point belongs to a triangle if it lies at a distance of
         at most `reach`, beside the lines of the sides by at most `beside`, and in the bounding box
         widened by both. A triangle that contains the foot of the point comes first, then the
-        nearest one."""
+        nearest one. With the normals of the points, only triangles that face them count."""
         best = Nearest(len(points))
+        if not len(self.corners) or not len(points):
+            return best.owners, best.distances
+        every = np.concatenate([points, self.corners.reshape(-1, 3)])
+        reach = min(reach, float(np.linalg.norm(np.ptp(every, axis=0))))
         left = np.arange(len(points))
         level = min(reach, 3 * self.size)
         while True:
-            self._compare(points, left, beside, level, best)
+            self._compare(points, normals, left, beside, level, best)
             if level >= reach:
                 return best.owners, best.distances
             left = left[~best.contained[left]]  # no triangle farther off comes before these
             level = min(reach, 4 * level)
 
-    def _compare(self, points, some, beside, reach, best):
+    def _compare(self, points, normals, some, beside, reach, best):
         for at, triangles in pairs_nearby(points[some], self.corners, np.hypot(beside, reach)):
             at = some[at]
             away = points[at][:, None] - self.corners[triangles]
             aside = np.einsum("pij,pij->pi", away, self.outwards[triangles]).max(axis=1)
             distance = np.abs(np.einsum("pj,pj->p", away[:, 0], self.normals[triangles]))
             near = (aside <= beside) & (distance <= reach)
+            if normals is not None:
+                near &= np.einsum("pj,pj->p", normals[at], self.normals[triangles]) < 0
             contained = aside <= 1e-9 * self.size
             best.take(at[near], self.owners[triangles[near]], distance[near], contained[near])
 

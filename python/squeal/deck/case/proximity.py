@@ -30,18 +30,23 @@ def pairs_nearby(points, triangles, margin):
         return
     low, high = triangles.min(axis=1) - margin, triangles.max(axis=1) + margin
     origin = points.min(axis=0)
-    # At most a million boxes along an axis, so that the numbers of boxes are exact.
+    # At most a million boxes along an axis, so that the numbers of boxes are exact, and not many
+    # more boxes in all triangles than there are triangles and points.
     extent = float(np.max(points.max(axis=0) - origin))
     edge = max(float(np.mean(high - low, axis=0).max()), 1e-6 * extent) or 1.0
-    boxes = np.floor((points - origin) / edge).astype(np.int64)
-    shape = boxes.max(axis=0) + 1
+    while True:
+        boxes = np.floor((points - origin) / edge).astype(np.int64)
+        shape = boxes.max(axis=0) + 1
+        first = np.clip(np.floor((low - origin) / edge), 0, shape).astype(np.int64)
+        last = np.clip(np.floor((high - origin) / edge), -1, shape - 1).astype(np.int64)
+        spans = np.maximum(last - first + 1, 0)
+        counts = np.prod(spans, axis=1)
+        if np.sum(counts) <= 30 * (len(points) + len(triangles)):
+            break
+        edge *= 2
     keys = (boxes[:, 0] * shape[1] + boxes[:, 1]) * shape[2] + boxes[:, 2]
     order = np.argsort(keys, kind="stable")
     keys = keys[order]
-    first = np.clip(np.floor((low - origin) / edge), 0, shape).astype(np.int64)
-    last = np.clip(np.floor((high - origin) / edge), -1, shape - 1).astype(np.int64)
-    spans = np.maximum(last - first + 1, 0)
-    counts = np.prod(spans, axis=1)
     for some in _groups(counts):
         number, owner = _ranges(np.zeros(len(counts[some]), np.int64), counts[some])
         owner += some.start

@@ -2,9 +2,9 @@
 """Nodes of a surface of faces that are within reach of another one, for import.md.
 
 The program ties and presses areas: the parts of the faces of a slave that the master covers within
-a distance, by default half the size of each of these faces. A node is within reach if the master
-covers a part of one of its faces. Whether it does is known for a face whose nodes are all below or
-above the master, and sampled at a few points for others.
+a distance, by default half the size of each of these faces, where both face each other. A node is
+within reach if the master covers a part of one of its faces. Whether it does is known for a face
+whose nodes are all below or above the master, and sampled at a few points for others.
 """
 import numpy as np
 
@@ -36,23 +36,33 @@ def count_reached(slave, master, faces, distance):
 
 def _met(places, surface, distance):
     """Returns for each face of one type whether the surface covers a part of it."""
-    bounds = np.full(len(places), distance) if distance else _sizes(places) / 2
-    met = np.all(_below(places, surface, bounds), axis=1)
+    bounds = np.full(len(places), distance) if distance is not None else _sizes(places) / 2
+    normals = _normals(places)
+    met = np.all(_below(places, normals, surface, bounds), axis=1)
     rest = np.flatnonzero(~met)
     samples = SAMPLES[corners_of(places.shape[1])]
     values = np.array([shape_functions(places.shape[1], *at)[0] for at in samples])
-    met[rest] = np.any(_below(values @ places[rest], surface, bounds[rest]), axis=1)
+    below = _below(values @ places[rest], normals[rest], surface, bounds[rest])
+    met[rest] = np.any(below, axis=1)
     return met
 
 
-def _below(places, surface, bounds):
-    """Returns for points of faces, [face][point], whether the surface is within the bound of the
-    face. Rims of curved surfaces with different meshes do not match: a point may lie a little
-    beside the surface."""
+def _below(places, normals, surface, bounds):
+    """Returns for points of faces, [face][point], whether the surface faces them within the bound
+    of the face. Rims of curved surfaces with different meshes do not match: a point may lie a
+    little beside the surface."""
     points = places.reshape(-1, 3)
+    normals = np.repeat(normals, places.shape[1], axis=0)
     reach = float(np.max(bounds, initial=0.0))
-    _, distances = surface.assign(points, CALCULIX * surface.size, reach)
+    _, distances = surface.assign(points, CALCULIX * surface.size, reach, normals)
     return distances.reshape(places.shape[:2]) <= bounds[:, None]
+
+
+def _normals(places):
+    """Returns a vector along the mean normal of each face."""
+    corners = places[:, : corners_of(places.shape[1])]
+    across = corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1]
+    return np.cross(across[0], across[1])
 
 
 def _sizes(places):

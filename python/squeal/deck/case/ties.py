@@ -45,7 +45,9 @@ def add_ties(model, roles, case, journal, faces):
 
 def _tie_of_faces(tie, slave, master, model, case, journal, faces):
     if tie.tolerance is not None and not tie.tolerance > 0:
-        raise Fault(f"the distance {tie.tolerance:g} within which faces are tied is not positive")
+        raise Fault(
+            f"faces need a positive distance, not {tie.tolerance:g}, or none", "POSITION TOLERANCE"
+        )
     path = ("tie", clean(tie.name))
     for key, surface in (("slave", slave), ("master", master)):
         faces.tables(surface.rows)
