@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The ideal associated system [4.17], shared by the modes, the reduction and the corrections.
+/// The ideal associated system (4.17) of docs/method.md: closed contact, no friction, no rotation.
+/// The free modes, the reduced problem and its corrections share it.
 #include <memory>
 #include <string>
 
@@ -9,12 +10,12 @@
 
 namespace squeal::factor {
 
-/// Collective. Returns the number of rows of a matrix that contain only zeros.
+/// Collective. Returns the number of zero rows of a matrix.
 PetscInt zeroRows(Mat matrix);
 
-/// The matrices K0 and M0, n×n, symmetric positive definite. However, M0 has a row of zeros for
-/// each unknown without mass. The object also owns a direct solver of K0 (prefix -modes_st_), whose
-/// single factorisation serves all stages.
+/// The matrices K0 and M0, n×n. K0 is symmetric positive definite. M0 is symmetric positive
+/// semidefinite: it has a row of zeros for each unknown without mass. The object also owns a direct
+/// solver of K0 (prefix -modes_st_), whose factorisation all stages share.
 class AssociatedSystem {
  public:
   /// Collective. Takes ownership of both matrices. Messages refer to K0 by `name`.

@@ -2,7 +2,7 @@
 #pragma once
 /// LDLᵀ factorisation of distributed symmetric matrices by MUMPS. It replaces PETSc's own interface
 /// to MUMPS, which cannot reuse an elimination order. PETSc's interface also sets up the scatter of
-/// the solution at each call, which takes a fifth of the time of a block of solves.
+/// the solution at each call, which takes a fifth of the time of a solve with many columns.
 #include <dmumps_c.h>
 #include <petscsf.h>
 
@@ -36,8 +36,8 @@ class MumpsFactor {
   /// (about 1e-21).
   void enableInertia(double zero = 0);
   /// Makes the next analyse() and factorise() eliminate all rows except `rows`, which are 0-based
-  /// and given on rank 0. schurComplement() then returns the Schur complement of `rows` on rank 0;
-  /// solve() must not be called.
+  /// and given on rank 0. schurComplement() then returns the Schur complement of `rows` on rank 0,
+  /// and solve() must not be called.
   void keep(const std::vector<PetscInt>& rows);
   /// Not collective. Returns, on rank 0, the Schur complement of the rows given to keep(), in the
   /// same order. The entry (i, j) with j ≤ i is at [i · size + j]; all other entries are undefined.
@@ -46,14 +46,15 @@ class MumpsFactor {
   /// which must be the factor of a matrix with the same pattern and distribution. Throws Error if
   /// the analysis fails.
   void analyse(Mat matrix, const MumpsFactor* like = nullptr);
-  /// Collective. Returns the memory estimate of the analysis in bytes, summed over all ranks.
+  /// Not collective. Returns the memory estimate of analyse() in bytes, summed over all ranks.
   double memory() const { return 1e6 * id_.infog[16]; }
   /// Collective. Factorises the matrix or, without an argument, the matrix of the preceding
-  /// analyse(). If necessary, enlarges the workspace for pivoting and stores the factor on disk.
-  /// Throws Error if even then MUMPS estimates more than twice the free memory. Returns the reason
-  /// for any other failure, or an empty text on success.
+  /// analyse(). If memory is short, stores the factor on disk; if pivoting needs more workspace,
+  /// enlarges it. Throws Error if MUMPS estimates more than twice the free memory even with the
+  /// factor on disk. Returns the reason for any other failure, or an empty text on success.
   std::string factorise(Mat matrix = nullptr);
-  /// Collective. Computes X = A⁻¹ B. `b` and `x` contain this rank's rows, column by column.
+  /// Collective. Computes X = A⁻¹ B. `b` and `x` contain this rank's rows, column by column. Throws
+  /// Error if MUMPS fails.
   void solve(const double* b, double* x, PetscInt columns);
   /// Returns the inertia, after enableInertia() and factorise().
   Inertia inertia() const { return {id_.infog[11], id_.infog[27]}; }
@@ -74,7 +75,7 @@ class MumpsFactor {
   int ranks_ = 1;
   DMUMPS_STRUC_C id_{};
   PetscInt localRows_ = 0;
-  bool hasEntries_ = false;  // since analyse()
+  bool hasEntries_ = false;  // analyse() has set the entries, which factorise() drops
   std::vector<MUMPS_INT> rows_, columns_, ownRows_, solutionRows_, order_;
   std::vector<MUMPS_INT> kept_;  // 1-based rows of the Schur complement, on rank 0
   std::vector<double> entries_, solution_, byRows_, schur_;

@@ -10,7 +10,7 @@ namespace squeal::factor {
 
 /// Collective. Returns the Schur complement
 ///   S = K_ww − K_wy K_yy⁻¹ K_yw
-/// of a symmetric matrix with a definite K_yy. w are the unknowns that remain, and y those that are
+/// of a symmetric matrix with a definite K_yy. The unknowns w remain, and the unknowns y are
 /// eliminated. `own` lists the global rows of w on this rank, in any order. The result contains
 /// these rows and the columns of all w, ordered by rank and, within each rank, as in its `own`.
 /// Rank 0 temporarily stores all of S, 8 bytes for each pair of unknowns w. Throws Error if the

@@ -44,9 +44,9 @@ class SymmetricSolver {
 
 /// The size of an LDLᵀ factorisation by MUMPS, summed over all ranks.
 struct FactorSize {
-  double bytes = 0;       ///< memory, factor included
-  double entries = 0;     ///< of the factor
-  double operations = 0;  ///< of the factorisation
+  double bytes = 0;       ///< memory of the factorisation, factor included
+  double entries = 0;     ///< number of entries of the factor
+  double operations = 0;  ///< floating-point operations of the factorisation
 };
 
 /// Collective. Returns MUMPS's estimates for the factorisation of a symmetric matrix. Only the

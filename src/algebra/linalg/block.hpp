@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Operations on tall matrices that are distributed by rows, such as the basis V and the products A
-/// V. The product of two such matrices takes one BLAS call on the local rows and one reduction.
+/// Operations on tall matrices that are distributed by rows, such as a basis V and a product A V.
+/// The product Xᵀ Y of two such matrices takes one BLAS call on the local rows and one reduction.
 #include <vector>
 
 #include "algebra/linalg/dense.hpp"
@@ -28,12 +28,12 @@ DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView
 /// rows.
 double length(MPI_Comm comm, std::span<const double> column);
 
-/// Collective. Returns A⁻¹ times the columns, where A is the matrix of the solver. The columns are
-/// solved in blocks that are large enough for fast dense kernels and small enough for the memory.
+/// Collective. Returns A⁻¹ times the columns, where A is the matrix of the solver. Each solve takes
+/// a block of columns, large enough for fast dense kernels and small enough for the memory.
 Block solved(KSP solver, const DenseView& columns);
 
-/// Collective. Returns the principal directions of the columns, which are orthogonal combinations
-/// of them, in ascending order of length. Directions of length `small` or less are dropped.
+/// Collective. Returns the principal directions of the columns, that is, orthogonal combinations of
+/// them, in ascending order of length. Directions of length `small` or less are dropped.
 Block principal(MPI_Comm comm, const Block& columns, double small);
 /// Collective. Returns the columns scaled to the 2-norm 1. Columns of zeros are dropped.
 Block unitColumns(MPI_Comm comm, const Block& columns);
@@ -42,8 +42,9 @@ Block unitColumns(MPI_Comm comm, const Block& columns);
 /// only at the contact nodes, and products skip all other rows.
 class RowSet {
  public:
-  /// Collective. Finds the rows; the set contains all rows if more than this share of them has
-  /// nonzero entries. Borrows the matrix only during this call.
+  /// Collective. Finds the rows. The set contains all rows if PETSc cannot find the nonzero ones in
+  /// a matrix of this type, or if their share of all rows exceeds `share`. Borrows the matrix only
+  /// during this call.
   explicit RowSet(Mat matrix, double share = 1);
   PetscInt size() const { return all_ ? localRows_ : std::ssize(rows_); }
   /// Returns true if the set contains all rows of the matrix, on every rank.

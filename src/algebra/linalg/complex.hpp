@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The complex type of the whole program: PETSc is built with real scalars.
+/// The complex type of the whole program, since PETSc is built with real scalars.
 #include <cmath>
 #include <complex>
 #include <span>

@@ -18,8 +18,8 @@ ComplexMatrix adjointProduct(const ComplexMatrix& x, const ComplexMatrix& y);
 /// infinite entries. Throws Error if LAPACK fails.
 void orthonormalise(ComplexMatrix& x);
 
-/// All eigenvalues of a matrix A, with the right vectors X and the left vectors Y: A X = X
-/// diag(value), Yᴴ A = diag(value) Yᴴ.
+/// All eigenvalues of a matrix A, with the right vectors X and the left vectors Y,
+///   A X = X diag(value),   Yᴴ A = diag(value) Yᴴ.
 struct ComplexEigen {
   std::vector<Complex> value;
   ComplexMatrix right, left;  ///< columns of 2-norm 1

@@ -144,8 +144,8 @@ DenseMatrix bordered(const DenseView& a, const DenseView& right, const DenseView
 ///   sum += factor · A
 /// for matrices of the same size. An empty `sum` and an empty A are treated as zero.
 void addScaled(DenseMatrix& sum, double factor, const DenseView& a);
-/// Computes the same for a matrix A that belongs to an earlier, smaller basis: A is extended by
-/// rows and columns of zeros. Both bases must begin with the same vectors.
+/// Does the same as addScaled() for a matrix A that belongs to an earlier, smaller basis: A is
+/// extended by rows and columns of zeros. Both bases must begin with the same vectors.
 void addExtended(DenseMatrix& sum, double factor, const DenseView& a);
 
 }  // namespace squeal::linalg

@@ -11,7 +11,7 @@ namespace squeal::linalg {
 OwnedMat onRankZero(Mat matrix);
 
 /// Collective. Returns the whole square matrix on rank 0, and an empty matrix on the other ranks.
-/// For a null matrix it is empty on all ranks.
+/// For a null matrix, the result is empty on all ranks.
 DenseMatrix gathered(Mat matrix);
 
 }  // namespace squeal::linalg

@@ -16,13 +16,13 @@ class Lu {
   /// Returns the smallest pivot divided by the largest, in magnitude; 0 if the matrix is singular
   /// or has an entry that is not a number.
   double pivotRatio() const { return pivotRatio_; }
-  /// Replaces each pivot of zero by the machine precision times the largest pivot, or by the
-  /// machine precision itself if all pivots are zero. Solutions then point along the null vector,
-  /// as inverse iteration requires.
+  /// Replaces each zero pivot by the machine precision times the largest pivot, or by the machine
+  /// precision itself if all pivots are zero. Solutions then point along the null vector, as
+  /// inverse iteration requires.
   void raiseZeroPivots();
-  /// Replaces B by A⁻¹ B, or by A⁻ᴴ B if `adjoint`. A zero pivot gives infinite entries.
+  /// Replaces B by A⁻¹ B, or by A⁻ᴴ B if `adjoint`. A zero pivot gives entries that are not finite.
   void solve(Dense<Scalar>& b, bool adjoint = false) const;
-  /// Does the same for one column.
+  /// Does the same for a single column.
   void solve(std::span<Scalar> b, bool adjoint = false) const;
 
  private:

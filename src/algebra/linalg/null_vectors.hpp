@@ -16,8 +16,8 @@ struct NullVectors {
 
 /// Returns the null vectors of H(s) = s² M + s Z + K at an eigenvalue s, by inverse iteration. They
 /// are the singular vectors of the smallest singular value, so they are well defined even where two
-/// eigenvalues and their vectors meet. If s is a `simple` eigenvalue, it need not be exact to the
-/// last digits: the two-sided Rayleigh quotient corrects it by
+/// eigenvalues and their vectors meet. With `simple`, s must be a simple eigenvalue but need not be
+/// exact to the last digits: the two-sided Rayleigh quotient corrects it by
 ///   δs = −cᴴ H q / cᴴ H′ q.
 NullVectors nullVectors(const DenseProblem& problem, Complex s, bool simple);
 

@@ -18,14 +18,14 @@ struct DenseProblem {
 
 /// Returns true if, within round-off, M and K are symmetric positive definite and Z is
 /// antisymmetric. Then the only velocity-dependent forces are gyroscopic and do no work, and all
-/// eigenvalues are imaginary: for a vector q of length 1, the equation
+/// eigenvalues are imaginary: for any vector q of length 1, the equation
 ///   s² m + i s g + k = 0,   m = qᴴ M q > 0,   k = qᴴ K q > 0,   i g = qᴴ Z q,
 /// has only imaginary roots.
 bool conservative(const DenseProblem& problem);
 
 /// An eigenvalue with its vectors.
 struct DensePair {
-  Complex s;               ///< 1/s
+  Complex s;               ///< eigenvalue, in 1/s
   std::vector<Complex> q;  ///< right vector, [m], 2-norm 1
   /// Left vector y with yᴴ P(s) = 0, [m], 2-norm 1; empty unless requested.
   std::vector<Complex> left = {};
@@ -34,7 +34,7 @@ struct DensePair {
 /// The eigenvectors that a solve returns: the right ones, or both the right and the left ones.
 enum class Vectors { right, both };
 
-/// Returns true if the solve shall return the eigenvalue s. An empty function selects all.
+/// Selects eigenvalues: returns true if a solve is to return s. An empty function selects all.
 using EigenvalueFilter = std::function<bool(Complex)>;
 
 /// Returns the root of s² = −μ with Im s ≥ 0.
@@ -46,11 +46,11 @@ Complex rootOf(Complex mu);
 ///
 /// If Z is empty, the problem is linear in s² and has the size m. Otherwise the companion form of
 /// size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The leading matrix is K if K is
-/// well conditioned, otherwise M or K, whichever is better conditioned. A problem without Z is
-/// solved as a symmetric one if K and M are symmetric within round-off and the leading matrix is
-/// positive definite. All other problems are solved by the QR algorithm with the inverse of the
-/// leading matrix. If this matrix cannot be inverted safely, the QZ algorithm is used, which takes
-/// ten times as long.
+/// well conditioned, otherwise M or K, whichever is better conditioned. If it is K, the problem is
+/// solved for 1/s. A problem without Z is solved as a symmetric one if K and M are symmetric within
+/// round-off and the leading matrix is positive definite. All other problems are solved by the QR
+/// algorithm with the inverse of the leading matrix. If this matrix cannot be inverted safely, the
+/// QZ algorithm is used, which takes ten times as long.
 ///
 /// Throws Error if an entry is not finite, if LAPACK fails, or if M and K have a common null
 /// vector.

@@ -11,13 +11,13 @@
 
 namespace squeal::linalg {
 
-/// Collective. Calls action(i) for each i below `count`, on the owner of i: the rank i modulo the
-/// number of ranks. Throws Error on all ranks if one of the calls throws.
+/// Collective. Calls action(i) for each i below `count`, on the owner of i, which is rank i modulo
+/// the number of ranks. Throws Error on all ranks if one of the calls throws Error.
 void onOwners(MPI_Comm comm, std::size_t count, const std::function<void(std::size_t)>& action);
 
 /// Collective. Calls solve(i) for each i below `count` on its owner, as onOwners() does, and
 /// returns the pairs on all ranks. Round-off then cannot make the ranks disagree on the order or
-/// number of eigenvalues. Throws Error on all ranks if one of the calls throws.
+/// number of eigenvalues. Throws Error on all ranks if one of the calls throws Error.
 std::vector<std::vector<DensePair>> spread(
     MPI_Comm comm, std::size_t count, Vectors vectors,
     const std::function<std::vector<DensePair>(std::size_t)>& solve);

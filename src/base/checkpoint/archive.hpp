@@ -15,18 +15,20 @@ namespace squeal::checkpoint {
 inline constexpr const char* damaged =
     "an entry of the checkpoint is damaged; without -resume the run starts from scratch";
 
-/// The values that all ranks share, which are stored once, and the values of each rank. An archive
-/// is read by the same calls in the same order as those that wrote it.
+/// Stores the values that all ranks share, once, and each rank's own values. An archive is read by
+/// the same calls, in the same order, as those that wrote it.
 class Archive {
  public:
   /// Makes an empty archive to write to.
   explicit Archive(MPI_Comm comm) : comm_(comm) {}
-  /// Takes the bytes that another archive has written. The common part is the same on all ranks.
+  /// Takes the bytes that another archive has written, in order to read them. The common part is
+  /// the same on all ranks.
   Archive(MPI_Comm comm, std::vector<char> commonBytes, std::vector<char> ownBytes)
       : common(std::move(commonBytes), damaged), own(std::move(ownBytes), damaged), comm_(comm) {}
   bool reads() const { return own.reads(); }
   MPI_Comm comm() const { return comm_; }
-  /// Collective. Writes a vector, or creates one with its original layout; null stays null.
+  /// Collective. Writes a vector, or reads one and creates it with its original layout. A null
+  /// vector is read back as null.
   void vector(OwnedVec& values);
 
   Stream common;  ///< the same on all ranks; rank 0 stores it

@@ -21,14 +21,16 @@ namespace squeal::checkpoint {
 /// MPI, so only the same number of ranks can resume from a checkpoint.
 ///
 /// A checkpoint of an earlier run that this run does not resume stays in the folder until this run
-/// writes its first entry. If an entry cannot be written, the run issues a warning and continues.
+/// writes its first entry or is complete. If an entry cannot be written, the run issues a warning
+/// and continues without further checkpoints.
 class Checkpoint {
  public:
   /// Makes a disabled checkpoint without entries.
   Checkpoint() = default;
   /// Collective. With `-resume`, next() reads the entries in the folder, and this constructor
-  /// throws Error if they belong to another run. If there are no entries, the program reports this
-  /// and starts from scratch.
+  /// throws Error if they belong to another run. If there are none, it reports this, and the run
+  /// starts from scratch. Without `-resume`, it warns if the folder contains entries. Also throws
+  /// Error if a link, a device or the like is in the place of the folder or of a checkpoint file.
   Checkpoint(MPI_Comm comm, std::filesystem::path folder, Identity identity,
              const Settings& settings);
 

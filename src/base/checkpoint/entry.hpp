@@ -13,8 +13,8 @@
 
 namespace squeal::checkpoint {
 
-/// The layout of an entry: a head, a table of the parts of the ranks, the common part, and the
-/// parts in the order of the ranks.
+/// The layout of an entry: a head, a table with the size and checksum of each rank's part, the
+/// common part, and the parts in the order of the ranks.
 struct Layout {
   struct Head {
     std::array<char, 8> mark = {'s', 'q', 'u', 'e', 'a', 'l', '0', '1'};

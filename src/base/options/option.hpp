@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A declared option of the user interface, and the stages that options belong to. Each option is
-/// declared once, in the room that uses it, with stage, default, unit, meaning and check.
+/// declared once, next to the code that uses it, with its stage, default, unit, meaning and rule.
 ///
 /// A name has at most one placeholder in angle brackets, e.g. `part_<group>_length`, for a name
-/// from the mesh. All values come from the PETSc options database, which is the same on every rank,
-/// so every Error thrown here is thrown on all ranks.
+/// from the mesh or the case: the subject. All values come from the PETSc options database, which
+/// is the same on every rank, so every Error thrown here is thrown on all ranks.
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -23,7 +23,7 @@ std::size_t stageRank(const std::string& stage);
 class Option {
  public:
   const std::string stage, name, defaultText, unit, meaning, rule;
-  const bool required;  ///< it has no default: reading it throws Error unless it is given
+  const bool required;  ///< there is no default: reading the option throws Error unless it is given
 
   /// Returns the full name, without dash, with `subject` in place of the placeholder.
   std::string fullName(const std::string& subject = {}) const;
@@ -31,7 +31,7 @@ class Option {
   std::string dashed(const std::string& subject = {}) const { return "-" + fullName(subject); }
   /// Returns true if the option is given for this subject.
   bool given(const std::string& subject = {}) const;
-  /// Returns the names given in place of the placeholder, sorted: the <group> of each
+  /// Returns the names given in place of the placeholder, sorted, such as the <group> of each given
   /// `-part_<group>_length`.
   std::vector<std::string> subjects() const;
   /// Returns true if this is the full name (no dash) of this option for some subject.
@@ -45,7 +45,7 @@ class Option {
   static std::vector<const Option*> all();
 
  protected:
-  /// Declares an option. Without `byDefault` it is required wherever it is read.
+  /// Declares an option. Without `byDefault`, the option is required.
   Option(std::string stage, std::string name, std::optional<std::string> byDefault,
          std::string unit, std::string meaning, std::string rule);
   ~Option() = default;
@@ -64,16 +64,17 @@ class Option {
   double number(const std::string& subject, const std::string& value) const;
 };
 
-/// Bounds of the magnitude of nonzero numbers: products of several numbers must neither overflow
+/// Bounds of the magnitude of nonzero numbers, so that products of several numbers neither overflow
 /// nor underflow.
 inline constexpr double smallestMagnitude = 1e-50, largestMagnitude = 1e50;
 /// The largest number of values in one list.
 inline constexpr int longestList = 100'000;
 
-/// Throws Error if an option of this list is given for a subject, but `needed` is not.
+/// Throws Error if an option of this list is given for a subject for which `needed` is not given.
 void requireOption(const std::vector<const Option*>& options, const Option& needed);
 
-/// Returns name and value of every declared option that has been read so far, defaults included.
+/// Returns the name and value of every declared option that has been read so far, including options
+/// that have their default.
 const std::map<std::string, std::string>& resolvedOptions();
 
 }  // namespace squeal

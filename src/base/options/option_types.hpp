@@ -11,7 +11,7 @@
 
 namespace squeal {
 
-/// An interval of real numbers; an open end does not belong to it.
+/// An interval of real numbers, each end closed or open. An open end does not belong to it.
 struct Range {
   double low = -std::numeric_limits<double>::infinity(),
          high = std::numeric_limits<double>::infinity();
@@ -27,7 +27,7 @@ inline constexpr Range nonNegative{0};
 
 class RealOption : public Option {
  public:
-  /// Declares an option. Without `byDefault` it is required wherever it is read.
+  /// Declares an option. Without `byDefault`, the option is required.
   RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit,
              Range range, std::string meaning);
   double get(const std::string& subject = {}) const { return parsed(subject, text(subject)); }
@@ -35,7 +35,7 @@ class RealOption : public Option {
   nlohmann::json valueSchema() const override;
 
  protected:
-  /// Declares an option with the default `none`.
+  /// Declares an option whose default is printed as none.
   RealOption(std::string stage, std::string name, std::string unit, Range range,
              std::string meaning);
 
@@ -91,8 +91,8 @@ class IntegerOption : public Option {
 class VectorValue {
  public:
   VectorValue() = default;
-  /// Returns the components. Throws Error unless three are given; in plane problems two are enough,
-  /// and the third one is then zero.
+  /// Returns the components for a mesh of this dimension. Throws Error unless three are given. In
+  /// plane problems two are enough; the third one is then zero.
   std::array<double, 3> in(int dimension) const;
 
  private:
@@ -118,7 +118,7 @@ inline ListRule sequencesOf(Range range) {
   return rule;
 }
 
-/// Reals separated by commas, with optional blanks around them.
+/// A list of reals separated by commas, with optional blanks around each.
 class RealListOption : public Option {
  public:
   RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit,
@@ -166,7 +166,7 @@ class ChoiceOption : public Option {
 
 class TextOption : public Option {
  public:
-  /// Declares an option. Without `byDefault` it is required wherever it is read.
+  /// Declares an option. Without `byDefault`, the option is required.
   TextOption(std::string stage, std::string name, std::optional<std::string> byDefault,
              std::string meaning);
   std::string get(const std::string& subject = {}) const { return parsed(subject, text(subject)); }
@@ -186,11 +186,11 @@ class TextOption : public Option {
 /// relative to the working folder.
 class FileOption : public Option {
  public:
-  /// Declares an option without default: it is required wherever it is read.
+  /// Declares an option without default, which is required.
   FileOption(std::string stage, std::string name, std::string meaning);
   /// Returns the path to read.
   std::string get(const std::string& subject = {}) const { return text(subject); }
-  /// Collective. Throws Error if rank 0 does not find the file, or cannot read it.
+  /// Collective. Throws Error if rank 0 cannot find or read the file.
   void validate(const std::string& subject) const override;
   nlohmann::json valueSchema() const override;
   /// Returns true if this is the full name (no dash) of a FileOption.

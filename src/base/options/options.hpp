@@ -31,14 +31,15 @@ class SolverPrefix {
 };
 
 /// Collective. Runs `configure()`, which calls PETSc and SLEPc to set up a solver from its options
-/// and returns their error code. If they reject an option, such as an unknown type or a text in
-/// place of a number, throws Error with a list of the options given to solvers. If no such option
-/// is given, or if the failure is of another kind, passes the code to check().
+/// and returns their error code. If PETSc or SLEPc rejects an option, such as an unknown type or a
+/// text in place of a number, throws Error with the options given to solvers, or only with those
+/// whose value is in PETSc's message. If no option is given to a solver, or if the failure is of
+/// another kind, passes the code to check().
 void applySolverOptions(const std::function<PetscErrorCode()>& configure);
 
-/// Collective. Call it before any work is done. Throws Error, with the nearest known name, for an
-/// option that neither this program nor PETSc knows. Also throws Error for a value of a declared
-/// option that violates its rule.
+/// Collective. Call it before any work is done. Throws Error, with a similar known name if there is
+/// one, for an option that neither this program nor PETSc knows. Also throws Error for a value of a
+/// declared option that violates its rule.
 void rejectUnknownOptions();
 
 /// Not collective. Call it at the end of a run. Returns a line for each given option that was never

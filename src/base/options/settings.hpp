@@ -4,9 +4,9 @@
 /// reads all options. They are inserted into PETSc's options database in the order in which they
 /// are given, so the last setting of an option takes effect.
 ///
-/// Options and options files have the names and the meaning that they have in PETSc. PETSc's own
-/// readers are not used because they skip words that belong to no option, stop at a NUL byte, and
-/// end the run with a traceback on a syntax error.
+/// The options that name options files, and the format of these files, are those of PETSc. PETSc's
+/// own readers are not used because they skip words that belong to no option, stop at a NUL byte,
+/// and end the run with a traceback on a syntax error.
 #include <mpi.h>
 
 #include <map>
@@ -15,7 +15,7 @@
 
 namespace squeal {
 
-/// A value of an option, as given in one place.
+/// An option with its value, as given in one place.
 struct Setting {
   std::string name, value;  ///< name without the dash; the value is empty if only the name is given
   std::string file;         ///< options file that contains it; empty outside of files
@@ -41,9 +41,9 @@ std::vector<Setting> settingsOfText(const std::string& text);
 /// for a file without options.
 std::vector<Setting> settingsOfFile(const std::string& file);
 
-/// Returns where to find a file whose path is given in the options file `namedIn`: relative to the
-/// folder of `namedIn` or, if the file is not there, to the working folder. `namedIn` is empty if
-/// the path is given on the command line.
+/// Returns the path at which to open a file that the options file `namedIn` names by `path`. `path`
+/// is relative to the folder of `namedIn` or, if the file is not there, to the working folder.
+/// `namedIn` is empty if `path` is given on the command line.
 std::string located(const std::string& path, const std::string& namedIn);
 
 /// Collective. Returns the settings of rank 0 on all ranks.
@@ -58,23 +58,24 @@ void clearOptions();
 /// Not collective. Removes the option of this name on this rank.
 void removeOption(const std::string& name);
 
-/// Returns name and value of every given option, including those of PETSc. Borrowed until the next
-/// insert().
+/// Returns the name and value of every given option, including those of PETSc. Borrowed until the
+/// next insert().
 const std::map<std::string, std::string>& givenOptions();
 
 /// Collective. Reads an options file on rank 0 and inserts its settings on all ranks.
 void insertFile(MPI_Comm comm, const std::string& file);
 
-/// Returns the setting that gave the option this value; a setting without a file if the option does
-/// not have this value.
+/// Returns the last setting of the option if it gave this value; otherwise a setting with this
+/// value and without a file.
 Setting origin(const std::string& name, const std::string& value);
 
-/// Returns a text such as "option -a 2 (case.yaml, line 3)". An empty `value` is omitted. The place
-/// in parentheses is that of the value `given`, if it was given in a file.
+/// Returns a text such as "option -a 2 (case.yaml, line 3)". An empty `value` is omitted. The
+/// parentheses give the place where a file sets the option to `given`; they are omitted if there is
+/// none.
 std::string optionText(const std::string& name, const std::string& value, const std::string& given);
 
-/// Returns a line for each setting of a file that a later setting has overridden: "option -a 2
-/// replaces 1 (case.yaml, line 3)".
+/// Returns a line for each setting of a file that a later setting has replaced by another value:
+/// "option -a 2 replaces 1 (case.yaml, line 3)".
 std::vector<std::string> replacedSettings();
 
 /// Returns the line of an options file that sets this option, with quotes if the value needs them.

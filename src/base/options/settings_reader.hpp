@@ -16,16 +16,16 @@ struct Word {
   int line = 0;  ///< line in the file, from 1; 0 outside of files
 };
 
-/// Returns true if PETSc takes the word, with its dash, for the name of an option.
+/// Returns true if PETSc interprets the word, which includes the dash, as the name of an option.
 bool isName(const std::string& word);
 
 /// Returns the words of a text that has no comments, as if it were one line: line breaks separate
-/// words like blanks. Throws Error, with `name` and the line, for a quote that is not closed and
-/// for a control character.
+/// words as blanks do. Throws Error, with `name` and the line, if a quote is not closed or a word
+/// contains a control character.
 std::vector<Word> wordsOfText(const std::string& text, const std::string& name);
 
-/// Removes `-skip_petscrc [flag]` from the words. Returns the flag, the last one if there are
-/// several.
+/// Removes every `-skip_petscrc [flag]` from the words. Returns the last flag, where a missing flag
+/// means true; returns false if the option is not given.
 bool takeSkip(std::vector<Word>& words);
 
 /// Collects the settings of several sources in order. Throws Error, with file and line, for text
@@ -35,8 +35,8 @@ class SettingsReader {
   /// Reads the words of a command line, or of a file.
   void readWords(const std::vector<Word>& words, const std::string& file);
   void readYaml(const std::string& text, const std::string& name);
-  /// Reads a file that PETSc reads by default, if it exists. Throws Error if it exists but cannot
-  /// be read.
+  /// Reads one of PETSc's resource files, if it exists. Throws Error if it exists but cannot be
+  /// read.
   void readIfThere(const std::string& file);
   /// Returns the settings. Throws Error if there are more than PETSc's database can store, or if
   /// two names differ only in upper and lower case.

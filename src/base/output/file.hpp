@@ -17,21 +17,21 @@ class WriteError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns "cannot write PATH: reason" with the reason of an errno value, or no reason for 0.
+/// Returns "cannot write PATH: reason" with the reason of an errno value; without a reason for 0.
 std::string cannotWrite(const std::filesystem::path& path, int error);
 
 /// Not collective. Creates a file, or empties an existing one, and returns the descriptor for
 /// writing. Throws WriteError if this fails. Also throws it if the path is a link, has a second
-/// name or is not a regular file, since the content may then belong to another user.
+/// name (a hard link) or is not a regular file, since the content may then belong to another user.
 int openToWrite(const std::filesystem::path& path, int flags = O_WRONLY);
 
-/// Not collective. Writes the text as the whole content of a file, opened by openToWrite(). Throws
+/// Not collective. Opens a file by openToWrite() and writes the text as its whole content. Throws
 /// WriteError.
 void writeFile(const std::filesystem::path& path, const std::string& text);
 
-/// Not collective. Creates an empty file and reserves `bytes` on the disk. Use it for a file that
-/// is written by a library that follows links and handles a full disk badly. It is not an error if
-/// the file system cannot reserve space. Throws WriteError.
+/// Not collective. Creates an empty file and reserves `bytes` on the disk. Use it before a library
+/// that follows links and handles a full disk badly writes the file. It is not an error if the file
+/// system cannot reserve space. Throws WriteError.
 void reserve(const std::filesystem::path& path, unsigned long long bytes);
 
 /// Not collective. Waits until the content of a file, or the entries of a folder, are on the disk.

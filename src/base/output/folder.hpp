@@ -22,17 +22,17 @@ struct Naming {
   std::string last;    ///< the file whose presence shows that the others are complete
   /// Returns true if a run may write this path, relative to the folder: a file or a subfolder.
   std::function<bool(const std::filesystem::path&)> mayWrite;
-  /// Files, relative to the folder, whose presence marks the folder as one of this program. The
-  /// manifest and the remains of a killed run are marks too.
+  /// Files, relative to the folder, whose presence marks the folder as one of this program. Its
+  /// manifest and the remains of a killed run mark it too.
   std::vector<std::filesystem::path> marks = {};
   /// Files that this run has already opened, and that may be in the folder.
   std::vector<std::filesystem::path> opened = {};
   bool ofCase = false;  ///< a case names the folder, so it may contain anything
-  bool inside = false;  ///< it is in a folder of this program, and must not be a link
+  bool inside = false;  ///< the folder is in a folder of this program, and must not be a link
 };
 
 /// A run writes its files to staging(); once all are complete, they replace those of the earlier
-/// run, which the manifest lists. Without commit() the folder stays as it was, also after errors,
+/// run, which the manifest lists. Without commit() the folder stays as it was, even after errors,
 /// signals and MPI_Abort; after SIGKILL the next run restores it.
 ///
 /// commit() takes effect when it renames .partial to .complete. If the run is killed before this,
@@ -43,8 +43,8 @@ struct Naming {
 class Folder {
  public:
   /// Collective. Creates the folder if necessary and locks it. Completes the interrupted commit of
-  /// a killed run and removes the remains of that run. Throws Error if the run may not (claim.hpp)
-  /// or cannot write to the folder, if another run is writing to it, or if a file that belongs to
+  /// a killed run and removes the remains of that run. Throws Error if this run cannot write to the
+  /// folder or must not (claim.hpp), if another run is writing to it, or if a file that belongs to
   /// no run has a name that this run may write.
   Folder(MPI_Comm comm, Naming naming, std::filesystem::path path);
   ~Folder();
@@ -57,11 +57,12 @@ class Folder {
   /// Collective. Creates the staging folder. Throws Error if it cannot be created.
   void stage();
   /// Collective. Replaces the earlier files by the new ones. Call it after all ranks have written.
-  /// Throws Error if a file of the user is in the way, or if the disk is full. If .partial was not
-  /// yet renamed, the earlier results then stay; otherwise the next run moves the new ones into
+  /// Throws Error if a file of the user is in the way, or if the disk is full. The earlier results
+  /// then stay if .partial has not been renamed yet; otherwise the next run moves the new ones into
   /// place.
   void commit();
-  /// Collective. Removes the files of the earlier run, and the folder if it is then empty.
+  /// Collective. Removes the files of the earlier run. The destructor then removes the folder if it
+  /// is empty.
   void discard();
 
  private:

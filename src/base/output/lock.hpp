@@ -27,9 +27,9 @@ class Lock {
   /// if another run has the lock or the file cannot be created. Issues a warning if the file system
   /// cannot lock.
   void acquire(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head);
-  /// Not collective. Releases the lock. The last rank first calls `asLast` and removes the file.
-  /// Each of the other ranks waits up to `patience` for the last rank to finish, and acts in its
-  /// place if it dies meanwhile.
+  /// Not collective. Releases the lock. The last rank to do so first calls `asLast` and removes the
+  /// file. Each of the other ranks waits up to `patience` for the last rank to finish, and acts in
+  /// its place if it dies meanwhile.
   void release(
       const std::function<void()>& asLast = [] {}, std::chrono::milliseconds patience = {});
 

@@ -29,10 +29,10 @@ class Manifest {
   bool lists(const std::filesystem::path& path) const {
     return files_.contains(path) || folders_.contains(path);
   }
-  /// Adds a folder of an earlier run that stays because it contains files of the user. In text(),
+  /// Adds a folder of an earlier run that remains because it contains files of the user. In text(),
   /// its path ends with a slash.
   void retain(const std::filesystem::path& folder);
-  /// Returns the content of the file.
+  /// Returns the content of the manifest's file.
   std::string text() const;
 
  private:

@@ -10,7 +10,7 @@ namespace squeal {
 /// The entries of a vector on this rank. The object borrows the vector, and must be destroyed
 /// before the vector is destroyed or used in any other way. A rank may construct a ReadArray
 /// independently of the other ranks. All ranks must construct a WriteArray together, because PETSc
-/// caches the norms of a vector and discards them only on ranks that have written.
+/// caches the norms of a vector and discards them only on ranks that construct a WriteArray.
 template <class Value, PetscErrorCode (*take)(Vec, Value**),
           PetscErrorCode (*giveBack)(Vec, Value**)>
 class BorrowedArray {

@@ -15,8 +15,8 @@ namespace squeal {
 /// (lack of memory) or the PETSc traceback, and ends all ranks by MPI_Abort.
 void check(PetscErrorCode code, std::source_location where = std::source_location::current());
 
-/// Stores the first PETSc error during the object's lifetime as text, and suppresses its traceback.
-/// Only one object may exist at a time.
+/// Stores the first PETSc error during the object's lifetime, and suppresses its traceback. Only
+/// one object may exist at a time. Requires the handler of reportLackOfMemoryInOneLine().
 class CapturedError {
  public:
   CapturedError();
@@ -26,8 +26,8 @@ class CapturedError {
   PetscErrorCode code() const { return code_; }
   /// Returns PETSc's message, such as "Unknown EPS type given: foo".
   const std::string& message() const { return message_; }
-  /// Stores the first error in the existing object. The error handler calls this function. Returns
-  /// false if no object exists.
+  /// Stores an error in the existing object unless it already has one; called by the error handler.
+  /// Returns false if no object exists.
   static bool record(PetscErrorCode code, const char* message);
 
  private:
@@ -35,14 +35,15 @@ class CapturedError {
   std::string message_;
 };
 
-/// Suppresses PETSc's traceback of failed allocations from here on.
+/// Installs an error handler that suppresses PETSc's traceback of failed allocations and fills
+/// CapturedError.
 void reportLackOfMemoryInOneLine();
 
 /// Returns true if the error code of a PETSc call means that an allocation has failed.
 bool lacksMemory(PetscErrorCode code);
 
-/// Makes OpenBLAS allocate its workspace, once for all calls of this thread; ends the run if there
-/// is not enough memory. OpenBLAS itself would retry forever.
+/// Makes OpenBLAS allocate its workspace, once for all calls of this thread. Ends the run if there
+/// is not enough memory, since OpenBLAS itself would retry forever.
 void allocateBlasWorkspace();
 
 }  // namespace squeal

@@ -49,9 +49,9 @@ class LoggedStage {
 struct Traffic {
   double messages = 0;
   double bytes = 0;
-  double reductions = 0;  ///< reductions and broadcasts that this rank took part in
+  double reductions = 0;  ///< number of reductions and broadcasts that this rank took part in
 };
-/// Not collective.
+/// Not collective. Returns the totals of this rank.
 Traffic trafficSoFar();
 
 /// The work with sparse matrices so far, which determines the cost of a run; the same on all ranks.
@@ -60,7 +60,7 @@ struct SparseWork {
   long rightHandSides = 0;  ///< right-hand sides solved with MUMPS factors
   long projections = 0;     ///< products Tᵀ X T with the transformation T of the contact
 };
-/// Not collective. Returns the record. Code that does such work must add the work to it.
+/// Not collective. Returns the record. Code that does such work must count it there.
 SparseWork& sparseWork();
 
 }  // namespace squeal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Views of PETSc handles as objects.
+/// PETSc handles as PetscObjects, and their communicators.
 #include <petscsys.h>
 
 namespace squeal {
 
-/// Returns a Mat, Vec, KSP, … as an object, for the functions of PETSc that take any object.
+/// Returns a Mat, Vec, KSP, … as a PetscObject, for PETSc functions that take any object.
 template <class Handle>
 PetscObject object(Handle* handle) {
   return reinterpret_cast<PetscObject>(handle);

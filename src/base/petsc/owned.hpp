@@ -46,7 +46,7 @@ class Owned {
   Handle handle_ = nullptr;
 };
 
-/// Returns an owned Mat, Vec, KSP, … as an object, for the functions of PETSc that take any object.
+/// Returns an owned Mat, Vec, KSP, … as a PetscObject, for PETSc functions that take any object.
 template <class Handle, PetscErrorCode (*destroy)(Handle*)>
 PetscObject object(const Owned<Handle, destroy>& owned) {
   return object(owned.get());

@@ -10,9 +10,9 @@ namespace squeal {
 class Session {
  public:
   /// Collective. Starts MPI, PETSc and SLEPc. The options database then contains the options of the
-  /// command line, of options files and of the environment, or none with `-help` and `-version`. If
-  /// these options cannot be read, the constructor prints one line and ends the program with exit
-  /// code 1.
+  /// command line, of options files and of the environment, or none with `-help`, `-help_json` or
+  /// `-version`. If these options cannot be read, the constructor prints one line and ends the
+  /// program with exit code 1.
   Session(int argc, char** argv);
   /// Collective. Ends SLEPc, PETSc and MPI.
   ~Session();
@@ -25,12 +25,12 @@ class Session {
   /// Returns true if `-help` was given: the program then prints the manual and ends.
   bool helpWanted() const { return helpWanted_; }
   bool helpJsonWanted() const { return helpJsonWanted_; }
-  /// Returns the stage given after -help; empty for the whole manual.
+  /// Returns the stage given after `-help` or `-help_json`; empty for the whole manual.
   const std::string& helpStage() const { return helpStage_; }
   /// Returns true if `-version` was given.
   bool versionWanted() const { return versionWanted_; }
-  /// Returns false if no option is given on the command line, in the environment or in PETSc's
-  /// resource files, and always with `-help` or `-version`.
+  /// Returns true if an option is given on the command line, in the environment or in PETSc's
+  /// resource files; always false with `-help`, `-help_json` or `-version`.
   bool optionsGiven() const { return optionsGiven_; }
 
  private:

@@ -64,8 +64,8 @@ int outputError();
 /// Not collective. Prints a warning on the standard error output of rank 0, also with -quiet.
 void printWarning(MPI_Comm comm, const std::string& text);
 /// Not collective. Returns all finished stages in order; borrowed. If a stage finishes several
-/// times, for example once per friction, its record contains the sum of the times and the last
-/// memory value.
+/// times, for example once per friction, its record contains the last memory value and the sums of
+/// all other values.
 const std::vector<StageRecord>& stageRecords();
 
 }  // namespace squeal

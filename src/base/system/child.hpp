@@ -14,13 +14,13 @@
 
 namespace squeal {
 
-/// Work whose result is bytes, such as those of a Stream.
+/// Work that returns bytes, such as those of a Stream.
 using ChildWork = std::function<std::vector<char>(const Warn&)>;
 
 /// Not collective. Runs `work` in a child process and returns its result. The child starts as a
 /// copy of this process, and its memory is freed when it exits; `work` must not call MPI. Throws
-/// Error if the child cannot be started, crashes or reaches a limit. If `work` throws an exception,
-/// throws Error with its message.
+/// Error if the child cannot be started, crashes or reaches a limit. Also throws Error, with the
+/// message of the exception, if `work` throws one.
 std::vector<char> inChild(const ChildLimits& limits, const ChildWork& work);
 
 /// Not collective. Starts the program `name` of this installation as a child process, which

@@ -10,7 +10,7 @@ namespace squeal {
 /// Prints a warning at once, on the standard error output.
 using Warn = std::function<void(const std::string&)>;
 
-/// The limits of a child process, and texts for the messages about it.
+/// The limits of a child process, and texts for messages about the process.
 struct ChildLimits {
   std::string subject;  ///< beginning of all messages except those that the work throws
   std::optional<double> processorSeconds;  ///< limit of processor time, s; none = no limit

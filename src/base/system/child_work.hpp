@@ -13,7 +13,7 @@ namespace squeal {
 enum class Outcome : char {
   result,
   failure,    ///< the content is the message of an exception
-  noMemory,   ///< empty
+  noMemory,   ///< the content is empty
   notStarted  ///< the content is errno, an int
 };
 
@@ -27,12 +27,12 @@ void answer(int pipe, Outcome outcome, const char* bytes, std::size_t count);
 void resetSignals();
 
 /// Redirects the standard input and both outputs of this process to /dev/null. This hides the lines
-/// that the C library prints on a crash, which the parent reports itself. Warnings still reach the
+/// that the C library prints on a crash; the parent reports the crash. Warnings still reach the
 /// former error output.
 void closeOutputs();
 
-/// Does the work under the limits, writes its outcome to the pipe, and exits. It does not flush or
-/// finalise anything. Call closeOutputs() before.
+/// Does the work under the limits, writes its outcome to the pipe, and exits without flushing or
+/// finalising anything. Call closeOutputs() first.
 [[noreturn]] void workAndExit(int pipe, const ChildLimits& limits,
                               const std::function<std::vector<char>(const Warn&)>& work);
 
@@ -40,11 +40,12 @@ void closeOutputs();
 /// input and sends the answer to its standard output.
 class Assignment {
  public:
-  /// The work, a function of the bytes of a job.
+  /// The work: takes the bytes of a job and returns those of the result.
   using Work = std::function<std::vector<char>(std::vector<char> job, const Warn&)>;
 
-  /// Reads the job, and closes the standard input and outputs. Prints a line and exits unless
-  /// inProgram() of this version of the program has written the job.
+  /// Reads the job, and closes the standard input and outputs. If inProgram() of this version of
+  /// the program has not written the job, reports this and exits. The report is an answer or, if
+  /// the standard input is a terminal, a printed line.
   Assignment();
   /// Does the work within the limits that came with the job, and exits.
   [[noreturn]] void perform(const Work& work);

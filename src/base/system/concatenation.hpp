@@ -35,7 +35,7 @@ class Concatenation {
     return all;
   }
 
-  /// Collective. Does the same for entries of `count` doubles each, in one message.
+  /// Collective. Does the same for entries of `count` doubles each, which are sent in one message.
   void gather(const double* own, double* all, int count) const {
     gatherBytes(own, all, count * static_cast<int>(sizeof(double)));
   }

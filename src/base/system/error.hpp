@@ -23,7 +23,7 @@ class Error : public std::runtime_error {
 
 /// Not collective. Ends all ranks by MPI_Abort with one line on stderr if `holds` is false. Use it
 /// for invariants of the code, such as matching sizes of matrices: a failure is a defect of the
-/// program. Every build makes these checks, so use it only where the check costs little.
+/// program. Every build makes these checks, so use ensure() only where the check costs little.
 inline void ensure(bool holds, const char* rule,
                    std::source_location where = std::source_location::current());
 /// Not collective. Reports a violated invariant and ends all ranks.

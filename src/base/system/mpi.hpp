@@ -35,8 +35,8 @@ int rank(MPI_Comm comm);
 /// Not collective. Returns the number of ranks.
 int size(MPI_Comm comm);
 
-/// Not collective. Returns the number of reductions and broadcasts of this file that this rank has
-/// taken part in so far, on communicators with several ranks.
+/// Not collective. Returns the number of reductions and broadcasts by the functions of this file
+/// that this rank has taken part in so far, on communicators with several ranks.
 double reductionsSoFar();
 
 /// Collective. Replaces `count` values of a type by their reductions over all ranks. `count` may

@@ -4,16 +4,16 @@
 
 namespace squeal {
 
-/// Returns the memory available to this process, in bytes: the free memory of the machine or, if it
-/// is less, of the control group.
+/// Returns the memory available to this process, in bytes: the free memory of the machine or of the
+/// process's control group, whichever is less.
 double availableMemory();
 
 /// Returns the size of the address space of this process, in bytes.
 double addressSpace();
 
 /// Makes the C library retain some of the freed memory. The program allocates and frees many blocks
-/// of columns. Otherwise the kernel would clear their pages each time, which takes 1/40 of the time
-/// of a run.
+/// of columns, and otherwise the kernel would clear their pages each time. This would take 1/40 of
+/// the time of a run.
 void retainFreedMemory();
 
 }  // namespace squeal

@@ -53,14 +53,14 @@ class Stream {
   std::vector<char> bytes() && {
     return written_.empty() ? std::move(bytes_) : std::as_const(*this).bytes();
   }
-  /// Not collective. Writes bytes without a copy: the stream borrows them and shares `owner` during
-  /// its lifetime.
+  /// Not collective. Writes bytes without a copy: during its lifetime the stream borrows them and
+  /// shares `owner`, which keeps them valid.
   void borrow(std::span<const char> bytes, std::shared_ptr<const void> owner = {}) {
     written_.push_back({std::move(bytes_), bytes, std::move(owner)});
     bytes_.clear();
   }
   /// Not collective. Writes `size` bytes from `data`, or reads `size` bytes into `data`. Throws
-  /// Error if fewer are left.
+  /// Error if fewer are left to read.
   void raw(void* data, std::size_t size) {
     if (!reads_) {
       const auto* from = static_cast<const char*>(data);

@@ -50,7 +50,7 @@ bool stopRequested();
 /// Collective. Throws Interrupted on all ranks once a stop has been requested on any of them.
 void stopIfRequested(MPI_Comm comm);
 
-/// Does the work. Returns false if it throws Interrupted; its results so far remain.
+/// Does the work. Returns false if the work throws Interrupted; its results so far remain.
 bool completed(const std::function<void()>& work);
 
 /// Returns true once a stop has been requested on any rank.
@@ -59,22 +59,23 @@ using StopRequested = std::function<bool()>;
 /// Collective. Runs work(stopRequested) independently on each rank: the work makes no collective
 /// calls, and may take longer on one rank than on another. The work must call stopRequested(),
 /// which is cheap, at short intervals, and must return or throw Interrupted once stopRequested()
-/// returns true. If a stop has been requested on any rank, this function throws Interrupted on all
-/// ranks. Otherwise, if the work throws Error on any rank, it throws Error on all ranks.
+/// returns true. If a stop has been requested on any rank, workIndependently() throws Interrupted
+/// on all ranks. Otherwise, if the work throws Error on any rank, it throws Error on all ranks.
 void workIndependently(MPI_Comm comm,
                        const std::function<void(const StopRequested& stopRequested)>& work);
 
 /// Handles the signals by which batch systems, mpirun and the terminal end the program. SIGUSR1 and
-/// SIGTERM request a stop at the next possible point, see stopRequested(). For all other signals
-/// (SIGINT, SIGHUP, …), a thread runs the termination handlers, reports the signal in one line on
-/// rank 0, and ends the process by this signal. It does the same for a SIGTERM that comes some
-/// seconds after a first request, or that SIGKILL is expected to follow at once. Signals that are
-/// already ignored (nohup) stay ignored. A write to a closed pipe or beyond the file size limit
-/// only makes that write fail.
+/// SIGTERM request a stop at the next possible point, see stopRequested(). For the others (SIGINT,
+/// SIGHUP, …), a thread runs the termination handlers, reports the signal in one line on rank 0,
+/// and ends the process by this signal. It does the same for a SIGTERM more than 5 s after the
+/// first request, or if mpirun is expected to send SIGKILL too soon after SIGTERM. Signals that are
+/// already ignored (nohup) remain ignored. A write to a closed pipe or beyond the file size limit
+/// only makes that write fail. A crash (SIGSEGV, SIGABRT, …) is reported in one line, without the
+/// termination handlers.
 class SignalWatch {
  public:
-  /// Records which signals are ignored, and whether mpirun started the run. Construct it before MPI
-  /// and PETSc start, which set their own variables and handlers.
+  /// Records which signals are ignored, and whether mpirun started the run. Construct the object
+  /// before MPI and PETSc start, because they set their own variables and handlers.
   SignalWatch();
   /// Installs the handlers. Call it after PETSc has started. Throws Error if a pipe cannot be
   /// created.
@@ -82,7 +83,7 @@ class SignalWatch {
 
  private:
   unsigned long ignored_ = 0;  ///< a bit per signal
-  bool hasTime_;               ///< there is time to stop after SIGTERM
+  bool hasTime_;               ///< SIGTERM leaves the run time to stop
 };
 
 }  // namespace squeal

@@ -10,7 +10,8 @@ namespace squeal {
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 /// Returns the words with the separator between them.
 std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
-/// Returns the parts between the separators, empty parts included; none for an empty text.
+/// Returns the parts of the text between the separators, empty parts included; none for an empty
+/// text.
 std::vector<std::string> split(const std::string& text, char separator);
 /// Returns the text without leading and trailing blanks, tabs and line breaks.
 std::string trimmed(const std::string& text);

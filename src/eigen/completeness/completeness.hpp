@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The proof that the lists of a sweep are complete (docs/method.md, section 13).
+/// The proof that the lists of eigenvalues of a sweep are complete (docs/method.md, section 13).
 #include <vector>
 
 #include "eigen/completeness/friction_factors.hpp"
@@ -13,17 +13,17 @@ namespace squeal::completeness {
 
 /// The points of a sweep that have the same active set.
 struct ProvedSet {
-  std::vector<PetscInt> rows;  ///< rows of FrictionFactors that the set uses, ascending
+  std::vector<PetscInt> rows;  ///< rows of FrictionFactors that the active set uses, ascending
   std::vector<reduction::PointProblem> problems;  ///< the problems of the points; at least one
   std::vector<pencil::ComplexModes*> points;      ///< [problem] its solution, borrowed
 };
 
-/// Collective. Extends the basis by K0⁻¹ Sᵀ, the static responses to forces along the slip rows S.
-/// Sets ComplexModes::completeness of each point and, where it is proved, the radius of each of its
-/// eigenvalues. `modes` are the free modes of `system`, which has only the interior unknowns
-/// (subspace::Substructure). The proof needs the number of these modes up to well above the band.
-/// If their number is confirmed only up to slightly above the band, they are counted again at a
-/// higher frequency.
+/// Collective. Extends the basis by K0⁻¹ Sᵀ, the static responses to forces along the slip rows S
+/// of `factors`. Sets ComplexModes::completeness of each point and Eigenvalue::radius of each
+/// eigenvalue for which a disc is proved. `modes` are the free modes of `system`, which has only
+/// the interior unknowns (subspace::Substructure). The proof needs the number of these modes up to
+/// well above the band. If their number is confirmed only up to slightly above the band, they are
+/// counted again at a higher frequency.
 void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
            const modes::Modes& modes, const FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings);

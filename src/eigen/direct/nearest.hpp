@@ -27,7 +27,7 @@ struct NearestPairs {
 /// A solver for the eigenvalues nearest to zero at one point of the sweep.
 class NearestSolver {
  public:
-  /// Collective. Assembles the matrices of all powers of s at this point.
+  /// Collective. Assembles the matrix of each power of s at this point.
   NearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at);
   virtual ~NearestSolver() = default;
   /// Collective. Returns at least the `count` eigenvalues nearest to zero, or all if there are
@@ -54,8 +54,8 @@ class NearestSolver {
   /// eigenvalues have converged.
   virtual NearestPairs collected(PetscInt count) = 0;
   NearestPairs krylov(PetscInt count);
-  /// Collective. Runs SLEPc's solver. Returns an empty text or, if LAPACK fails, its message;
-  /// SLEPc's solver then no longer exists.
+  /// Collective. Runs SLEPc's solver. Returns an empty text on success. If LAPACK fails, destroys
+  /// SLEPc's solver and returns its message.
   std::string lapackFailure();
   NearestPairs whole() const;
   int runs_ = 0;  // number of start vectors used so far

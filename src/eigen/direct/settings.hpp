@@ -8,7 +8,7 @@ namespace squeal::direct {
 /// Options of the direct method.
 struct Settings {
   int count = 100;        ///< `-flutter_direct_count`: eigenvalues nearest to zero
-  int limit = 2000;       ///< `-flutter_direct_limit`: largest number of eigenvalues in the band
+  int limit = 2000;       ///< `-flutter_direct_limit`: largest number of eigenvalues for a band
   double low = 0;         ///< lower end of `-flutter_direct_band`, rad/s
   double high = 0;        ///< upper end of the band, rad/s; 0 = no band
   bool confirmed = true;  ///< `-flutter_direct_confirm`: repeat until no new eigenvalue is found

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The free vibration of the ideal associated system [4.17],
+/// The free vibration of the ideal associated system (associated_system.hpp), [4.17],
 ///   (K0 − ω² M0) d = 0,
 /// whose modes start the basis of the reduced problem.
 #include <string>
@@ -38,17 +38,18 @@ struct TopCount {
 /// factorisation. `modes` must not be empty.
 TopCount countAtTop(const factor::AssociatedSystem& system, const Modes& modes);
 
-/// How the log names a computation of modes.
+/// The name of a computation of modes in the log.
 struct Label {
   std::string stage = "modes";
-  std::string subject = "";  ///< text at the beginning of the line of the stage
+  std::string subject = "";  ///< text at the beginning of the result in the stage's line
 };
 
 /// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
 /// Unless options select one of these, LAPACK is used in two cases: if most modes of a small
 /// problem are requested, and if EPS has missed modes of a problem with at most 2000 unknowns. An
-/// unconfirmed count is not an error. Throws Error if a given count exceeds the number of unknowns,
-/// if the solver does not converge, or if an eigenvalue is not positive within round-off.
+/// unconfirmed count is not an error. Throws Error if a given count exceeds the number of unknowns
+/// with mass, if the solver does not converge, or if an eigenvalue is not positive within
+/// round-off.
 Modes compute(const factor::AssociatedSystem& system, const Settings& settings,
               const Label& label = {});
 

@@ -23,7 +23,7 @@ struct RitzPairs {
   std::vector<double> value;     ///< θ, descending
   std::vector<double> residual;  ///< ‖S x − θ x‖_M
   /// [k × k]: coordinates of the M-orthonormal Ritz vectors x, followed by those of b directions
-  /// that are orthogonal to all x and span their residuals.
+  /// that are M-orthogonal to all x and span their residuals.
   linalg::DenseMatrix vectors;
   linalg::DenseMatrix coupling;  ///< [b × pairs] coordinates of the residuals in these directions
 };
@@ -80,7 +80,7 @@ class RationalLanczos {
   PetscInt width_, limit_ = 0, rows_ = 0, unknowns_ = 0, size_ = 0;  // width_ is b
   int solves_ = 0;
   PetscScalar* columns_ = nullptr;  // of V
-  int sinceChange_ = 0;             // steps with this pole since the last restart
+  int sinceChange_ = 0;             // steps since the last restart or change of the pole
   double distance_ = 0;             // of the last pole
   bool massIsOfLast_ = false;       // M W is M times the last block
   linalg::Block w_, mw_;            // W and M W

@@ -9,10 +9,10 @@
 namespace squeal::pencil {
 
 /// Returns the top of the band, rad/s. `frequencies` are the angular frequencies of the free modes,
-/// rad/s, ascending and not empty. The top is `requested` if this is positive, otherwise the
-/// frequency at 55 % of the list. In both cases it is kept below the highest mode, unless all modes
-/// are equal. Only eigenvalues that have been found are corrected, so an eigenvalue above all modes
-/// could be missed without notice.
+/// rad/s, ascending and not empty. The top is `requested` if this is positive; otherwise it lies
+/// just above the mode at 55 % of the list. A top above the highest mode is lowered to just below
+/// this mode, unless all modes are equal. Only eigenvalues that have been found are corrected, so
+/// an eigenvalue above all modes could be missed without notice.
 double bandBelow(const std::vector<double>& frequencies, double requested = 0);
 
 /// The band and the guard zone around it [M.43], whose eigenvalues are tracked too.
@@ -20,7 +20,7 @@ struct WatchedBand {
   double top = 1e300;    ///< largest |s| in the band, rad/s
   double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top` and of `damping`
   double damping = 0.5;  ///< largest damping ratio in the band
-  double origin = 0.1;   ///< all eigenvalues up to this multiple of `top` are watched, however
+  double origin = 0.1;   ///< eigenvalues up to this multiple of `top` are watched even if strongly
                          ///< damped, as a real one may pass through zero
   /// Returns true if s, with Im s ≥ 0, is in the band.
   bool contains(Complex s) const { return std::abs(s) <= top && lasts(s); }
@@ -33,8 +33,8 @@ struct WatchedBand {
   bool lasts(Complex s) const { return -s.real() <= damping * std::abs(s); }
 };
 
-/// Returns the band with the top of bandBelow() for these frequencies of the free modes, and with
-/// the largest damping ratio of the limits.
+/// Returns the band with the top from bandBelow() for these frequencies of the free modes, and with
+/// `limits.damping`.
 WatchedBand bandFor(const std::vector<double>& frequencies, const BandLimits& limits);
 
 }  // namespace squeal::pencil

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The results of the friction-perturbed eigenproblem (paper, section 4): the unstable modes, the
-/// frictions at which they flutter, and their growth rates.
+/// The results of the friction-perturbed eigenproblem (section 4 of the paper that docs/method.md
+/// cites): eigenvalues with their verdicts, complex modes, sensitivities and critical modes.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -15,15 +15,16 @@
 
 namespace squeal::pencil {
 
-/// The stability of an eigenvalue, given its error [M.24].
+/// The stability of an eigenvalue, given its error [M.24]. The excess is its growth rate minus the
+/// threshold, `-flutter_unstable_tolerance` times |s|, which is zero by default.
 enum class Verdict {
-  unstable,    ///< it grows
-  stable,      ///< it decays
-  undecided,   ///< the estimated error exceeds the magnitude of the growth rate
-  neutral,     ///< it neither grows nor decays: it lies on the imaginary axis
-  uncertified  ///< it has no error estimate
+  unstable,    ///< the excess is positive, beyond the error
+  stable,      ///< the excess is negative, beyond the error
+  undecided,   ///< the magnitude of the excess is within the error
+  neutral,     ///< by a symmetry of the problem, the eigenvalue lies on the imaginary axis
+  uncertified  ///< there is no error estimate
 };
-/// All verdicts in the order of their numbers.
+/// All verdicts in the order of the enumeration.
 inline constexpr std::array allVerdicts{Verdict::unstable, Verdict::stable, Verdict::undecided,
                                         Verdict::neutral, Verdict::uncertified};
 /// Returns the word for the verdict in tables and texts.
@@ -39,15 +40,15 @@ enum class Symmetry {
 /// An eigenvalue s of the pencil with estimates of its error.
 struct Eigenvalue {
   Complex s;                 ///< growth rate + i angular frequency, 1/s
-  double backwardError = 0;  ///< backward error of the full-order problem [M.33]
+  double backwardError = 0;  ///< backward error in the full-order problem [M.33]
   double error = 0;          ///< estimate of |δs|, 1/s; NaN: none (direct method)
   bool certified = false;    ///< the known errors are within their tolerances
   /// Radius of a disc about s that is proved to contain exactly one eigenvalue of the full problem,
   /// 1/s; NaN if no such disc is known.
   double radius = std::numeric_limits<double>::quiet_NaN();
   Verdict verdict = Verdict::uncertified;
-  /// True if it is treated as unstable: by its verdict or, if it is uncertified, because Re s
-  /// exceeds both 1e-6 |s| and `-flutter_unstable_tolerance` times |s|.
+  /// True if the eigenvalue is treated as unstable: by its verdict or, if it is uncertified,
+  /// because Re s exceeds both 1e-6 |s| and `-flutter_unstable_tolerance` times |s|.
   bool unstable = false;
 
   /// Returns −Re s/|s|, or 0 for s = 0.
@@ -62,7 +63,7 @@ struct Eigenvalue {
 /// Contributions to the growth rate of a mode, by cause, 1/s. The contributions of all components
 /// of the model add up to Re s.
 struct GrowthParts {
-  double damping = 0;     ///< of materials, dashpots and free modes; it never feeds the mode
+  double damping = 0;     ///< of materials, dashpots and free modes; never positive
   double follower = 0;    ///< friction follows the change of the normal force
   double turning = 0;     ///< friction turns with the relative velocity (friction damping)
   double slope = 0;       ///< friction changes with the slip speed by the friction law
@@ -78,7 +79,7 @@ struct Component {
   std::string name;
   double strain = 0;        ///< share of the strain energy; all shares add up to 1
   double kinetic = 0;       ///< share of the kinetic energy; all shares add up to 1
-  std::string motion = {};  ///< motion of a body, such as "(0,4) out of plane"; empty if unclear
+  std::string motion = {};  ///< motion of a body, e.g. "(0,4) out of plane"; empty if unclear
   double motionShare = 0;   ///< share of this motion in the kinetic energy of the body
   GrowthParts growth = {};
 };
@@ -138,8 +139,8 @@ struct Sensitivity {
   double separation = 0;
   double leftBackwardError = 0;         ///< backward error of the left vector
   std::vector<Derivative> derivatives;  ///< empty if not regular()
-  /// Returns true if the eigenvalue has derivatives and its left vector was found. Eigenvalues that
-  /// meet have no derivatives.
+  /// Returns true if derivatives can be computed: the left vector is accurate enough, and the
+  /// eigenvalue is not close to meeting another one. Eigenvalues that meet have no derivatives.
   bool regular() const;
 };
 
@@ -149,7 +150,7 @@ struct CriticalDerivative {
   double value = 0;       ///< df*/dθ, per unit of the parameter
 };
 
-/// The mode at a critical friction, where two eigenvalues meet or one is i ω.
+/// The mode at a critical friction, where two eigenvalues meet or one lies on the imaginary axis.
 struct CriticalMode {
   std::string name;                                          ///< as returned by modeName()
   std::vector<Participation> participations;                 ///< [free mode]
@@ -164,13 +165,13 @@ struct MissingEigenvalue {
   double radius = 0;  ///< 1/s
 };
 
-/// What is proved about the list of a point (docs/method.md, section 13).
+/// The result of the proof for the list of a point (docs/method.md, section 13).
 struct Completeness {
   bool proved = false;  ///< the number of eigenvalues of the full problem with |s| < top is proved
   /// Half the number of these eigenvalues, with multiplicities: a conjugate pair counts once.
   int count = 0;
-  double top = 0;           ///< rad/s
-  double definiteness = 0;  ///< δ of that section
+  double top = 0;           ///< radius of the region of the proof, rad/s
+  double definiteness = 0;  ///< δ of section 13
   double ratio = 0;         ///< largest φ found on the boundary of the region; below 1 if proved
   Complex place = 0;        ///< where `ratio` is reached, or where the proof fails, 1/s
   int discs = 0;            ///< number of discs that cover the upper half of the boundary
@@ -190,15 +191,16 @@ struct ComplexModes {
   int freeModesInBand = 0;  ///< number of free modes up to bandTop
   bool damped =
       false;  ///< the reduced problem has a term linear in s; false with the direct method
-  double accuracy = 0;       ///< required backward error
-  double tolerance = 0;      ///< required estimate of |δs|/|s|; 0: none (direct method)
+  double accuracy = 0;       ///< largest admissible backward error
+  double tolerance = 0;      ///< largest admissible estimate of |δs|/|s|; 0: none (direct method)
   double directBandTop = 0;  ///< upper end of the band of the direct method, rad/s; 0: none
-  /// All eigenvalues of that band with |s| below this value are listed, rad/s; 0 without a band.
+  /// All eigenvalues of the direct method's band with |s| below this value are listed, rad/s; 0
+  /// without a band.
   double coveredTo = 0;
   std::optional<Completeness> completeness = {};  ///< none if no proof is wanted
-  /// For a damped problem, returns by how many the free modes in the band outnumber the listed
-  /// eigenvalues; otherwise 0. The missing eigenvalues are damped too strongly to be listed, or lie
-  /// beyond the top.
+  /// For a damped problem, returns the number of free modes in the band minus that of the listed
+  /// eigenvalues, but at least 0; otherwise returns 0. The missing eigenvalues are damped too
+  /// strongly to be listed, or lie beyond the top.
   int modesWithoutEigenvalue() const;
   /// Returns the number of listed eigenvalues without a proved disc (Eigenvalue::radius).
   int withoutDisc() const;
@@ -209,14 +211,15 @@ struct ComplexModes {
   int unstableCount() const;
   /// Returns the number of eigenvalues with this verdict.
   int count(Verdict verdict) const;
-  /// Returns the verdict on the point: the first of unstable, uncertified, undecided, neutral and
-  /// stable that one of its eigenvalues has. If the point has no eigenvalues, it is uncertified.
+  /// Returns the verdict on the point. This is the worst verdict of its eigenvalues, in the order
+  /// unstable, uncertified, undecided, neutral, stable. A point without eigenvalues is uncertified.
   Verdict verdict() const;
   /// Returns the number of eigenvalues that are not certified.
   int uncertifiedCount() const;
   /// Returns the largest backward error; 0 if there are no eigenvalues, NaN if one is NaN.
   double worstBackwardError() const;
-  /// Returns the largest estimate of the relative error; NaN if one is NaN.
+  /// Returns the largest estimate of the relative error; 0 if there are no eigenvalues, NaN if one
+  /// is NaN.
   double worstErrorEstimate() const;
   /// Returns the eigenvalue with the largest growth rate, borrowed; null if there are none.
   const Eigenvalue* fastestGrowing() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The free modes that a complex mode is made of.
+/// The shares of the free modes in a complex mode.
 #include <span>
 #include <vector>
 

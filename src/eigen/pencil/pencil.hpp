@@ -23,12 +23,12 @@ struct Term {
   double factor = 1;         ///< α
   int speedExponent = 0;     ///< b
   int dampingExponent = 0;   ///< d
-  /// The term contains friction; a term with an exponent of friction does so in any case. The basis
-  /// starts with responses to such terms, and K0 and M0 exclude them.
+  /// True if the term contains friction; a term with a friction exponent does so in any case. The
+  /// basis starts with responses to such terms, and K0 and M0 exclude them.
   bool ofFriction = false;
 
   bool containsFriction() const { return ofFriction || frictionExponent != 0; }
-  /// Returns true for a term of K0 or M0 [4.17]: one without friction, base motion and damping.
+  /// Returns true for a term of K0 or M0 [4.17]: one without friction, base motion or damping.
   bool isAssociated() const {
     return power != 1 && !containsFriction() && speedExponent == 0 && dampingExponent == 0;
   }
@@ -42,8 +42,8 @@ struct Term {
 /// The sum of terms P.
 class Pencil {
  public:
-  /// Collective. Takes the terms, which hold for all parameters, and omits terms in s whose matrix
-  /// is zero.
+  /// Collective. Takes the terms, which hold for all parameters, and omits terms with power 1 whose
+  /// matrix is zero.
   explicit Pencil(std::vector<Term> terms);
   /// Returns all terms; those that hold only at one point come last.
   const std::vector<Term>& terms() const { return terms_; }
@@ -55,9 +55,9 @@ class Pencil {
   /// Returns a pencil with the terms of this one, whose matrices it shares, and with `pointTerms`,
   /// which hold only at one point of the sweep. Collective unless `pointTerms` is empty.
   Pencil with(std::vector<Term> pointTerms) const;
-  /// Collective. Returns the terms that hold only at one point, the one with these parameters.
-  /// Terms with the same power of s and the same isAssociated() are added, with their coefficients,
-  /// to one term; a term that has no other to be added to shares its matrix.
+  /// Collective. Returns sums of the terms that hold only at the point with these parameters. Terms
+  /// with the same power of s and the same isAssociated() are added, with their coefficients, to
+  /// one term. A term that is the only one of its kind is returned as it is and shares its matrix.
   std::vector<Term> pointSums(const sweep::Parameters& at) const;
   /// Returns true if there are terms with this power of s.
   bool hasPower(int power) const;
@@ -92,7 +92,8 @@ linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at
                                const linalg::ComplexVector& d, Side side);
 
 /// Collective. Returns the backward error of a right eigenpair [M.33],
-///   ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖).
+///   ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖),
+/// where M̄, Z̄ and K̄ are the sums of the terms with powers 2, 1 and 0, with the norms of norm().
 double backwardError(const Pencil& pencil, const sweep::Parameters& at, Complex s,
                      const linalg::ComplexVector& d);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Serialisation of complex modes and of derivatives for checkpoints and messages.
+/// Serialisation of complex modes, critical modes and proofs for checkpoints and messages.
 #include "base/checkpoint/archive.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 
@@ -10,7 +10,7 @@ namespace squeal::pencil {
 void serialise(checkpoint::Archive& archive, ComplexModes& point);
 /// Writes or reads the mode at a critical friction.
 void fields(Stream& stream, CriticalMode& found);
-/// Writes or reads what is proved about a list.
+/// Writes or reads the result of the proof for a list.
 void fields(Stream& stream, Completeness& found);
 
 }  // namespace squeal::pencil

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The region in which eigenvalues are counted, and the upper half of its boundary. The lower half
-/// is its mirror image, where a real problem has the same bounds.
+/// is its mirror image, on which a real problem has the same bounds.
 #include <limits>
 #include <span>
 #include <vector>
@@ -26,7 +26,7 @@ class Piece {
   static Piece line(Complex start);
   double length() const { return length_; }  ///< angle of an arc, or length of a line
   Complex at(double t) const;                ///< 0 ≤ t ≤ length()
-  /// Returns the difference in t of two points at this distance from each other.
+  /// Returns the difference in t between two points of the piece at this distance from each other.
   double parameter(double distance) const;
   double distance(Complex from) const;
 
@@ -52,13 +52,13 @@ class Contour {
   std::vector<Piece> pieces_;
 };
 
-/// Returns the middle of the widest gap of |s| between (1 − within) and (1 + within) times the
-/// wanted top. The eigenvalues s may be in any order. The ends of this range also bound gaps. Of
-/// equally wide gaps, the lowest is taken.
+/// Returns the middle of the widest gap between the |s| of the eigenvalues in the range from
+/// (1 − within) to (1 + within) times the wanted top. The eigenvalues may be in any order. The ends
+/// of the range also bound gaps. Of equally wide gaps, the lowest is taken.
 double placedTop(std::span<const Complex> eigenvalues, double wanted, double within = 0.08);
 
-/// Returns the middle of the widest gap of −Re s around the wanted left edge in the same way. Only
-/// eigenvalues with |s| up to 10 % above the top are considered.
+/// Does the same as placedTop() for the values −Re s and the wanted left edge. Considers only
+/// eigenvalues with |s| up to 10 % above the top.
 double placedLeft(std::span<const Complex> eigenvalues, double top, double wanted,
                   double within = 0.5);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The proof that P(s) has as many eigenvalues in a region as P_VV(s). docs/method.md, section 13,
-/// states the theorem.
+/// The proof that P(s) has as many eigenvalues in a region as its block P_VV(s) (kept.hpp).
+/// docs/method.md, section 13, states the theorem and defines φ and δ.
 #include "eigen/proof/contour.hpp"
 #include "eigen/proof/diagonal_form.hpp"
 
@@ -13,7 +13,7 @@ enum class Verdict {
   irregular,     ///< P_VV(top) is singular, or the deviation Δ of the diagonal form is not small
   edge,          ///< an eigenvalue of P_VV is nearer to the boundary than 10⁻⁶ of the top
   ratio,         ///< φ is not below 1 at `place`: the coupling of V and C is too strong
-  tooManyDiscs,  ///< the largest number of expansions is reached, at `place`
+  tooManyDiscs,  ///< at `place`, the largest number of expansions is reached
 };
 
 struct CountProof {
@@ -31,8 +31,8 @@ struct CountProof {
 
 /// Not collective. Proves the count for the region, if the bounds suffice, with at most `largest`
 /// expansions. If the verdict is `proved`, P has exactly `count` eigenvalues in the region and none
-/// on its boundary. δ > 0 and φ < 1 must hold with a margin of 10⁻⁶, which allows for round-off in
-/// the given data.
+/// on its boundary. The proof requires δ > 0 and φ < 1 with a margin of 10⁻⁶, which allows for
+/// round-off in the given data.
 CountProof proveCount(const DiagonalForm& form, const LeftOut& bounds, const Region& region,
                       PetscInt largest = 400);
 

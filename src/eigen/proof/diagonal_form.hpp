@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The problem on V in coordinates in which it is nearly diagonal, so that its inverse is known at
-/// every s.
+/// The problem P_VV on V (kept.hpp) in coordinates in which it is nearly diagonal, so that its
+/// inverse is known at every s.
 #include <vector>
 
 #include "algebra/linalg/complexdense.hpp"
@@ -12,9 +12,10 @@ namespace squeal::proof {
 /// The pencil
 ///   Y L(z) X = D(z) + Δ(z),   D(z) = 1 + (z − 1) diag(ν),
 /// with z = s / top and L the linearised P_VV, or z = (s / top)² and L = P_VV if neither P_VV nor
-/// the couplings have odd powers of s. L has the eigenvalues of P_VV with their multiplicities, and
+/// the couplings have odd powers of s. L has the eigenvalues of P_VV with their multiplicities. The
+/// majorants F and E of the couplings give
 ///   F(s) P_VV(s)⁻¹ E(s) = a(z) (D(z) + Δ(z))⁻¹ b(z)
-/// with polynomials a and b. X and Y come from LAPACK and may be inaccurate, since Δ is computed
+/// with polynomials a and b. X and Y, computed by LAPACK, may be inaccurate, since Δ is computed
 /// from them. Not collective.
 class DiagonalForm {
  public:
@@ -30,11 +31,11 @@ class DiagonalForm {
 
   /// Returns the eigenvalues in the plane of z, in the order of ν. Some may be infinite.
   std::vector<Complex> eigenvaluesInPlane() const;
-  /// Returns the finite eigenvalues s, rad/s; if squared, both ±s for each z.
+  /// Returns the finite eigenvalues s, rad/s; if squared, both s and −s for each z.
   std::vector<Complex> eigenvalues() const;
-  /// Returns z of s.
+  /// Returns the z of an s.
   Complex inPlane(Complex s) const { return squared_ ? s * s / (top_ * top_) : s / top_; }
-  /// Returns s of z, with Im s ≥ 0 if squared.
+  /// Returns the s of a z, with Im s ≥ 0 if squared.
   Complex outOfPlane(Complex z) const;
 
   /// The coefficients of the polynomials: of a (rows × size, at most two of them) and of b
@@ -51,7 +52,8 @@ class DiagonalForm {
 
   /// Returns a bound of ‖Δ(z)‖ for |z| ≤ reach.
   double deviation(double reach) const { return eta0_ + (1 + reach) * eta1_; }
-  /// Return bounds of the remainders of P_CV and P_VC for |z| ≤ reach, including round-off.
+  /// Return bounds of the remainders of the majorants of P_CV and P_VC for |z| ≤ reach, including
+  /// round-off.
   double errorTo(double reach) const { return error(errorTo_, reach); }
   double errorFrom(double reach) const { return error(errorFrom_, reach); }
   /// Return bounds of the norms of X as a map to V and of Y as a map from V.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Discs that each contain exactly one eigenvalue of P, and the judgement of a list of eigenvalues
-/// by these discs.
+/// Discs that each contain exactly one eigenvalue of P (kept.hpp), and the judgement of a list of
+/// eigenvalues by these discs.
 #include <vector>
 
 #include "algebra/linalg/quadratic.hpp"
@@ -11,10 +11,10 @@
 
 namespace squeal::proof {
 
-/// What is proved about an eigenvalue of P_VV.
+/// The result of the proof for one eigenvalue of P_VV.
 enum class Isolation {
   single,      ///< each disc with a radius from inner to outer holds exactly one eigenvalue of P
-  indefinite,  ///< δ is not positive at the eigenvalue
+  indefinite,  ///< δ (definiteness()) is not positive at the eigenvalue
   neighbour,   ///< another eigenvalue is too near, given the coupling to C
 };
 
@@ -27,8 +27,8 @@ struct Enclosure {
 
 /// Not collective. Returns an enclosure for each wanted eigenvalue of P_VV in the region, by
 /// default for all; none if the form is not regular. If `count` is proved for this region, an
-/// eigenvalue whose vectors are hardly coupled to C takes almost no time, and any other one takes
-/// as long as a disc of the boundary.
+/// eigenvalue whose vectors are hardly coupled to C takes almost no time. Any other eigenvalue
+/// takes as long as a disc on the boundary.
 std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
                                const Region& region, const CountProof& count = {},
                                const linalg::EigenvalueFilter& wanted = {});
@@ -38,7 +38,7 @@ std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
 enum class Agreement {
   right,     ///< at most the inner radius plus the tolerance from the centre of a disc
   inexact,   ///< farther from the centre, but in the disc of the outer radius
-  repeated,  ///< as right or inexact, but another entry is closer to the same centre
+  repeated,  ///< as close as `right` or `inexact`, but another entry is closer to the same centre
   wrong,     ///< in none of the discs
   unproved,  ///< the enclosure of the nearest eigenvalue of P_VV is not single
   outside,   ///< neither in the region nor right
@@ -57,7 +57,7 @@ struct JudgedList {
 
 /// Not collective. Judges a list of eigenvalues with Im s ≥ 0 by the enclosures of the region. The
 /// list must contain a multiple eigenvalue as often as its multiplicity. `tolerance`, rad/s, is the
-/// accuracy that entries should have.
+/// largest error that entries should have.
 JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
                  const Region& region, double tolerance);
 

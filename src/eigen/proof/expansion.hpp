@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Bounds of P_CV P_VV⁻¹ P_VC around a point of the plane of z.
+/// Bounds of P_CV P_VV⁻¹ P_VC (kept.hpp) around a point of the plane of z. D, a, b and z are those
+/// of the diagonal form (diagonal_form.hpp), and its eigenvalues are the poles.
 #include <optional>
 #include <vector>
 
@@ -8,8 +9,8 @@
 
 namespace squeal::proof {
 
-/// The sum of those terms of T = a D⁻¹ b that belong to some of the poles, with a bound of its norm
-/// in a region.
+/// A part of T = a D⁻¹ b: the sum of the terms of some of the poles, with a bound of its norm in a
+/// region.
 struct FarPart {
   std::vector<unsigned char> poles;  ///< [pole] 1 if its term belongs to the sum
   double bound = 0;
@@ -25,13 +26,13 @@ class Expansion {
   /// index `omitted`, if it is given; bound() adds this term exactly.
   Expansion(const DiagonalForm& form, Complex centre, int order, PetscInt omitted = -1);
 
-  /// Uses the bound of the far part, and bounds the terms of the other poles one by one. This takes
+  /// Uses the bound of the far part, and bounds the terms of the other poles one by one. This needs
   /// no products of matrices. Borrows the form and the far part.
   Expansion(const DiagonalForm& form, Complex centre, const FarPart& far, PetscInt omitted);
 
   Complex centre() const { return centre_; }
-  /// Returns a bound of ‖P_CV P_VV⁻¹ P_VC‖ at the points z with |z − z0| ≤ radius whose distance
-  /// from each eigenvalue k is at least distances[k]; infinite if no bound is known.
+  /// Returns a bound of ‖P_CV P_VV⁻¹ P_VC‖ for all z with |z − z0| ≤ radius whose distance from
+  /// each pole k is at least distances[k]; infinite if no bound is known.
   double bound(double radius, std::span<const double> distances) const;
   /// Returns such a bound on the circle |z − z0| = radius about the omitted pole.
   double boundOnCircle(double radius) const;

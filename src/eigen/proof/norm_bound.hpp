@@ -10,8 +10,8 @@ double quickBound(const linalg::ComplexMatrix& a);
 double quickBound(const linalg::DenseView& a);
 
 /// Returns a bound of the 2-norm, in general less than 1 % above it and at most quickBound(). The
-/// Lanczos method only proposes a bound c; it is accepted only if the Cholesky factorisation of
-/// c² − AᴴA succeeds.
+/// Lanczos method only proposes a bound c. The bound is accepted only if the Cholesky factorisation
+/// of c² − AᴴA succeeds.
 double normBound(const linalg::ComplexMatrix& a);
 
 }  // namespace squeal::proof

@@ -23,10 +23,10 @@ void addScaled(ComplexMatrix& sum, Complex factor, const ComplexMatrix& x);
 double largestSize(const std::vector<linalg::DensePair>& pairs);
 
 /// Linearises a quadratic problem to one of twice the size
-///   A z = s B z,   A = [0 I; −K −Z],   B = [I 0; 0 M],   z = (x, s x / unit),
-/// where `unit` gives both halves of z the same magnitude. A left vector y becomes the functional
-/// yᴴ[(sM + Z)u + M v] of (u, v / unit), which is zero for the right vectors of all other
-/// eigenvalues.
+///   A z = s B z,   A = [0 I; −K −Z],   B = [I 0; 0 M],   z = (u, v) = (x, s x).
+/// A vector z is stored as (u, v / unit), where `unit`, 1/s, gives both halves similar magnitudes.
+/// A left vector y becomes the functional yᴴ[(sM + Z)u + M v] of z, which is zero for the right
+/// vectors of all other eigenvalues.
 class Companion {
  public:
   /// Borrows the problem.
@@ -36,8 +36,8 @@ class Companion {
   double unit() const { return unit_; }
   /// Returns the right vectors of the pairs, 2m × pairs.
   ComplexMatrix right(const std::vector<const linalg::DensePair*>& pairs) const;
-  /// Returns the functionals of the left vectors as columns l of 2-norm 1; their values are lᴴ(u,
-  /// v / unit).
+  /// Returns the functionals of the left vectors, up to factors, as columns l of 2-norm 1. The
+  /// value at a stored z is lᴴ z.
   ComplexMatrix left(const std::vector<const linalg::DensePair*>& pairs) const;
 
  private:
@@ -53,8 +53,8 @@ class ShiftInvert {
   bool regular() const { return factors_.pivotRatio() > 0; }
   /// Returns the operator times the columns z.
   ComplexMatrix apply(const ComplexMatrix& z) const;
-  /// Returns t = −P(σ)⁻ᴴ (l₁ + σ̄ l₂ / unit). If the functional l is an eigenvector of the adjoint
-  /// operator, t is the left vector of P.
+  /// Returns t = −P(σ)⁻ᴴ (l₁ + σ̄ l₂ / unit), where l₁ and l₂ are the halves of l. If the
+  /// functional l is an eigenvector of the adjoint operator, t is a left vector of P.
   ComplexMatrix leftVectors(const ComplexMatrix& l) const;
   /// Returns the adjoint of the operator times the columns l.
   ComplexMatrix applyAdjoint(const ComplexMatrix& l) const;

@@ -13,7 +13,7 @@ namespace squeal::reduction {
 struct CorrectionRequest {
   const PointState* state;
   PointPairs pairs;
-  std::vector<double> weights;  ///< [pair] length to which its residual is scaled
+  std::vector<double> weights;  ///< [pair] length to which the pair's residual is scaled
 };
 
 /// Adds the static responses K0⁻¹ f of forces f to the basis, by block solves.
@@ -26,9 +26,9 @@ class Corrector {
   /// these frequencies, rad/s.
   void start(const PointProblem& point, const std::vector<double>& frequencies);
   /// Not collective. Returns the unconverged pairs of a point. The weight of a pair determines the
-  /// part of its residual that the correction may leave out: 3 %, or more if 1/√2 of the limit of
-  /// its error permits more. The rest of the squared limit is for the error of the correction
-  /// itself.
+  /// fraction of its residual that the correction may leave out: 3 %, or more if the resulting
+  /// error is at most 1/√2 of its limit. The rest of the limit, in the sum of squares, is for the
+  /// error of the correction itself.
   CorrectionRequest requestOf(const PointState& state) const;
   /// Collective. Adds corrections for these residuals. Returns the number of vectors added; 0 if
   /// the residuals are round-off.

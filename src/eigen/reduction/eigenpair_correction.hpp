@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Improvement of known eigenpairs of dense quadratic problems after their basis has grown. For
-/// some tens among some hundreds of eigenvalues, this takes a fraction of the time of a full solve.
+/// Improvement of known eigenpairs of dense quadratic problems after their basis has grown. If
+/// only a few tens out of several hundred eigenvalues are needed, this is much faster than a full
+/// solve.
 #include <mpi.h>
 
 #include <vector>
@@ -11,8 +12,8 @@
 
 namespace squeal::reduction {
 
-/// Pairs of one problem, all with right and left vectors; vectors of a smaller basis are extended
-/// by zeros. Pairs that are not in `open` do not change, but serve as neighbours.
+/// Pairs of one problem, all with right and left vectors. Vectors of a smaller basis are padded
+/// with zeros. Pairs that are not in `open` do not change, but serve as neighbours.
 struct CorrectionTask {
   const linalg::DenseProblem* problem;
   std::vector<linalg::DensePair>* pairs;
@@ -25,9 +26,9 @@ struct CorrectionTask {
 ///   (A − σB)⁻¹ B,   A = [0 I; −K −Z],   B = [I 0; 0 M],
 /// is projected on three sets of vectors: those of the group, those of its neighbours, and the
 /// operator times those of the group. The groups of all problems are distributed over the ranks,
-/// and all ranks get the same pairs. For each task, returns false if this fails or if two pairs
-/// have become one; its pairs are then in an undefined state. Throws Error on all ranks if LAPACK
-/// fails.
+/// and all ranks get the same pairs. For each task, returns false if the iteration fails or if two
+/// pairs converge to the same one; the pairs of the task are then in an undefined state. Throws
+/// Error on all ranks if LAPACK fails or if the vectors are too long for one message.
 std::vector<bool> correctPairs(MPI_Comm comm, const std::vector<CorrectionTask>& tasks);
 
 }  // namespace squeal::reduction

@@ -13,10 +13,10 @@
 namespace squeal::reduction {
 
 /// Estimates the relative error |δs|/|s| of an eigenvalue s by [M.36]. The estimate needs the norm
-/// √(rᵀ K0⁻¹ r) of the residual, which takes a solve with K0. A sketch, a product of the residual
-/// with few random vectors [M.39], gives the norm √(rᵀ diag(K0)⁻¹ r) cheaply. The estimator
-/// measures the ratio of the two norms for a few residuals by solving with K0. It multiplies the
-/// cheap norm by the largest of these ratios.
+/// √(rᵀ K0⁻¹ r) of the residual, which takes a solve with K0. A sketch, that is, the products of
+/// the residual with a few random vectors [M.39], gives the norm √(rᵀ diag(K0)⁻¹ r) cheaply. The
+/// estimator measures the ratio of the two norms for a few residuals by solving with K0. It
+/// multiplies the cheap norm by the largest of these ratios.
 class ErrorEstimator {
  public:
   /// Borrows the basis during the lifetime of the object. `frequencies` are those of the free modes
@@ -38,8 +38,8 @@ class ErrorEstimator {
   /// Returns the estimate of |δs|, 1/s.
   double absoluteError(const PointSolution& solution, std::size_t pair) const;
   /// Returns true if the relative error |δs|/|s| of the eigenvalue is within the tolerance. If s is
-  /// zero within its error, |δs|/ω_1 with the lowest angular frequency ω_1 of the free modes is
-  /// used instead, squared if the problem has a pencil::Symmetry.
+  /// zero within its error, |δs|/ω_1 is used instead, where ω_1 is the lowest angular frequency of
+  /// the free modes. This ratio is squared if the problem has a pencil::Symmetry.
   bool isExactEnough(const PointSolution& solution, const pencil::Eigenvalue& e) const;
   /// Returns the larger of two ratios: the backward error and the error estimate, each divided by
   /// its limit. Returns 0 if the residual is only round-off.
@@ -48,9 +48,9 @@ class ErrorEstimator {
   bool isAccurate(const PointSolution& solution) const;
   /// Collective. Measures the ratio of the norms for the residuals of the eigenpair with the
   /// largest estimate. If this raises the largest ratio, all estimates grow. Returns the points
-  /// that are not accurate afterwards; none if no estimate exceeds those checked before.
+  /// that are not accurate afterwards; none if no estimate exceeds the largest one checked before.
   std::vector<PointState*> unconfirmed(std::vector<PointState>& states);
-  /// Not collective. Writes or reads the ratios and the frequencies.
+  /// Not collective. Writes or reads the ratios, the largest checked estimate and the frequencies.
   void serialise(checkpoint::Archive& archive);
 
  private:

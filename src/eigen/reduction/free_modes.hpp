@@ -11,7 +11,7 @@
 
 namespace squeal::reduction {
 
-/// Returns a pencil of only the terms of K and M.
+/// Returns a pencil that contains only the terms of K and M.
 pencil::Pencil associatedTerms(const pencil::Pencil& pencil);
 
 /// Collective. Returns the free modes of a solved point, M-orthonormal, as vectors of all unknowns.
@@ -25,9 +25,9 @@ struct CountRange {
   const std::vector<double>& values;      ///< ω² of the reduced problem, ascending
   const std::vector<PetscInt>& boundary;  ///< boundary unknowns of the point
 };
-/// Collective. Confirms the number of modes if, at some σ in a gap above the end of the list, the
-/// count equals the number of ω² of the reduced problem below σ. The ω² of the reduced problem are
-/// upper bounds of the exact ones.
+/// Collective. Confirms the number of modes if, at some σ (rad²/s²) in a gap above the end of the
+/// list, `count` gives as many modes below σ as the reduced problem has values ω² below σ. These
+/// values are upper bounds of the exact ones.
 void confirmCount(MPI_Comm comm, const subspace::ModeCount& count, const CountRange& range,
                   modes::Modes& modes);
 

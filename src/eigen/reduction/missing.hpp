@@ -8,11 +8,11 @@
 
 namespace squeal::reduction {
 
-/// Not collective. Returns a wanted eigenvalue that is missing from these pairs, if it finds one.
-/// The pairs must have right and left vectors. The known eigenvalues and their conjugates are
-/// deflated; the Arnoldi method with shift-and-invert then finds the unknown ones nearest to the
-/// shift. A start vector of random entries has a component along every eigenvector with probability
-/// one. Throws Error if LAPACK fails.
+/// Not collective. Searches for wanted eigenvalues that are missing from these pairs, and returns
+/// one if any is found. The pairs must have right and left vectors. The known eigenvalues and their
+/// conjugates are deflated; the shift-and-invert Arnoldi method then finds the unknown ones nearest
+/// to the shift. A start vector of random entries has a component along every eigenvector with
+/// probability one. Throws Error if LAPACK fails.
 std::optional<Complex> findMissing(const linalg::DenseProblem& problem,
                                    const std::vector<linalg::DensePair>& pairs, Complex shift,
                                    const linalg::EigenvalueFilter& wanted);

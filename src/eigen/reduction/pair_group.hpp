@@ -16,11 +16,11 @@ struct UnconvergedPair {
   double left;   ///< fraction of its left residual P(s)ᴴ y that may remain
 };
 
-/// A group of neighbouring pairs, its members. Their right and left vectors are iterated together,
+/// A group of neighbouring pairs (its members). Their right and left vectors are iterated together,
 /// by two-sided block inverse iteration with a shift in the middle of the members.
 class PairGroup {
  public:
-  /// Borrows the companion form and the pairs, whose vectors must have its order.
+  /// Borrows the companion form and the pairs. Their vectors must have the order of the problem.
   PairGroup(const Companion& companion, std::vector<linalg::DensePair>& pairs,
             const std::vector<UnconvergedPair>& open);
   /// Returns the indices of the members in the list of pairs.
@@ -52,11 +52,11 @@ class PairGroup {
   Complex shift_ = 0;
   double reach_ = 0;  // largest distance of a member from the middle of the group
   std::optional<ShiftInvert> inverse_;
-  Residuals wanted_, first_;  // wanted_ has the permitted fractions of first_
+  Residuals wanted_, first_;  // permitted fractions of the first residuals; first residuals
   double roundOff_ = 0;
 };
 
-/// Returns the open pairs in groups of neighbours, each within a limited range of frequency.
+/// Returns the open pairs in groups of neighbours, each within a limited frequency range.
 std::vector<std::vector<UnconvergedPair>> groupsOf(const std::vector<linalg::DensePair>& pairs,
                                                    std::vector<UnconvergedPair> open);
 

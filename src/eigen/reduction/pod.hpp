@@ -13,8 +13,8 @@ namespace squeal::reduction {
 /// The eigenvectors of the points solved so far.
 class Pod {
  public:
-  /// Not collective. Takes the pairs of these points, and drops their coordinates of constraint
-  /// modes.
+  /// Not collective. Moves the pairs out of these points, and drops their coordinates along
+  /// constraint modes.
   void take(std::vector<PointState>& states);
   /// Collective. Replaces the basis, except its constraint modes, by orthonormal combinations of
   /// its vectors. They span the real and imaginary parts of all right vectors except for components

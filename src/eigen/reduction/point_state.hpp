@@ -26,24 +26,24 @@ struct PointProblem {
 /// Points with the same boundary unknowns.
 struct PointSet {
   PointSpace space;
-  pencil::Pencil pencil;                ///< with the terms of these points
-  std::optional<ProjectedTerms> terms;  ///< projected; none if they are not loaded
+  pencil::Pencil pencil;                ///< contains the terms of these points
+  std::optional<ProjectedTerms> terms;  ///< projected terms of the set; none if not loaded
   double top;                           ///< top of the band that is listed, rad/s
   int modesInBand;                      ///< number of free modes up to `top`
 };
 
 using Norms = std::array<double, 3>;  ///< 2-norms of K̄, Z̄, M̄ of a point
 
-/// Estimated errors of an eigenpair. The estimate of |δs|/|s| is the product of `right` and `left`.
-/// Both use the norm of diag(K0)⁻¹ instead of K0⁻¹, and are multiplied by ratios of the norms; the
-/// factor from `left` is at most 1.
+/// Estimated errors of an eigenpair. The estimate of |δs|/|s| is right · left + dense. `right` and
+/// `left` use the norm of diag(K0)⁻¹ instead of K0⁻¹; the estimator multiplies each by its ratio of
+/// the two norms, and replaces the second factor by 1 if it exceeds 1.
 struct PairErrors {
-  double backward = 0;      ///< backward error in the full problem
-  double right = 0;         ///< error of the right vector, times the condition number of s
-  double left = 0;          ///< error of the left vector; infinite if |s| exceeds the highest mode
-  double roundOff = 0;      ///< upper bound of the round-off in yᴴP(s)x of unit vectors
-  double dense = 0;         ///< error of the dense solve
-  bool isRoundOff = false;  ///< the residual is round-off, so that no correction makes it smaller
+  double backward = 0;  ///< backward error in the full problem
+  double right = 0;     ///< error of the right vector, times the condition number of s
+  double left = 0;      ///< error of the left vector; infinite if |s| ≥ ω of the highest mode
+  double roundOff = 0;  ///< upper bound of the round-off in yᴴP(s)x of unit vectors
+  double dense = 0;     ///< relative error of s due to the dense solve
+  bool isRoundOff = false;  ///< the residual is round-off, which no correction can reduce
 };
 
 /// The eigenpairs of a point and their errors.
@@ -60,11 +60,11 @@ struct PointState {
   const PointSet* set;
   ProjectedTerms ownTerms;
   bool damped;
-  bool associated = false;  ///< it is the problem of the free modes, with only K and M
+  bool associated = false;  ///< true for the problem of the free modes, with only K and M
   PointSolution solution = {};
 
-  /// Returns these pairs, borrowed, with the columns that they take. If `isDamped` is false, pairs
-  /// with real vectors may take one column.
+  /// Returns these pairs, borrowed, with their columns. If `isDamped` is false, pairs with real
+  /// vectors may take one column.
   PointPairs pairs(std::vector<const linalg::DensePair*> some, bool isDamped) const {
     return {{point->at, associated}, Coordinates(std::move(some), isDamped, set->space)};
   }
@@ -72,7 +72,7 @@ struct PointState {
 
 /// A batch between two rounds of corrections.
 struct PendingBatch {
-  int round = 0;                         ///< the next round
+  int round = 0;                         ///< number of the next round
   PetscInt largest = 0;                  ///< basis size at which no further round starts
   std::vector<PointSolution> solutions;  ///< [point]
   std::vector<unsigned char> open;       ///< [point] 1 if it is not accurate yet

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The terms of a pencil, projected on a growing basis V. Stored are the projections VᵀAV, and
+/// The terms of a pencil, projected on a growing basis V. The projections VᵀAV are stored, and also
 /// sketches of A V and AᵀV for the norms of residuals [M.39]. The product A V is stored only if at
 /// most a quarter of the rows of A are nonzero, since otherwise it would take nearly as much memory
 /// as V.
@@ -35,12 +35,12 @@ class Coordinates {
   /// Returns the real and imaginary parts of c s^power q, or of c conj(s)^power y for the left
   /// side, basis × columns. A pair of one column has only the real part.
   linalg::DenseMatrix times(pencil::Side side, int power, double c) const;
-  /// Returns for each pair, [pair], the sum of the values of its columns, [column].
+  /// Returns for each pair the sum of the values of its columns, [pair], from values [column].
   std::vector<double> perPair(const std::vector<double>& ofColumns) const;
 
  private:
   const std::vector<Complex>& vectorOf(std::size_t pair, pencil::Side side) const;
-  // [pair] vectors in coordinates of the basis, if the point uses only a part of it
+  // [pair] vectors in coordinates of the basis; empty if the point uses the whole basis
   std::vector<std::vector<Complex>> right_, left_;
 };
 
@@ -79,8 +79,8 @@ class ProjectedTerms {
   /// point after point, and one column per column of the result.
   void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations,
              linalg::Block& result) const;
-  /// Not collective. Adds the sketch of P(s) V q, or of P(s)ᴴ V y for the left side, to `sketch`, 2
-  /// Sketch::size × columns.
+  /// Not collective. Adds the sketch of P(s) V q, or of P(s)ᴴ V y for the left side, to `sketch`,
+  /// which is 2 Sketch::size × columns.
   void addTo(const PointPairs& point, pencil::Side side, linalg::DenseMatrix& sketch) const;
 
  private:
@@ -88,7 +88,7 @@ class ProjectedTerms {
     pencil::Term term;
     linalg::RowSet rows;             // nonzero rows of A if they are few, otherwise all rows
     OwnedMat matrix;                 // A in these rows
-    bool isSymmetric;                // A is
+    bool isSymmetric;                // true if A is symmetric
     OwnedMat adjoint;                // Aᵀ; null if A is symmetric or has few rows
     linalg::Block timesSigns;        // A Ω in `rows`; empty if A is symmetric or has all rows
     linalg::Block timesV;            // A V in `rows`; empty if these are all rows

@@ -22,7 +22,7 @@ using subspace::Substructure;
 class ProjectedBasis {
  public:
   /// Collective. Borrows the system during the lifetime of the object and shares the terms of
-  /// `pencil`, which hold at all points.
+  /// `pencil`, which must be those of all points.
   ProjectedBasis(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                  const modes::Modes& modes, Substructure substructure);
   Basis& basis() { return basis_; }
@@ -32,16 +32,16 @@ class ProjectedBasis {
   /// Returns the number of unknowns of the full problem.
   PetscInt unknowns() const { return unknowns_; }
 
-  /// Collective. Adds a set of points with the same boundary unknowns, those with has[boundary
-  /// unknown of all ranks] = 1, and returns its index. The terms of the set are those of `pencil`
-  /// that follow the terms of all points and hold for all parameters. A `passed` set occurs only
-  /// between points, and must be loaded before use. Throws Error if the stiffness is not positive
-  /// definite.
+  /// Collective. Adds a set of points with the same boundary unknowns and returns its index. has[i]
+  /// is 1 if boundary unknown i, numbered over all ranks, is one of them. `pencil` begins with the
+  /// terms of all points; the terms after these that belong to no single point become those of the
+  /// set. A `passed` set contains no point of the sweep, and must be loaded before use. Throws
+  /// Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
-  /// Collective. Projects the terms of a passed set, unless they are loaded. Of the passed sets,
-  /// only the `mostLoaded` most recently used ones keep their terms, since a path has hundreds of
-  /// sets.
+  /// Collective. Projects the terms of a passed set, unless they are loaded. Only the `mostLoaded`
+  /// most recently used passed sets keep their projections, since a path may pass through hundreds
+  /// of sets.
   void load(int set);
   PointSet& set(int number) { return *sets_[number]; }
   const PointSet& set(int number) const { return *sets_[number]; }
@@ -53,8 +53,8 @@ class ProjectedBasis {
   void extend(const std::vector<PointState*>& states);
   /// Not collective. Returns the projected problem of a point.
   linalg::DenseProblem project(const PointState& state) const;
-  /// Not collective. Returns the same with all boundary unknowns, in coordinates common to all
-  /// points.
+  /// Not collective. Returns the projected problem with all boundary unknowns, in coordinates
+  /// common to all points.
   linalg::DenseProblem projectOnAll(const PointState& state) const;
   /// Not collective. Returns the projection of the terms that belong only to the point.
   linalg::DenseProblem projectOwn(const PointState& state) const;
@@ -62,8 +62,8 @@ class ProjectedBasis {
   /// Not collective. Returns sketches of the residuals of one side, 2 Sketch::size × columns.
   linalg::DenseMatrix residualSketch(const PointState& state, const PointPairs& pairs,
                                      pencil::Side side) const;
-  /// Collective. Returns the real and imaginary parts of P(s) x, or of P(s)ᴴ y, computed from the
-  /// matrices, as this rank's rows; only the real part for a pair of one column.
+  /// Collective. Computes P(s) x, or P(s)ᴴ y, from the full matrices and returns this rank's rows
+  /// of its real and imaginary parts; only the real part for a pair of one column.
   linalg::Block residualColumns(const PointState& state, const linalg::DensePair& pair,
                                 const linalg::ComplexVector& vector, pencil::Side side) const;
   /// Pairs of one point, both borrowed.
@@ -91,7 +91,7 @@ class ProjectedBasis {
   ProjectedTerms terms_;
   PetscInt unknowns_ = 0;
   std::vector<std::unique_ptr<PointSet>> sets_;
-  std::vector<int> loaded_;  // passed sets, the last one used at the end
+  std::vector<int> loaded_;  // passed sets, the most recently used one at the end
   PetscInt serialised_ = 0;  // number of vectors that the checkpoint contains
 };
 

@@ -35,7 +35,7 @@ struct Improvement {
   /// For each point, the largest backward error of its pairs in the full problem. NaN means that no
   /// steady state with the active set of the family exists at this friction; `roundOff` is then NaN
   /// as well. Only tracking::Family::improve() returns NaN. The list is empty if the family does
-  /// not override Family::improve(), since it solves the full problem.
+  /// not override Family::improve(), since such a family has the full problem.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
   /// reduced problem.
@@ -63,9 +63,9 @@ class ReducedProblem {
   /// unknown i, numbered over all ranks, is one of them. Returns the index of the set. `pencil`
   /// begins with the terms passed to the constructor. Its further terms apply to this set only, at
   /// all of its points; the object and `pencil` share their matrices. A `passed` set contains no
-  /// point of the sweep; it stands for an active set through which the contact passes between two
-  /// points. Call load() before each
-  /// use of a passed set. Throws Error if the stiffness is not positive definite.
+  /// point of the sweep; it is an active set through which the contact passes between two points.
+  /// Call load() before each use of a passed set. Throws Error if the stiffness is not positive
+  /// definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
   /// Collective. Projects the terms of a passed set, unless they are loaded
@@ -76,8 +76,8 @@ class ReducedProblem {
   /// all unknowns. Their countConfirmed is true if two conditions hold: the number of interior
   /// modes is confirmed, and there is a frequency below which the number of modes found equals both
   /// the lower and the upper bound by subspace::ModeCount. From then on, these modes determine the
-  /// top of the band at the points of the set. The eigenvalues that solve() lists there thus do not
-  /// depend on the other sets of the basis. Only K and M of `pencil` are used.
+  /// top of the band at the points of the set. The eigenvalues that solve() lists at these points
+  /// thus do not depend on the other sets of the basis. Only K and M of `pencil` are used.
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns their complex modes, [point]. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
@@ -96,8 +96,8 @@ class ReducedProblem {
   /// the band and in the guard zone around it (see pencil::WatchedBand), with right and left
   /// vectors. The coordinates are those of the basis at the time of the solve. Pairs in the band
   /// are those of solve(); pairs in the guard zone may be less accurate. Returns none if the pairs
-  /// are not stored: the point has not been solved, the memory was short, `-flutter_basis` is not
-  /// `corrected`, or the free modes span the whole space.
+  /// are not stored: the point has not been solved, the memory limit was reached, `-flutter_basis`
+  /// is not `corrected`, or the free modes span the whole space.
   std::optional<std::vector<linalg::DensePair>> watchedPairs(const sweep::Parameters& at,
                                                              int set) const {
     return solved_.at(at, set);

@@ -6,7 +6,7 @@
 
 namespace squeal::reduction {
 
-/// Not collective. Writes or reads the solution of a point, the same on all ranks.
+/// Not collective. Writes or reads the solution of a point, which is the same on all ranks.
 void fields(Stream& stream, PointSolution& solution);
 
 }  // namespace squeal::reduction

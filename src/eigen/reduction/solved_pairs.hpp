@@ -13,12 +13,12 @@
 
 namespace squeal::reduction {
 
-/// Stores the watched eigenpairs of solved points within a limit of memory, those of a point on one
-/// rank.
+/// Stores the watched eigenpairs of solved points, up to a memory limit. The pairs of a point are
+/// stored on one rank.
 class SolvedPairs {
  public:
   explicit SolvedPairs(MPI_Comm comm) : comm_(comm) {}
-  /// Not collective. Stores the pairs of these points, which belong to a basis of this size.
+  /// Not collective. Stores the pairs of these points, whose vectors refer to a basis of this size.
   void store(const std::vector<PointState>& states, PetscInt basisSize);
   /// Collective. Returns the pairs of a point with right and left vectors; none if they are not
   /// stored.
@@ -29,13 +29,13 @@ class SolvedPairs {
  private:
   struct Entry {
     sweep::Parameters at;
-    int set;  // its index
+    int set;  // index of the point's set
     int owner;
     std::vector<linalg::DensePair> pairs;  // on the owner
   };
   MPI_Comm comm_;
   std::vector<Entry> entries_;
-  double bytes_ = 0;            // on all ranks
+  double bytes_ = 0;            // total over all ranks
   std::size_t serialised_ = 0;  // entries that the checkpoint contains
 };
 

@@ -8,10 +8,10 @@
 
 namespace squeal::reduction {
 
-/// The watched eigenpairs of a point, with right and left vectors, by ascending imaginary part. All
-/// eigenvalues are computed only for the first, small bases: in a large problem full solves would
-/// take most of the time, and with damping the linearised problem is twice as large as the basis.
-/// In larger bases, the inaccurate pairs are improved instead.
+/// The watched eigenpairs of a point, with right and left vectors, by ascending imaginary part.
+/// Full solves for all eigenvalues would take most of the time in a large problem, and with damping
+/// the linearised problem is twice as large as the basis. Only small bases are therefore solved in
+/// full; in larger ones, the inaccurate pairs are improved instead.
 struct Spectrum {
   std::vector<linalg::DensePair> band;   ///< in the band
   std::vector<linalg::DensePair> guard;  ///< in the guard zone around the band
@@ -29,9 +29,9 @@ struct SpectrumRequest {
 };
 
 /// Collective. Updates each spectrum to the problem of its request. The basis of this problem must
-/// begin with the basis of the spectrum. An empty spectrum is computed in full. The work is
-/// distributed over the ranks; every rank must pass all problems. Throws Error on all ranks if a
-/// solve fails.
+/// begin with the basis of the spectrum. A spectrum is computed in full if its band is empty, if
+/// the problem is small or conservative, or if the improvement fails. The work is distributed over
+/// the ranks; every rank must pass all problems. Throws Error on all ranks if a solve fails.
 void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
                   const std::vector<SpectrumRequest>& requests);
 

@@ -12,7 +12,7 @@ namespace squeal::reduction {
 
 /// Returns the watched eigenpairs of
 ///   (s² M + K) q = 0,
-/// with right and left vectors. `pairs` are those of a smaller basis; their vectors are extended by
+/// with right and left vectors. `pairs` are those of a smaller basis; their vectors are padded with
 /// zeros. `watched` must select all eigenvalues in a disc |s| < R except strongly damped ones, so
 /// that it selects the eigenvalues t = −1/s² of K⁻¹M of largest magnitude. Their right and left
 /// vectors are iterated together: the problem is projected on the vectors and on K⁻¹M times those

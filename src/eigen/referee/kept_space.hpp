@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The space V of the proof: free modes, static responses and corrections. KeptSpace also has the
-/// projected matrices, and the Gram matrices of their couplings to C, the space that V leaves out.
+/// The space V of the proof: free modes, static responses and corrections. KeptSpace also computes
+/// the projected matrices and their couplings to C, the orthogonal complement of V in energy.
 #include "algebra/linalg/quadratic.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/proof/kept.hpp"
@@ -14,8 +14,8 @@ namespace squeal::referee {
 /// collective.
 class KeptSpace {
  public:
-  /// Starts with the modes and the static responses to the forces that the other terms exert on
-  /// them.
+  /// Starts with the modes and the static responses to the forces that the terms
+  /// SplitProblem::perturbations() exert on them.
   KeptSpace(const SplitProblem& problem, const ShiftedSystem& shifted, const modes::Modes& modes);
   PetscInt size() const { return basis_.size(); }
   bool isWhole() const { return basis_.size() == shifted_.system.size(); }
@@ -29,7 +29,7 @@ class KeptSpace {
   /// Returns the problem on V and its couplings to C, for regions up to `top`, rad/s.
   proof::KeptProblem problem(double top);
   /// Returns the bounds on C; call it after problem(). The pencil (K0, M) has `count` eigenvalues
-  /// below θ = `below`: those of the first `count` modes, of which `last` is the largest.
+  /// below θ = `below`: those of the first `count` modes. The largest of them is `last`.
   proof::LeftOut leftOut(PetscInt count, double last, double below) const;
 
  private:
@@ -51,7 +51,7 @@ class KeptSpace {
   linalg::Block v_;       // V, orthonormal in energy
   linalg::Block forces_;  // K0 V
   std::vector<Part> parts_;
-  double leak_ = 0;  // norm of the coupling by M of the modes to all other vectors
+  double leak_ = 0;  // norm of the coupling by M between the modes and all other vectors
   PetscInt modes_ = 0;
 };
 

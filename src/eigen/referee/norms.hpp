@@ -8,9 +8,9 @@
 namespace squeal::referee {
 
 /// Collective. Adds to `bounds` the bounds of the matrices M_a, C and G on the space that V leaves
-/// out. There M ≤ `bounds.mass` in the energy K0. With H = K0 + M / mass, every matrix A ≤ g H
-/// therefore satisfies A ≤ 2 g there. The inertia of g H − A, or of [g H, A; Aᵀ, g H] for an
-/// antisymmetric A, confirms g, which is less than 1.2 times the smallest possible one. Throws
+/// out. On this space, M ≤ `bounds.mass` in the energy K0. With H = K0 + M / mass, every matrix
+/// A ≤ g H therefore satisfies A ≤ 2 g there. The inertia of g H − A, or of [g H, A; Aᵀ, g H] for
+/// an antisymmetric A, confirms g, which is less than 1.2 times the smallest possible one. Throws
 /// Error if no g is confirmed.
 void boundOthers(const SplitProblem& problem, const factor::AssociatedSystem& system,
                  proof::LeftOut& bounds);

@@ -36,28 +36,28 @@ struct Row {
   std::optional<std::size_t> entry;  ///< index in the list
   Complex listed = 0;
   Verdict verdict = Verdict::unproved;
-  std::optional<Complex> proved;  ///< centre of the nearest disc if it is single
+  std::optional<Complex> proved;  ///< centre of the nearest disc if Isolation::single
   double radius = 0;              ///< of this disc, rad/s
   double distance = 0;            ///< of the entry from the centre, rad/s
 };
 
 struct Judgement {
   std::vector<Row> rows;  ///< the entries in the order of the list, then the missing eigenvalues
-  /// The eigenvalues with Im s ≥ 0 in the region; those that are single lie in their discs of the
-  /// inner radius.
+  /// The enclosures of the eigenvalues with Im s ≥ 0 in the region; an Isolation::single one
+  /// contains its eigenvalue within the inner radius.
   std::vector<proof::Enclosure> eigenvalues;
   proof::Region region;
   proof::CountProof count;
   std::string why;  ///< why the count is not proved; empty if it is
   PetscInt unknowns = 0, modes = 0, basis = 0;
-  double shift = 0;      ///< σ, rad²/s²
+  double shift = 0;      ///< σ of ShiftedSystem, rad²/s²
   double asymmetry = 0;  ///< ‖K − Kᵀ‖ / ‖K‖ of the stiffness
   bool damped = false;
   long solves = 0;
 
   bool proved() const { return why.empty(); }
   long number(Verdict verdict) const;
-  /// Returns the number of eigenvalues with Im s ≥ 0 that are proved to be single in a disc.
+  /// Returns the number of eigenvalues with Im s ≥ 0 that are proved to be alone in their discs.
   long singles() const;
   /// Returns true if the count is proved, every entry in the region is right and no eigenvalue is
   /// missing.
@@ -76,7 +76,8 @@ struct Problem {
 
 /// Collective. Judges a list of eigenvalues with Im s ≥ 0. If the settings of the modes give a
 /// number, computes that many modes, otherwise all modes up to 1.7 times the top and a few more.
-/// Throws Error as SplitProblem, shiftedSystem() and modes::compute() do.
+/// Throws Error if the top is automatic and the list has only zeros, and in the same cases as
+/// SplitProblem, shiftedSystem() and modes::compute().
 Judgement judge(const Problem& problem, std::span<const Complex> list, const Settings& settings,
                 const modes::Settings& modes);
 

@@ -6,7 +6,7 @@
 namespace squeal::referee {
 
 /// Not collective. Sets the eigenvalues and the rows of a judgement whose region and count are
-/// known. `tolerance` is relative to |s|.
+/// set. `tolerance` is relative to |s|.
 void setRows(std::span<const Complex> list, const std::vector<proof::Enclosure>& discs,
              double tolerance, Judgement& judgement);
 

@@ -14,8 +14,8 @@ namespace squeal::referee {
 /// and K_a. The handle of a zero matrix is null.
 class SplitProblem {
  public:
-  /// Collective. Splits the matrices of the point. Throws Error without mass or stiffness, or if
-  /// the symmetric part of the mass is not positive definite except for rows of zeros.
+  /// Collective. Splits the matrices of the point. Throws Error if there is no mass or stiffness,
+  /// or if the symmetric part of the mass, without its rows of zeros, is not positive definite.
   SplitProblem(const pencil::Pencil& pencil, const sweep::Parameters& at);
   Mat symmetric(int power) const { return parts_[power][0]; }
   Mat skew(int power) const { return parts_[power][1]; }
@@ -23,8 +23,9 @@ class SplitProblem {
   bool damped() const { return symmetric(1) || skew(1); }
   /// Returns ‖K − Kᵀ‖ / ‖K‖ of the stiffness K in the Frobenius norm.
   double asymmetry() const { return asymmetry_; }
-  /// Collective. Returns all terms except the symmetric stiffness and mass, which form the energy.
-  /// The static responses to the forces of these terms start the basis.
+  /// Collective. Returns all terms except the symmetric stiffness and mass, which form the energy,
+  /// and except antisymmetric parts of stiffness and mass that may be due to a limited number of
+  /// printed digits. The static responses to the forces of the returned terms start the basis.
   std::vector<pencil::Term> perturbations() const;
 
  private:
@@ -32,8 +33,8 @@ class SplitProblem {
   double asymmetry_ = 0;
 };
 
-/// K0 = K + σ M and M, both symmetric, where σ ≥ 0 is twice the smallest shift of a sequence for
-/// which K + σ M is positive definite.
+/// K0 = K + σ M and M, both symmetric, with σ = 2 σ_1 ≥ 0. Here σ_1 is the smallest shift of a
+/// sequence for which K + σ_1 M is positive definite.
 struct ShiftedSystem {
   factor::AssociatedSystem system;
   double shift = 0;  ///< σ, rad²/s²

@@ -18,7 +18,8 @@ using Forms = std::function<std::vector<pencil::Derivative>(const EigenTriple&)>
 /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point.
 /// `pencil` contains the terms of the point. Left vectors are computed first, from the space
 /// `start`, with the solver of `system`. The derivatives, where they exist, are the forms divided
-/// by −yᴴ P′ x [M.46]. Borrows the arguments only during this call.
+/// by −yᴴ P′ x [M.46]. The second derivatives [M.90] take only the nearest eigenvalue into account.
+/// Borrows the arguments only during this call.
 void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                   const StartSpace& start, const factor::AssociatedSystem& system,
                   const Forms& forms);
@@ -39,8 +40,8 @@ void deriveCritical(const CriticalPoint& point, const pencil::Pencil& pencil,
                     const StartSpace& start, const factor::AssociatedSystem& system,
                     const Forms& forms, pencil::CriticalMode& mode);
 
-/// Collective. Returns the forms of friction, speed and damping; those on which no coefficient of a
-/// term depends are zero. Borrows the pencil.
+/// Collective. Returns the forms of friction, speed and damping; the form of a parameter on which
+/// no coefficient of a term depends is zero. Borrows the pencil.
 Forms parameterForms(const pencil::Pencil& pencil, const sweep::Parameters& at);
 
 /// Collective. Does the same as deriveShapes() for the parameters friction, speed and damping, with

@@ -19,7 +19,7 @@ struct RightPair {
 /// A right or left vector z and its backward error.
 struct NullVector {
   linalg::ComplexVector vector;  ///< in the unknowns, 2-norm 1
-  /// The backward error, with P(s)ᴴ for a left vector,
+  /// The backward error (with P(s)ᴴ in place of P(s) for a left vector),
   ///   ‖P(s) z‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖z‖).
   double backwardError = 0;
 };
@@ -28,8 +28,8 @@ struct NullVector {
 struct StartSpace {
   OwnedBV columns;      ///< V: the free modes, or the basis of the reduced problem
   Mat inner = nullptr;  ///< the matrix in which V is nearly orthonormal, M0 or K0; borrowed
-  linalg::DenseProblem projected;  ///< Vᵀ P V at the point if it is known, which saves products
-                                   ///< with V; otherwise empty
+  linalg::DenseProblem projected;  ///< Vᵀ P V at the point, which saves products with V; empty
+                                   ///< if unknown
 };
 
 /// Collective. Returns V c, scaled to the 2-norm 1.
@@ -37,7 +37,7 @@ linalg::ComplexVector expanded(BV columns, const std::vector<Complex>& c);
 
 /// The settings of the search for null vectors.
 struct Search {
-  double accuracy = 1e-10;  ///< largest backward error
+  double accuracy = 1e-10;  ///< largest acceptable backward error
   bool simple = true;  ///< true: s may be inexact and is corrected; false: eigenvalues may meet at
                        ///< s, which must be exact
 };
@@ -45,17 +45,17 @@ struct Search {
 /// Collective. Returns the left vectors of all pairs, [pair], by Rayleigh–Ritz on a basis that
 /// starts with V and the right vectors. Each round extends it by
 ///   K0⁻¹ Re l, K0⁻¹ Im l,   l = P(s)ᴴ y,
-/// for the left residuals l of all pairs together, with `solver`, a borrowed factorisation of K0. A
-/// round reduces the errors about tenfold. The rounds end when all backward errors are at most
-/// `search.accuracy`, when the basis no longer grows, or after 20 rounds. The caller must check the
-/// remaining errors.
+/// for the left residuals l of all inaccurate pairs together, with `solver`, a borrowed
+/// factorisation of K0. A round reduces the errors about tenfold. The rounds end when all backward
+/// errors are at most `search.accuracy`, when the basis no longer grows, or after 20 rounds. The
+/// caller must check the remaining errors.
 std::vector<NullVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                     const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs, const Search& search);
 
 /// Collective. Returns the right vector at an eigenvalue s in the same way, from V. Right and left
-/// vectors are those of the smallest singular value of P(s), so they are well defined where two
-/// eigenvalues and their vectors meet.
+/// vectors are the singular vectors of the smallest singular value of P(s), so they are well
+/// defined even where two eigenvalues and their vectors meet.
 NullVector rightVector(const pencil::Pencil& pencil, const sweep::Parameters& at,
                        const StartSpace& start, KSP solver, Complex s, const Search& search);
 

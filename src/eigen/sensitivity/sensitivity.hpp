@@ -23,8 +23,8 @@ struct EigenTriple {
 /// Collective. Returns yᴴ P′(s) x.
 Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
                   const EigenTriple& triple);
-/// Collective. Returns yᴴ (∂P/∂θ)(s) x for θ = `parameter`, on which the coefficients of the terms
-/// depend.
+/// Collective. Returns yᴴ (∂P/∂θ)(s) x for θ = `parameter`, from the derivatives of the
+/// coefficients of the terms with respect to θ.
 Complex parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
                       const EigenTriple& triple, double sweep::Parameters::*parameter);
 /// Collective. Returns the condition number [M.50] for Sensitivity::condition. `slope` is yᴴ P′(s)

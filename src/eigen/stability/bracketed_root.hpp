@@ -23,7 +23,7 @@ class BracketedRoot {
   double root() const;
 
  private:
-  End a_, b_, c_;  // the latest point, the other end of the bracket, and the point before
+  End a_, b_, c_;  // the latest point, the other end of the bracket, and the previous point
   double part_, tolerance_;
   int count_ = 0;
   bool done_ = false;

@@ -21,16 +21,16 @@ class CriticalRoot {
         tolerance_(tolerance),
         throughZero_(tracking::real(event.below[0].s) && tracking::real(event.above[0].s)) {}
 
-  /// Locates the critical friction in the present basis. `changed` is true if the basis differs
+  /// Locates the critical friction in the current basis. `changed` is true if the basis differs
   /// from that of the last call.
   void locate(Family& family, bool changed);
   /// Returns true if the friction no longer moves, or if it was not found.
   bool settled() const { return settled_; }
-  /// Returns the friction with one pair there, whose eigenvalue is the mean of the eigenvalues:
-  /// where two eigenvalues meet, so do their vectors.
+  /// Returns the friction with a single pair at it. Its eigenvalue is the mean of the eigenvalues
+  /// of the event: where two eigenvalues meet, so do their vectors.
   tracking::PairsAtFriction located() const;
-  /// Stores the backward error and a bound on the round-off in yᴴP(s)x of unit vectors. The
-  /// backward error is NaN if no problem exists at the located friction.
+  /// Stores the backward error and a bound on the round-off in yᴴP(s)x for unit vectors x and y.
+  /// The backward error is NaN if no problem exists at the located friction.
   void setErrors(double backwardError, double roundOff);
 
   /// Returns the critical friction found so far.

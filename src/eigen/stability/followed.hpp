@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A whole sweep over friction: its eigenvalues are tracked from point to point, with their
-/// critical frictions and a statement on the completeness of their number.
+/// Tracking of the eigenvalues of a whole sweep over friction, with the critical frictions and a
+/// statement on whether any eigenvalue is missing.
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +32,7 @@ struct Line {
   std::vector<double> swept;      ///< frictions of the sweep, ascending
   std::vector<LinePiece> pieces;  ///< ascending
   /// Friction of the preceding point, if the active set changes between it and the first point and
-  /// the two have different bases.
+  /// the two sets have different bases.
   std::optional<double> before;
   const modes::Modes* modes = nullptr;  ///< free modes of the first piece, borrowed
 };
@@ -45,20 +45,20 @@ struct TrackedLine {
   Branches branches;                ///< numbered from 1 by renumber()
   std::vector<Critical> criticals;  ///< critical frictions of the branches, ascending
   std::vector<pencil::CriticalMode> criticalModes;  ///< [critical]
-  bool countExact = false;  ///< the Sturm count confirms the number at the first friction, 0
+  bool countExact = false;  ///< a Sturm count confirms the number at friction 0, the first one
   bool wholeSpace = false;  ///< the basis spans the whole space of the full problem
 
   /// Returns true if no eigenvalue of the band is missing at any friction.
   bool complete() const;
-  /// Returns a statement on the number of eigenvalues: the proven part and the assumptions.
+  /// Returns a statement on the number of eigenvalues: which part is proven, and the assumptions.
   std::string statement() const;
 };
 
 /// Returns true if a line is worth tracking: if it has several frictions or a preceding point or,
 /// if tracking is `requested`, a friction other than 0.
 bool worthTracking(const Line& line, bool requested);
-/// Returns the reason why no line can be tracked; empty if one can. In a basis of only the free
-/// modes, tracking is impossible.
+/// Returns the reason why no line can be tracked; empty if lines can be tracked. In a basis of only
+/// the free modes, tracking is impossible.
 std::string whyNotTracked(const reduction::ReducedProblem& reduced, const std::vector<Line>& lines);
 
 /// Collective. Tracks the eigenvalues of the lines from friction 0 on, in the current basis. If the

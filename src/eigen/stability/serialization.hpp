@@ -7,7 +7,8 @@
 
 namespace squeal::stability {
 
-/// Not collective. Writes or reads the tracked eigenvalues of a line, the same on all ranks.
+/// Not collective. Writes or reads the tracked eigenvalues of a line, which are the same on all
+/// ranks.
 void fields(Stream& stream, TrackedLine& tracked);
 
 }  // namespace squeal::stability

@@ -7,10 +7,10 @@
 /// nodes that open (Substructure). If there are any, their constraint modes come first. They are
 /// orthogonal to all other vectors but not to each other.
 ///
-/// Free modes enter as d/ω, corrections as z = K0⁻¹ r [M.31]. The residuals r of a Galerkin
-/// solution on V have Vᵀr = 0, so their corrections are orthogonal to V in energy. The following
-/// quantities therefore need no product with K0 [M.32]; the relations hold up to the errors of
-/// solves with K0:
+/// A free mode d of angular frequency ω enters as d/ω, a correction as z = K0⁻¹ r [M.31]. The
+/// residuals r of a Galerkin solution on V have Vᵀr = 0, so their corrections are orthogonal to V
+/// in energy. The following quantities therefore need no product with K0 [M.32]; the relations hold
+/// up to the errors of solves with K0:
 ///   VᵀK0z = Vᵀr,   zᵀK0z = zᵀr,   K0z = r.
 #include <optional>
 #include <vector>
@@ -47,7 +47,7 @@ class Basis {
   /// Sets the rows of the boundary unknowns to zero. Not collective.
   void clearBoundary(linalg::Block& columns) const;
   OwnedBV vectors() const;
-  /// Not collective. Returns the columns `interior`, which have only interior unknowns, extended by
+  /// Not collective. Returns the columns `interior`, which have only interior unknowns, padded with
   /// zeros at the boundary unknowns. Argument and result have this rank's rows.
   linalg::Block prolonged(const linalg::DenseView& interior) const;
 
@@ -71,12 +71,12 @@ class Basis {
   /// has this rank's rows of A.
   void appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
   /// Return this rank's rows of K0 times the columns last added, and VᵀK0 times these columns,
-  /// size() × columns. Both have no columns after combine() and restore(), since they
-  /// would need further products.
+  /// size() × columns. Both have no columns after combine() and restore(), since they would need
+  /// further products.
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
-  /// Collective. Returns V q, n entries, for several q, [q]. Missing last entries of a q are
-  /// treated as zero.
+  /// Collective. Returns V q, n entries, for several q, [q]. If a q has too few entries, the
+  /// missing ones at its end are treated as zero.
   std::vector<linalg::ComplexVector> expand(const std::vector<std::vector<Complex>>& list) const;
   /// Returns the random signs Ω for columns with n entries [M.39]. The weighted norm that sketches
   /// estimate is √(rᵀ diag(K0)⁻¹ r).
@@ -111,7 +111,7 @@ class Basis {
 
   MPI_Comm comm_;
   Substructure substructure_;
-  bool isPlain_;                // K is K0
+  bool isPlain_;                // true if K is K0
   PetscInt firstBoundary_ = 0;  // index of this rank's first boundary unknown among all
   linalg::DenseMatrix boundaryStiffness_;
   KSP solver_;

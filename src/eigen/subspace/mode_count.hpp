@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The number of free modes below a frequency for any set of boundary unknowns, without another
-/// factorisation [M.61].
+/// factorisation [M.61]. substructure.hpp defines the boundary unknowns w, Y and S.
 ///
 /// Let the modes Φ of the interior be complete below β, and let Z be their orthogonal complement in
 /// energy, with w = 0. On Z, K − σM is positive definite for σ < β. The Schur complement of K − σM
 /// on Φ and the constraint modes Y therefore counts the modes below σ:
-///   count = number of λ_i < σ + negative eigenvalues of G − C,
+///   count = number of λ_i < σ + number of negative eigenvalues of G − C,
 ///   G = S − σ YᵀM Y − σ² Pᵀ (Λ − σ)⁻¹ P,   P = ΦᵀM Y,
-///   0 ≤ C ≤ σ²/(1 − σ/β) D,   D = QᵀK0⁻¹Q − PᵀΛ⁻¹P,   Q = M Y in the rows of the interior.
-/// The two bounds of C bound the count, and for most σ both bounds agree. The solves for D are
-/// often not needed, since
+///   0 ≤ C ≤ σ²/(1 − σ/β) D,   D = QᵀK0⁻¹Q − PᵀΛ⁻¹P,   Q = M Y in the rows of the interior,
+/// where Λ contains the eigenvalues λ_i of Φ. The two bounds of C give bounds of the count, which
+/// agree for most σ. The solves for D are often not needed, since
 ///   D ≤ (YᵀM Y − PᵀP)/β.
 /// A point uses only the rows and columns of its own boundary unknowns.
 #include <optional>
@@ -36,7 +36,7 @@ class ModeCount {
   std::optional<int> below(double sigma, const std::vector<PetscInt>& own) const;
 
  private:
-  std::vector<double> lambda_;                           // of the interior
+  std::vector<double> lambda_;                           // ω² of the modes of the interior
   double complete_ = 0;                                  // β; 0 if unknown
   linalg::DenseMatrix stiffness_, mass_, modal_, rest_;  // S, YᵀM Y, P, and D or its bound
   bool isSharp_ = false;

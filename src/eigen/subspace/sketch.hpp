@@ -24,7 +24,7 @@ class Sketch {
 
   /// Collective. Creates Ω for vectors distributed like `diagonal`, [local row], which is the
   /// diagonal D ≥ 0 of the weighted norm √(rᵀ D r). The signs depend only on the global row, not on
-  /// the number of ranks. Both norms ignore the local rows `leftOut`.
+  /// the number of ranks. The Euclidean and the weighted norm ignore the local rows `leftOut`.
   Sketch(MPI_Comm comm, const std::vector<double>& diagonal,
          const std::vector<PetscInt>& leftOut = {});
   /// Collective. Returns the rows of Ωᵀ X / √k, followed by those of Ωᵀ D^½ X / √k, 2k × columns,
@@ -58,7 +58,7 @@ std::vector<double> squaredLengths(const linalg::DenseView& unweighted);
 /// estimated from the sketches of the columns, 2k × all. Each column is first multiplied by its
 /// factor, [column]; the coefficients include the factors. The combinations are the right singular
 /// vectors of the unweighted half of the sketch with singular values above `small`; `count` is the
-/// number of combinations, a fraction of `all` if the columns are nearly dependent. If all singular
+/// number of combinations, which is small if the columns are nearly dependent. If all singular
 /// values exceed `small`, returns the diagonal matrix of the factors. Returns nothing if nearly k
 /// singular values exceed `small`, since the sketch then does not show how many are needed.
 std::optional<linalg::DenseMatrix> leadingCombinations(const linalg::DenseView& sketches,
@@ -66,8 +66,9 @@ std::optional<linalg::DenseMatrix> leadingCombinations(const linalg::DenseView& 
                                                        double small);
 
 /// Not collective. Returns the coefficients of the combinations [first, last) of all columns,
-/// all × (last − first): random signs, times the factor of each column. Slightly more combinations
-/// than there are leading directions span these almost surely (Halko, Martinsson and Tropp 2011).
+/// all × (last − first): random signs, times the factor of each column. A few more combinations
+/// than leading directions almost surely span the leading directions (Halko, Martinsson and Tropp
+/// 2011).
 linalg::DenseMatrix randomCombinations(const std::vector<double>& factors, PetscInt first,
                                        PetscInt last);
 

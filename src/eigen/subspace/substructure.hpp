@@ -4,8 +4,8 @@
 /// some of the boundary unknowns w, such as the gaps of contact nodes that open in a part of the
 /// sweep; its other boundary unknowns are zero.
 ///
-/// As in the component modes of Craig and Bampton (AIAA J. 6, 1968), the basis starts with a
-/// constraint mode for each boundary unknown,
+/// As in the Craig–Bampton method (AIAA J. 6, 1968), the basis starts with a constraint mode for
+/// each boundary unknown,
 ///   Y = (−K0⁻¹ K_yw, I),   S = YᵀK Y = K_ww − K_wy K0⁻¹ K_yw   [M.60],
 /// and all other vectors have w = 0. Any such vector is orthogonal to Y in the energy of K. A point
 /// uses only the constraint modes of its own boundary unknowns, and only K0, the stiffness of the
@@ -30,9 +30,9 @@ struct Substructure {
 /// orthonormal in energy, and all vectors after the constraint modes. Not collective.
 class PointSpace {
  public:
-  /// `boundaryStiffness` is S, boundary × boundary, and has[boundary unknown of all ranks] is 1 for
-  /// the unknowns of the point. Throws Error if the part of S for these unknowns is not positive
-  /// definite.
+  /// `boundaryStiffness` is S, boundary × boundary, and has[i] is 1 if the point has boundary
+  /// unknown i, numbered over all ranks. Throws Error if the part of S for these unknowns is not
+  /// positive definite.
   PointSpace(const linalg::DenseMatrix& boundaryStiffness, const std::vector<unsigned char>& has);
   /// Returns true if the point uses the whole basis unchanged.
   bool isWhole() const { return all_ == 0; }
@@ -53,9 +53,9 @@ class PointSpace {
 
  private:
   linalg::DenseMatrix restricted(const linalg::DenseMatrix& a) const;
-  PetscInt all_ = 0;                // boundary unknowns of all points
+  PetscInt all_ = 0;                // boundary unknowns of all points; 0: the basis is unchanged
   std::vector<PetscInt> boundary_;  // boundary unknowns of this point, ascending
-  linalg::DenseMatrix turn_;        // L⁻ᵀ, where L Lᵀ is the part of S for these
+  linalg::DenseMatrix turn_;        // L⁻ᵀ, where L Lᵀ is the part of S for boundary_
 };
 
 }  // namespace squeal::subspace

@@ -23,7 +23,7 @@ struct Parameter {
   const char* name;
   double Parameters::*value;
 };
-/// All parameters, in the order of tables and names.
+/// All parameters, in their order in tables and names.
 inline constexpr std::array<Parameter, 4> allParameters{{{"friction", &Parameters::friction},
                                                          {"speed", &Parameters::speed},
                                                          {"pressure", &Parameters::pressure},
@@ -31,9 +31,9 @@ inline constexpr std::array<Parameter, 4> allParameters{{{"friction", &Parameter
 
 /// Returns true if `at` has a larger friction than `before` and equal other parameters.
 bool growsInFriction(const Parameters& before, const Parameters& at);
-/// Returns the head of a comma-separated table, "friction,speed,…".
+/// Returns the header row of a comma-separated table, "friction,speed,…".
 std::string parameterColumns();
-/// Returns the values of one row of that table.
+/// Returns the values in the row of this table for a point.
 std::string parameterValues(const Parameters& at);
 /// Returns a text such as "friction 0.4, speed 2" for messages; factors of 1 are omitted.
 std::string parameterText(const Parameters& at, int digits = 6);

@@ -11,8 +11,8 @@ struct Settings {
   std::vector<double> speeds{1};       ///< `-flutter_speed`: factors on all velocities
   std::vector<double> pressures{1};    ///< `-flutter_pressure`: factors p (Parameters::pressure)
   std::vector<double> dampings{1};     ///< `-flutter_damping`: factors on the damping
-  /// Not collective. Reads the options. Throws Error if a list is empty, or if a value is out of
-  /// range or given twice.
+  /// Not collective. Reads the options. Throws Error if a list is empty, or if a value is given
+  /// twice or outside its range.
   static Settings given();
 };
 

@@ -28,7 +28,7 @@ struct Sweep {
   std::optional<std::size_t> earlierNeighbour(std::size_t steadyPoint) const;
 };
 
-/// The largest number of points of a sweep.
+/// The maximum number of points of a sweep.
 inline constexpr double mostPoints = 100'000;
 /// Not collective. Returns the grid of the settings. Throws Error if it has more than `mostPoints`
 /// points.
@@ -39,8 +39,8 @@ void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
 /// Returns the indices of the points in the order in which they are solved with one growing basis,
 /// in batches of 5, 16, 16, … points. The first point has the largest friction. Each next point is
 /// the one farthest from all preceding points, with every parameter scaled to its range. If only
-/// the friction is swept, the first batch consists of the ends, the middle and the quarters. The
-/// order does not depend on the number of ranks.
+/// the friction is swept, in equal steps, the first batch is the ends, the middle and the quarters.
+/// The order does not depend on the number of ranks.
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
 
 }  // namespace squeal::sweep

@@ -10,10 +10,10 @@
 
 namespace squeal::sweep_solver {
 
-/// Collective. Adds to a tracked line the mode at each critical friction that is the root of a
-/// function: its name, the shares of the free modes in it and, if `derives`, the derivatives of the
-/// critical friction. Calls `progress`, which may throw, before the derivatives of each critical
-/// friction.
+/// Collective. Adds to a tracked line the mode at each critical friction that is a converged root
+/// with a nonzero slope: its name, the shares of the free modes in it and, if `derives`, the
+/// derivatives of the critical friction. Calls `progress`, which may throw, before it computes the
+/// derivatives of a critical friction.
 void addCriticalModes(SweepProblem& problem, reduction::ReducedProblem& reduced,
                       const stability::Line& line, bool derives,
                       const std::function<void(const std::string&)>& progress,

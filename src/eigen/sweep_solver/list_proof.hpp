@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The proof that the lists of a sweep are complete.
+/// The proof that the lists of eigenvalues of a sweep are complete.
 #include <string>
 #include <vector>
 
@@ -19,9 +19,10 @@ struct ListedPoint {
   pencil::ComplexModes* list;       ///< borrowed
 };
 
-/// Collective. Sets ComplexModes::completeness of the points. Extends the basis for this. `modes`
-/// are the free modes of the interior unknowns. Returns a line of text for each list that lacks an
-/// eigenvalue.
+/// Collective. Sets ComplexModes::completeness of the points, and extends the basis for this
+/// purpose. `modes` are the free modes of the interior unknowns. Returns a line of text for each
+/// list that lacks an eigenvalue. Does nothing without a basis of `-flutter_basis corrected`, or if
+/// this basis spans the whole space.
 std::vector<std::string> proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
                                     const modes::Modes& modes, std::vector<ListedPoint> points,
                                     const completeness::Settings& settings);

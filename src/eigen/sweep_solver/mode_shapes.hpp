@@ -9,7 +9,7 @@
 
 namespace squeal::sweep_solver {
 
-/// Collective. Returns at most `most` of the first modes in nodal displacements, with a largest
+/// Collective. Returns the first modes, at most `most`, as nodal displacements T d with a largest
 /// entry of magnitude 1. `trial` is T.
 std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial, int most);
 

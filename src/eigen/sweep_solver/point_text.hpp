@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The lines that a run prints on the eigenvalues of a point. Not collective.
+/// The lines that a run prints about the eigenvalues of a point. Not collective.
 #include <string>
 
 #include "eigen/pencil/complex_modes.hpp"
@@ -11,7 +11,7 @@ namespace squeal::sweep_solver {
 /// and the errors.
 std::string pointText(const pencil::ComplexModes& point);
 
-/// Returns one line: what is proved about the list of the point.
+/// Returns one line: the result of the completeness proof for the list of the point.
 std::string completenessText(const pencil::ComplexModes& point);
 
 /// Throws Error if an eigenvalue is not finite: overflow in the eigenvalue problems must not reach

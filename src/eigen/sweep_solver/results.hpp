@@ -14,7 +14,7 @@ namespace squeal::sweep_solver {
 /// The results at consecutive steady points with the same active set, and the modes of that set.
 struct ModalSegment {
   PetscInt openNodes = 0;  ///< contact nodes that are not active, over all ranks
-  PetscInt unknowns = 0;   ///< n
+  PetscInt unknowns = 0;   ///< n, number of unknowns
   modes::Modes modes;  ///< empty with the direct method; only the modes in the band if other active
                        ///< sets share the basis
   /// The first Request::reportedModes modes in nodal displacements, N entries each, with a largest
@@ -24,10 +24,10 @@ struct ModalSegment {
   /// files.
   std::vector<std::vector<pencil::Component>> components;
   std::vector<pencil::ComplexModes> points;  ///< for each damping factor, all steady points
-  /// If eigenvalues are tracked, one entry for each speed, pressure and damping whose first point
-  /// is in `points`.
+  /// If eigenvalues are tracked, one entry for each combination of speed, pressure and damping
+  /// whose first point is in `points`.
   std::vector<stability::TrackedLine> trackedLines;
-  long solves = 0;  ///< number of right-hand sides for corrections of the basis and error estimates
+  long solves = 0;  ///< number of right-hand sides solved for the basis and for error estimates
 };
 
 /// The results of a problem.

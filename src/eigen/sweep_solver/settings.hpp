@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The settings of all rooms that solve a sweep.
+/// The settings of all parts of the program that solve a sweep.
 #include <optional>
 #include <vector>
 
@@ -18,9 +18,9 @@ struct Settings {
   std::optional<modes::Settings> modes;  ///< none if no free modes are needed
   std::optional<reduction::Settings> reduction;
   std::optional<direct::Settings> direct;
-  std::vector<double> modalDamping{0};  ///< ratios of the free modes
+  std::vector<double> modalDamping{0};  ///< damping ratios of the free modes
   stability::Settings stability;
-  completeness::Settings proof;  ///< of the reduced method
+  completeness::Settings proof;  ///< completeness proof, only with the reduced method
   sensitivity::Settings sensitivity;
   /// Not collective. Reads the options; those of a method only if it is selected.
   static Settings given(const pencil::Settings& problem);

@@ -20,7 +20,7 @@ struct SweepPlan {
   std::vector<sweep::Parameters> points;
   std::vector<PointPlace> places;                 ///< [point]
   std::vector<std::vector<std::size_t>> batches;  ///< points that are solved together, in order
-  std::vector<std::size_t> order;                 ///< all points in this order
+  std::vector<std::size_t> order;                 ///< all points, batch after batch
 };
 
 /// Returns the plan of a sweep. With `together`, the points of a batch share the corrections of one

@@ -20,10 +20,10 @@ namespace squeal::sweep_solver {
 
 /// An active set, and the consecutive steady points that have it.
 struct PointRange {
-  std::size_t first = 0, last = 0;  ///< steady points [first, last); none if the active set occurs
-                                    ///< only between points
+  std::size_t first = 0, last = 0;  ///< steady points [first, last); first == last if the active
+                                    ///< set occurs only between points
   PetscInt openNodes = 0;           ///< contact nodes that are not active, over all ranks
-  /// [boundary unknown of all ranks] 1 if it is an unknown of these points
+  /// [boundary unknown, over all ranks] 1 if it is an unknown of these points
   std::vector<unsigned char> has = {};
   std::vector<pencil::Term> terms = {};  ///< of these points, in addition to those of all points
 };
@@ -56,7 +56,7 @@ class SweepProblem {
   Mat trial = nullptr;                          ///< T: maps all unknowns to the reported vectors
   std::vector<sweep::Parameters> steadyPoints;  ///< points with a steady state; their damping is 1
   std::vector<PointRange> ranges;               ///< one for each active set
-  std::optional<pencil::Pencil> pencil;  ///< the terms that hold at all points; always has a value
+  std::optional<pencil::Pencil> pencil;         ///< the terms of all points; always has a value
   /// [steady point] the path to it from the preceding point, if the two differ only in friction.
   /// The last piece has the active set of the point. Empty if all points have one active set.
   std::vector<std::vector<PathPiece>> steps;
@@ -64,8 +64,8 @@ class SweepProblem {
   /// differ only in friction.
   std::optional<double> frictionBefore;
 
-  /// Returns the path through `count` consecutive points, from steadyPoints[first] on, which must
-  /// differ only in friction. All ranges must be known.
+  /// Returns the path through `count` consecutive points, from steadyPoints[first] on. The points
+  /// must differ only in friction, and all ranges must be known.
   std::vector<PathPiece> path(std::size_t first, std::size_t count) const;
 
   /// Collective. Returns the terms that belong only to steadyPoints[i].
@@ -76,9 +76,9 @@ class SweepProblem {
     factors.missing = "the factors of the friction terms are not known";
     return factors;
   }
-  /// Collective. Returns the data of a point between two points of the sweep; none if it has no
-  /// steady state, or an active set other than that of steadyPoints[like]. The forms borrow this
-  /// problem.
+  /// Collective. Returns the data of a point between two points of the sweep; none if the point has
+  /// no steady state, or if its active set differs from that of steadyPoints[like]. The forms
+  /// borrow this problem.
   virtual std::optional<PointBetween> between(const sweep::Parameters& /*at*/,
                                               std::size_t /*like*/) {
     return PointBetween();
@@ -89,7 +89,7 @@ class SweepProblem {
   virtual void examine(std::size_t i, const pencil::Pencil& pencil,
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
   /// Collective. Returns, for each of these complex modes, its name and the shares of the free
-  /// modes in it. The vectors of `motions` are in the unknowns.
+  /// modes in it. The vectors of `motions` have one entry per unknown.
   virtual std::vector<pencil::CriticalMode> describe(
       const std::vector<pencil::ComplexMotion>& motions, const modes::Modes& /*modes*/) const {
     return std::vector<pencil::CriticalMode>(motions.size());

@@ -8,8 +8,8 @@
 
 namespace squeal::tracking {
 
-/// Returns true if |Re s| is at most 1e-6 |s|, or 1e-10 |s| in a damped problem. The first bound is
-/// larger because round-off splits multiple eigenvalues in problems in s².
+/// Returns true if |Re s| is at most 1e-6 |s| in a problem in s², or 1e-10 |s| in a damped problem.
+/// The first bound is larger because round-off splits multiple eigenvalues in problems in s².
 bool neutral(Complex s, bool damped);
 /// Returns true if |Im s| is at most 1e-6 |s|.
 bool real(Complex s);
@@ -21,7 +21,7 @@ bool splitPair(const std::vector<linalg::DensePair>& two, bool damped);
 bool coincide(const std::vector<linalg::DensePair>& pairs);
 
 /// A group of eigenvalues at one friction ("here") and a group at another ("there") with
-/// overlapping subspaces.
+/// overlapping subspaces. Π_i and Π_j denote the spectral projectors of eigenvalues here and there.
 struct Group {
   std::vector<std::size_t> here, there;  ///< indices of pairs
   double share = 0;  ///< |Σ tr(Π_i Π_j) − here.size()|, small if the subspaces are equal
@@ -30,7 +30,7 @@ struct Group {
 };
 
 /// Not collective. Divides the eigenvalues into the smallest groups such that |tr(Π_i Π_j)| is at
-/// most 0.1 for eigenvalues of different groups. Some groups have members at only one of the
+/// most 0.1 for eigenvalues of different groups. Some groups may have members at only one of the
 /// frictions.
 std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& there);
 
@@ -39,9 +39,10 @@ std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& 
 /// of `group.there` if no partner is left.
 std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Spectrum& there,
                                   const Group& group);
-/// Returns partners for two lists of equal length by their order: ascending frequency, then
-/// descending growth rate. Where two neutral eigenvalues become a split pair, or the reverse, this
-/// is the convention of track().
+/// Returns for each entry of `here` the index of its partner in `there`, a list of equal length.
+/// Partners have the same place in the order of ascending frequency, then descending growth rate.
+/// This is the convention of track() where two neutral eigenvalues become a split pair, or the
+/// reverse.
 std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here,
                                  const std::vector<linalg::DensePair>& there);
 
@@ -61,10 +62,11 @@ std::vector<std::vector<linalg::DensePair>> watchedPairs(MPI_Comm comm,
                                                          const pencil::WatchedBand& band);
 
 /// Not collective. `from` has one or two eigenvalues at a neighbouring friction. Returns the
-/// eigenvalues of `problem` that continue them; none if there are no such eigenvalues. They are
-/// first sought in their own subspace: `expected` is the estimate of their mean, and `isolation`
-/// its distance from other eigenvalues (see clusterNear()). If that fails or converges to other
-/// eigenvalues, they are chosen from all eigenvalues. Throws Error if LAPACK fails.
+/// eigenvalues of `problem` that continue them; none if there are no such eigenvalues. The search
+/// starts from the subspace of `from`. `expected` is an estimate of the mean of the result, and
+/// `isolation` the distance of this mean from other eigenvalues (see clusterNear()). If this search
+/// fails or converges to other eigenvalues, the result is chosen from all eigenvalues. Throws Error
+/// if LAPACK fails.
 std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
                                             const linalg::Spectrum& from, Complex expected,
                                             double isolation);

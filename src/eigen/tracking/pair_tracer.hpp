@@ -22,8 +22,8 @@ struct TraceRequest {
   const PairAt& low;
   const PairAt& high;
   std::vector<int> ids;  ///< [pair at `low`] its branch
-  double isolation;      ///< distance of their mean from other eigenvalues, rad/s
-  double smallest;       ///< smallest step
+  double isolation;      ///< distance of the mean of the two from other eigenvalues, rad/s
+  double smallest;       ///< smallest step, except in the search for a change of stability
 };
 
 /// The continuation of eigenvalues over a step.
@@ -38,7 +38,7 @@ class PairTracer {
  public:
   /// Borrows the family.
   explicit PairTracer(Family& family) : family_(family) {}
-  /// Collective. Returns the continuation; none if the subspace is lost.
+  /// Collective. Returns the continuation; none if the subspace is not found within the step.
   std::optional<Trace> trace(const TraceRequest& request) const;
 
   static constexpr double closer = 1. / 16;  ///< fraction of a step, to approach equal eigenvalues

@@ -26,8 +26,8 @@ struct ProblemSource {
 };
 
 /// The problems at all frictions of one speed, pressure and damping. If points have terms of their
-/// own, at() computes a steady state and a projection on all ranks for each new friction, and
-/// near() interpolates the projections of these terms.
+/// own, at() computes a steady state and the projections of these terms on all ranks for each new
+/// friction, and near() interpolates the projections.
 class ReducedFamily : public Family {
  public:
   using Progress = std::function<void(const std::string&)>;

@@ -23,9 +23,9 @@ struct StepEnd {
 /// Collective. Appends the events that are found within the step between `low` and `high`. A cubic
 /// through the values and slopes at both ends selects candidates: pairs of neutral eigenvalues that
 /// may meet, and growth rates that may change sign twice. The candidates are examined within the
-/// step, in their own subspace. This finds mergers wider than about 1e-5 of the step, and double
-/// sign changes of a growth rate whose cubic falls below a tenth of the values at the ends. If an
-/// examination fails or gives no decision, appends a gap.
+/// step, in their own subspace. This finds mergers wider than about 1e-5 of the step. It also finds
+/// double sign changes of a growth rate if its cubic falls below a tenth of the smaller value at
+/// the ends. If an examination fails or is undecided, appends a gap.
 void screen(Family& family, const StepEnd& low, const StepEnd& high,
             const std::vector<ContinuedPair>& singles, std::vector<Event>& events,
             std::vector<Gap>& gaps);

@@ -17,7 +17,7 @@ struct Link {
   double overlap;
 };
 
-/// The result of one step, which is discarded if the step is halved. Until all earlier steps are
+/// The result of one step. It is discarded if the step is halved. Until all earlier steps are
 /// finished, its branch numbers are indices of pairs at the lower end.
 struct StepResult {
   std::vector<Link> links;
@@ -44,7 +44,8 @@ struct SolvedStation {
 /// `after` are the signs of the growth rate there. Returns none if the stability does not change.
 std::optional<Event> crossing(Event event, int before, int after);
 /// Returns the event of one of several equal eigenvalues that split at a friction. `event` has its
-/// branch and its pairs. If `loss` is true it loses stability, otherwise it regains it.
+/// branch and its pairs. If `loss` is true, the eigenvalue loses stability; otherwise it regains
+/// it.
 Event splitting(Event event, bool loss, double friction);
 
 }  // namespace squeal::tracking

@@ -30,7 +30,7 @@ struct Event {
   enum class Kind { coalescence, crossing, divergence, contact } kind = Kind::crossing;
   int branch = 0, partner = -1;
   bool loss = true;          ///< stability is lost with rising friction; false: it is regained
-  double low = 0, high = 0;  ///< bracket of the friction. If both are equal, the event is at this
+  double low = 0, high = 0;  ///< bracket of the friction; equal if the event is exactly at this
                              ///< friction, for example where a double eigenvalue splits
   /// The pairs involved at `low` and at `high`. A crossing or divergence has two pairs if two equal
   /// eigenvalues change their stability together. Each of them then has an event for the mean of
@@ -62,9 +62,9 @@ struct Branches {
 struct TrackLimits {
   /// Smallest step with a full solve, as a fraction of a step of the sweep.
   double smallest = 1. / 1024;
-  /// If at most this many frictions that may be omitted (Piece::needed) lie between two needed
-  /// ones, all are examined. If there are more, the path between the needed ones is bisected until
-  /// each continuation is certain and without a change of stability.
+  /// The other frictions between two needed ones (Piece::needed) are all examined if there are at
+  /// most this many. If there are more, the path between the needed ones is bisected until each
+  /// continuation is certain and without a change of stability.
   std::size_t examined = 32;
 };
 

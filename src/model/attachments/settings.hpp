@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Settings of springs and bushings between nodes, point masses, and forces on nodes. Not
-/// collective: all ranks have the same options, and therefore the same results and Errors.
+/// collective: all ranks have the same options, so they get the same results and Errors.
 #include <map>
 #include <string>
 #include <vector>
@@ -45,7 +45,7 @@ struct ForceSettings {
   VectorValue moment;      ///< N·m
   std::string frame;       ///< empty: the global axes
   bool hasMoment = false;  ///< true if given
-  bool hydraulic = true;   ///< it scales with the pressure of the sweep
+  bool hydraulic = true;   ///< true if it scales with the pressure of the sweep
 };
 
 struct Settings {
@@ -55,8 +55,8 @@ struct Settings {
   std::vector<MassSettings> masses;
   std::vector<ForceSettings> forces;
 
-  /// Reads the options. Throws Error for a spring without one of its ends, for a mass that is not
-  /// positive, and for an inertia with a wrong number of values.
+  /// Reads the options. Throws Error for a spring without one of its ends, a bushing without its
+  /// first end, a spring or bushing without stiffness and damping, and a mass that is not positive.
   static Settings given();
 };
 

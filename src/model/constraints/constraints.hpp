@@ -53,8 +53,8 @@ struct EquationPivot {
 };
 
 /// The components that are held at the nodes owned by this rank. They refer to the axes of the
-/// node. These are x, y, z or, if a support acts in other directions, turned axes, of which the
-/// held ones come first.
+/// node. These are x, y, z or, if a support acts in other directions, turned axes with the held
+/// directions first.
 struct Constraints {
   std::vector<unsigned char> held;  ///< [owned node · dimension + component] 1 if held
   std::vector<int> heldBy;  ///< [owned node · dimension + component] index into groups, or −1
@@ -62,20 +62,20 @@ struct Constraints {
   /// [owned node · dimension + component] prescribed value where held, m, or rad
   std::vector<double> displacement;
   std::map<PetscInt, Matrix3> axes;  ///< [owned node] turned axes, by rows
-  /// [owned node with turned axes] the held directions as given, which need not be orthogonal.
-  /// Directions that depend linearly on earlier ones are omitted
+  /// [owned node with turned axes] the held directions as given, which need not be orthogonal;
+  /// directions that depend linearly on earlier ones are omitted
   std::map<PetscInt, std::vector<HeldDirection>> given;
-  bool anyTurned = false;                     ///< any rank has turned axes
+  bool anyTurned = false;                     ///< true if any rank has turned axes
   std::vector<DependentComponent> dependent;  ///< owned by this rank
-  bool anyDependent = false;                  ///< on any rank
+  bool anyDependent = false;                  ///< true if any rank has some
   std::vector<EquationOrigin> origins;        ///< of all equations, the same on all ranks
   std::vector<EquationPivot> pivots;          ///< owned by this rank
   /// [owned node · dimension + component] 1 if supports act on the Cartesian component, directly or
   /// through nodes that follow it
   std::vector<unsigned char> supported;
   std::vector<EquationSettings> equations;
-  /// [owned node · dimension + component] Values of held components that no sweep scales: the
-  /// lengths of bolts. Constraints::displacement is zero for these components.
+  /// [owned node · dimension + component] values of held components that no sweep scales: the
+  /// lengths of bolts; Constraints::displacement is zero for these components
   std::map<PetscInt, double> locked;
 
   /// Returns the direction of a component of an owned node.
@@ -84,8 +84,8 @@ struct Constraints {
   bool holds(PetscInt node, const Point& direction, int dimension) const;
 };
 
-/// Not collective. Returns the local node of a term of an equation on the rank that owns it, −1 on
-/// the others.
+/// Not collective. Returns the local node of a term of an equation on the rank that owns the node,
+/// and −1 on the others.
 PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term);
 
 /// Not collective. Fixes the length of a bolt, given by its section, an index into Mesh::sections.
@@ -93,7 +93,7 @@ PetscInt nodeOf(const mesh::Mesh& mesh, const EquationTerm& term);
 void lockBolt(const mesh::Mesh& mesh, int section, double opening, Constraints& constraints);
 
 /// Collective. Returns the supports. Throws Error for a component that is given twice or does not
-/// exist in the dimension, and for two groups that displace a node differently. Warns of
+/// exist in the dimension, and for two groups that displace a node differently. Warns about
 /// displacements given for components that are not held.
 Constraints constraintsOf(const mesh::Mesh& mesh, const Settings& settings);
 

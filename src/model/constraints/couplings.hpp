@@ -31,7 +31,7 @@ struct CoupledMaster {
 struct CoupledNode {
   PetscInt node;             ///< local node
   int coupling;              ///< index into Settings::couplings followed by Settings::bolts
-  bool distributed = false;  ///< it is the reference node of a distributed coupling
+  bool distributed = false;  ///< true for the reference node of a distributed coupling
   Matrix3 own{};             ///< [component][component of z]
   std::array<unsigned char, 3> free{};  ///< [component of z] 1 if it is an unknown
   /// 1 if no master depends on others, otherwise the largest level of its masters plus 1
@@ -54,8 +54,8 @@ std::vector<CouplingName> couplingNames(const Settings& settings);
 /// node of a distributed coupling follows the nodes of the groups with the weights w:
 ///   u_R = ū + θ_R × (x_R − x̄),   θ_R = T⁻¹ Σ w r × u,   T = Σ w (|r|² 1 − r rᵀ),
 /// where ū and x̄ are weighted means and r = x − x̄. This motion minimises Σ w |u − u_R − θ_R × (x
-/// − x_R)|². Throws Error, naming the coupling and the place, for a group without nodes, for a node
-/// that follows two couplings, and for groups whose nodes do not determine the rotation.
+/// − x_R)|². Throws Error, naming the coupling, for a group without nodes, for a node that follows
+/// two couplings or has a periodic image, and for groups whose nodes do not determine the rotation.
 std::vector<CoupledNode> coupledNodes(const mesh::Mesh& mesh, const Settings& settings);
 
 }  // namespace squeal::constraints

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Settings of supports, reference nodes, couplings, equations and periodic images. Not collective:
-/// all ranks have the same options, and therefore the same results and Errors.
+/// Settings of supports, reference nodes, couplings, equations, bolts and periodic images. Not
+/// collective: all ranks have the same options, so they get the same results and Errors.
 #include <map>
 #include <optional>
 #include <string>
@@ -16,9 +16,9 @@ namespace squeal::constraints {
 /// The supports of one group, or of one reference node.
 struct ClampSettings {
   std::string components;         ///< held components of the displacement, some of xyz
-  VectorValue displacement = {};  ///< of these components, m
+  VectorValue displacement = {};  ///< values of these components, m
   std::string rotations;          ///< held components of the rotation of a reference node
-  VectorValue angle = {};         ///< of these rotations, rad
+  VectorValue angle = {};         ///< values of these rotations, rad
   std::string frame;              ///< the axes of x, y, z; empty: the global ones
 };
 
@@ -60,7 +60,7 @@ struct BoltSettings {
   /// Tension in the first step, N; the length is fixed afterwards.
   std::optional<double> force = {};
   std::optional<double> shortening = {};  ///< fixed shortening, m, instead of a force
-  std::optional<VectorValue> axis = {};   ///< of the bolt
+  std::optional<VectorValue> axis = {};   ///< direction of the bolt
 };
 
 struct Settings {
@@ -70,12 +70,12 @@ struct Settings {
   std::vector<CouplingSettings> couplings;             ///< sorted by name
   std::vector<EquationSettings> equations;             ///< sorted by name
   std::vector<BoltSettings> bolts;                     ///< sorted by name
-  /// The loads that the sweep scales already act in the first step.
+  /// True if the loads that the sweep scales already act in the first step.
   bool boltsUnderPressure = false;
   std::map<std::string, std::string> imageOf;  ///< [group] the group whose image it is
 
-  /// Reads the options. Throws Error for an option without another one that it requires, for a
-  /// reference node that nothing uses or that does not exist, for weights that do not fit the
+  /// Reads the options. Throws Error if an option is given without another one that it requires,
+  /// for a reference node that nothing uses or that does not exist, for weights that do not fit the
   /// groups, and for an equation that cannot be read.
   static Settings given();
 };

@@ -11,7 +11,7 @@ namespace squeal::contact {
 /// One flag per contact node of this rank.
 using Mask = std::vector<unsigned char>;
 
-/// The closed contact nodes, and the sticking nodes that are released to slide.
+/// The closed contact nodes, and the sticking nodes that are released and may slide.
 struct ActiveSet {
   Mask closed;
   Mask released;  ///< empty: none

@@ -17,7 +17,7 @@ struct Assembled {
 
 /// Collective. Builds normals, slip directions, constraints and all matrices. `ties` is the result
 /// of ties::findTies(). The result borrows `mesh`. Throws Error for surfaces that do not meet, for
-/// a wrong constraint, for a sliding interface whose pad moves, for a held component that is not
+/// an invalid constraint, for a sliding interface whose pad moves, for a held component that is not
 /// tangential at a contact node, and for a face on a rigid obstacle that is not flat.
 Assembled assemble(const mesh::Mesh& mesh, elasticity::Bodies bodies, interfaces::Interfaces ties,
                    const Settings& settings);
@@ -27,13 +27,13 @@ Assembled assemble(const mesh::Mesh& mesh, elasticity::Bodies bodies, interfaces
 void requireSupports(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                      const Contact& contact);
 
-/// Collective. Fixes the lengths of the bolts: `openings`, [section of the mesh], are the openings
+/// Collective. Fixes the lengths of the bolts. `openings`, [section of the mesh], are the openings
 /// of the bolts' sections along the normal, m.
 void lockBolts(Contact& contact, const elasticity::Bodies& bodies,
                const std::vector<double>& openings);
 
-/// Collective. Throws Error if a sliding interface has no sliding velocity at any node, whatever
-/// the friction: bodies at rest on each other need another role.
+/// Collective. Throws Error if a sliding interface has no sliding velocity at any node, even
+/// without friction: the interface between bodies at rest needs another role.
 void requireMotion(const Contact& contact);
 
 /// Collective. Throws Error, naming position and options, if a contact node i with active[i] set

@@ -33,8 +33,8 @@
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.
 /// This force is R_T = −f φ R_N τ on the pad [3.4], and the opposite one on the disc. If interfaces
 /// have their own coefficients, S_0 + f S_1 replaces f S [M.56]. S_0 has the rows of interfaces
-/// with a fixed coefficient, multiplied by it. S_1 has the rows of the other interfaces, multiplied
-/// by their factor on the swept friction f.
+/// with a fixed coefficient, multiplied by this coefficient. S_1 has the rows of the other
+/// interfaces, multiplied by their factor on the swept friction f.
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -70,7 +70,7 @@ struct Contact {
   const mesh::Mesh* mesh = nullptr;  ///< borrowed
   interfaces::Interfaces interfaces;
   FrictionLaw law;
-  OwnedMat periodic;  ///< nodal matrix: copies the displacement of each node to its periodic image
+  OwnedMat periodic;  ///< nodal matrix: copies the displacement of a node to its periodic images
   Kinematics kinematics;
   Sliding sliding;
 
@@ -82,8 +82,8 @@ struct Contact {
   /// with a constant friction law.
   bool slipIsConstant() const { return !sliding.convected && law.constant(); }
   /// Collective. Returns the sliding velocities, [contact node], at the speed factor v (`speed`).
-  /// Let V be the velocity of the disc or obstacle at v = 1. The displacement u_D of the disc adds
-  /// the convective derivative D u_D = (V·∇) u_D to it. The relative velocity is
+  /// Let V be the velocity of the disc or obstacle at v = 1. Due to the displacement u_D of the
+  /// disc, the convective derivative D u_D = (V·∇) u_D is added to V. The relative velocity is
   ///   w = −v (V + D u_D)   [2.15],
   /// projected on the tangent plane. Without convective terms, or if u (`displacement`) is null, it
   /// is w = −v V.

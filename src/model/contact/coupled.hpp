@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The coupled problem: each matrix X of the bodies in the unknowns of the contact [M.11],
+/// The coupled problem: each matrix X of the bodies, projected on the unknowns of the contact
+/// [M.11],
 ///   L(f)ᵀ X T = Tᵀ X T + Sᵀ N X T,   S = S_0 + f S_1.
 #include "algebra/factor/associated_system.hpp"
 #include "model/contact/contact.hpp"
@@ -28,7 +29,7 @@ Projection project(const Contact& contact, const Transformation& transformation,
 /// The matrices of the bodies in the unknowns of one active set.
 struct Projections {
   Transformation transformation;
-  Projection stiffness;          ///< projections of K, prestress included
+  Projection stiffness;          ///< projections of K, including prestress
   Projection mass;               ///< projections of M
   Projection damping;            ///< projections of C
   Projection gyroscopic;         ///< projections of G, at the speed factor 1
@@ -58,8 +59,8 @@ class OpenProjections {
 class CoupledSystem : public factor::AssociatedSystem {
  public:
   /// Collective. Projects the matrices of the bodies. Sticking nodes can move along the surface if
-  /// they are open, or released in `set`. `prestress`, which may be null, is added to K and must
-  /// have the pattern of K; it is borrowed during this call.
+  /// they are open, or released in `set`. `prestress`, which may be null, is added to K; it must
+  /// have the pattern of geometricStiffness(). It is borrowed during this call.
   CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact, ActiveSet set,
                 Mat prestress = nullptr);
   /// Collective. Takes the projected matrices from known projections, without prestress, instead of

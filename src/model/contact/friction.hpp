@@ -5,22 +5,22 @@
 
 namespace squeal::contact {
 
-/// The law φ(|w|), dimensionless: constant 1, an exponential decay from a static
-/// to the kinetic value, or a table.
+/// The law φ(|w|), dimensionless: constant 1, an exponential decay from a static to the kinetic
+/// value, or a table.
 class FrictionLaw {
  public:
-  /// Makes the constant law.
+  /// Creates the constant law.
   FrictionLaw() = default;
   /// Returns 1 + (r − 1) exp(−|w|/v) for the static ratio r and the decay speed v, m/s.
   static FrictionLaw exponential(double staticRatio, double decaySpeed);
-  /// Returns the law that interpolates linearly between these factors at ascending speeds, m/s.
-  /// Beyond both ends of the table it is constant.
+  /// Returns the law that interpolates linearly between these factors at ascending speeds, m/s. It
+  /// is constant below the first and above the last speed.
   static FrictionLaw table(std::vector<double> speeds, std::vector<double> factors);
   bool constant() const { return kind_ == Kind::constant; }
   /// Returns φ at the sliding speed |w|, m/s.
   double value(double speed) const;
-  /// Returns dφ/d|w|, s/m. At a point of a table it is the slope of the interval that begins there,
-  /// and zero at the last point.
+  /// Returns dφ/d|w|, s/m. At a point of a table, this is the slope of the interval that begins at
+  /// the point, and zero at the last point.
   double slope(double speed) const;
 
  private:

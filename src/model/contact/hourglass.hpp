@@ -12,10 +12,10 @@
 namespace squeal::contact {
 
 /// Collective. Describes the hourglass modes without strain energy that neighbouring cells,
-/// supports and this contact do not prevent: their body, their number and one of their cells.
-/// Returns an empty text if there are none. With this contact, no body may have a rigid-body mode.
-/// Only the cells in Bodies::exposed can have such modes. The first 2000 of them are examined, and
-/// the others are treated as rigid.
+/// supports and the contact `holding` do not prevent: their body, their number and one of their
+/// cells. Returns an empty text if there are none. No body may have a rigid-body mode with
+/// `holding`. Only the cells in Bodies::exposed can have such modes. The first 2000 of them are
+/// examined, and the others are treated as rigid.
 std::string hourglassModes(const mesh::Mesh& mesh, const Contact& contact,
                            const elasticity::Bodies& bodies, const SupportingContact& holding);
 

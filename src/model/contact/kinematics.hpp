@@ -23,9 +23,9 @@ struct Kinematics {
 /// Returns the row of z and of N that belongs to the gap of a contact node.
 PetscInt gapRow(const mesh::Mesh& mesh, const interfaces::ContactNode& node);
 
-/// Returns the number of blocks in each row of blocks, [owned node], at least one, of a matrix that
-/// connects the slaves of this level with themselves and with their masters. Level 0 stands for the
-/// contact nodes of all levels.
+/// Returns the number of blocks in each block row, [owned node], of a matrix that connects the
+/// slaves of this level with themselves and with their masters. It is at least one. Level 0 means
+/// the contact nodes of all levels.
 std::vector<PetscInt> blocksOfRows(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
                                    int level);
 

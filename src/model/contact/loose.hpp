@@ -19,14 +19,14 @@ struct RigidBodyMode {
   bool isReference = false;        ///< the part is a reference node
 };
 
-/// Collective. Returns the rigid-body mode that constraints, springs, bushings and this contact
-/// resist least; none if all parts are supported.
+/// Collective. Returns the rigid-body mode that constraints, springs, bushings and the contact
+/// `holding` resist least; none if all parts are supported.
 std::optional<RigidBodyMode> rigidBodyMode(const mesh::Mesh& mesh, const Contact& contact,
                                            const elasticity::Bodies& bodies,
                                            const SupportingContact& holding);
 
-/// Collective. Returns for each connected part, [part], 1 if it moves in a rigid-body mode with
-/// these supports.
+/// Collective. Returns for each connected part, [part], 1 if it moves in any rigid-body mode with
+/// the supports of rigidBodyMode().
 std::vector<unsigned char> looseParts(const mesh::Mesh& mesh, const Contact& contact,
                                       const elasticity::Bodies& bodies,
                                       const SupportingContact& holding);

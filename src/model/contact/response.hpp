@@ -15,8 +15,8 @@ struct VelocityResponse {
   double across = 0;  ///< f R_N φ / |w|, N·s/m; zero in plane problems, which have one tangent
   double along = 0;   ///< f R_N dφ/d|w|, N·s/m
 };
-/// Not collective. Returns these factors for the normal force R_N, in newtons. The coefficient of
-/// friction f follows from `slip` and the swept `friction`.
+/// Not collective. Returns these factors for the normal force R_N, in newtons. `slip` and the swept
+/// `friction` give the coefficient of friction f.
 VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
                                   int dimension);
 
@@ -30,8 +30,8 @@ OwnedMat nodalResponse(const Contact& contact, const std::vector<Slip>& slip,
 
 /// Collective. Returns B, N×N, N·s/m, positive semidefinite for a constant law. `normalForce`
 /// contains the forces R_N ≥ 0 of the gaps, in newtons, [contact node]. If the gap basis is the
-/// identity, it equals nodalResponse(). On tri6 and quad8 faces, where a positive pressure may have
-/// negative nodal forces, it is
+/// identity, B is that of nodalResponse(). On tri6 and quad8 faces, where a positive pressure may
+/// have negative nodal forces, it is
 ///   B_ij = ∫ f p (φ/|w| (1 − ττᵀ − nnᵀ) + dφ/d|w| ττᵀ) φᵢ φⱼ dA,
 ///   f p = Σ (f R_N / ∫φ̃ dA) φ̃,   zero where p = Σ (R_N / ∫φ̃ dA) φ̃ is negative,
 /// with w and n interpolated between the nodes.

@@ -8,8 +8,8 @@ namespace squeal::contact {
 struct Settings {
   FrictionLaw law;
 
-  /// Reads the options `-friction_*`. Throws Error for a table whose lists differ in length or
-  /// whose speeds do not ascend, and for options of a law that is not selected.
+  /// Reads the options `-friction_*`. Throws Error for a table that is empty, whose lists differ in
+  /// length or whose speeds do not ascend, and for options of a law that is not selected.
   static Settings given();
 };
 

@@ -11,10 +11,10 @@ namespace squeal::contact {
 
 /// The matrices of sliding, N×N. Rows that are not mentioned are empty.
 struct Sliding {
-  OwnedMat reaction;  ///< N: gives R_N of a contact node, in the row of its gap, from nodal forces
-  OwnedMat jump;      ///< J: gives [u] = u_P − u_D in the rows of the contact nodes
-  OwnedMat convected;  ///< D, 1/s: gives (V·∇)u_D at the contact nodes, in their rows, at the speed
-                       ///< factor 1; null without convective terms
+  OwnedMat reaction;   ///< N: maps nodal forces to R_N, in the rows of the gaps
+  OwnedMat jump;       ///< J: maps u to [u] = u_P − u_D, in the rows of the contact nodes
+  OwnedMat convected;  ///< D, 1/s: maps u to (V·∇)u_D, in the rows of the contact nodes, at the
+                       ///< speed factor 1; null without convective terms
 };
 
 /// Input of slidingOf(), all borrowed.

@@ -20,15 +20,15 @@ struct SupportingContact {
                        ///< surface; empty: all stick
 };
 
-/// A condition on the displacement of an owned node,
+/// A condition on the displacement of an owned node at x in the direction d,
 ///   d·u(x) − Σ_l w_l d·u_l = 0,
 /// where l are the masters of contact, a tie or periodicity. A coupling has other masters, with
 /// blocks in place of the weights w_l.
 struct Support {
   PetscInt node;  ///< local node
   Point position, direction;
-  Point masterPosition{};  ///< position of the masters, as a point of their parts, see
-                           ///< forEachSupport()
+  Point masterPosition{};  ///< position at which the masters are assumed to lie (see
+                           ///< forEachSupport())
   std::span<const coupling::PartShare> masterParts{};
   std::span<const coupling::Weight> masters{};
   std::span<const constraints::CoupledMaster> coupled{};  ///< masters of a coupling
@@ -37,9 +37,9 @@ struct Support {
 
 /// Not collective. Calls `visit` for each condition that constraints, springs, periodicity, ties,
 /// couplings and this contact impose on nodes of this rank. `springs` is Bodies::springs, which may
-/// be null; even the softest springs are treated as supports. The masters of a contact node are
-/// assigned the position of that node. Otherwise the facets of a curved master would seem to
-/// restrain a rotation that is free.
+/// be null; even the softest springs are treated as supports. The masters of a contact or tied node
+/// are assumed to lie at the position of this node. Otherwise the facets of a curved master would
+/// seem to restrain a rotation that is free.
 void forEachSupport(const mesh::Mesh& mesh, const Contact& contact, Mat springs,
                     const SupportingContact& holding,
                     const std::function<void(const Support&)>& visit);
@@ -76,22 +76,22 @@ class RigidMotions {
   double length_;
 };
 
-/// Collective. Returns the rigid motions about the centre of the mesh. The largest extent of the
-/// mesh is the length.
+/// Collective. Returns the rigid motions about the centre of the mesh. The unit of length is the
+/// largest extent of the mesh.
 RigidMotions rigidMotions(const mesh::Mesh& mesh);
 
 /// The Gram matrix Σ cᵀc of rows c of coefficients.
 class GramMatrix {
  public:
   explicit GramMatrix(int size) : row(size), sum(size, size) {}
-  std::vector<double> row;  ///< the row to add
+  std::vector<double> row;  ///< c, the next row to add
   linalg::DenseMatrix sum;
-  /// Not collective. Adds cᵀc of the row to the sum, and clears the row.
+  /// Not collective. Adds cᵀc to the sum, and sets the row to zero.
   void keep();
 };
 
-/// Collective. Adds the rows of the equations that options give, and of springs and bushings
-/// between nodes. Rank 0 adds all of them.
+/// Collective. Adds the rows of the equations from options, and of springs and bushings between
+/// nodes. Rank 0 adds all of them.
 void addEquations(const mesh::Mesh& mesh, const Contact& contact, const elasticity::Bodies& bodies,
                   const RigidMotions& motions, GramMatrix& gram);
 

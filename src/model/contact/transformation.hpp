@@ -23,7 +23,7 @@ struct Transformation {
 };
 
 /// This rank's unknowns of a system with open contact: those that it shares with the system with
-/// closed contact, and the others. Both lists ascend, and their numbers begin with 0 on each rank.
+/// closed contact, and the others. Both lists ascend and number the unknowns of the rank from 0.
 struct ReleasedUnknowns {
   std::vector<PetscInt> shared, released;
 };
@@ -32,8 +32,8 @@ struct ReleasedUnknowns {
 ReleasedUnknowns compared(const Transformation& open, const Transformation& closed);
 
 /// Collective. Returns T, which excludes the gaps of closed contact nodes from the unknowns. A node
-/// of a sticking interface does not move along its master unless it is released; if the mask of
-/// released nodes is empty, none is.
+/// of a sticking interface does not move along its master unless it is released. No node is
+/// released if the mask of released nodes is empty.
 Transformation transformationOf(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
                                 const Kinematics& kinematics, const ActiveSet& set);
 

@@ -11,14 +11,14 @@
 namespace squeal::coupling {
 
 /// The faces of the two surfaces of an interface on this rank, and the master faces near the slave
-/// faces. Their node numbers are those of periodic primaries instead of images, so both contribute
-/// to the same entries.
+/// faces. A node that is a periodic image has the number of its primary, so both contribute to the
+/// same entries.
 struct Surfaces {
   std::vector<Face> slaves, masters;
-  /// [slave][node] local number, of images too
+  /// [slave][node] local number; an image has its own
   std::vector<std::vector<PetscInt>> localNodes;
   std::vector<double> distances;    ///< [slave] largest distance of touching points, m
-  std::vector<Point> translations;  ///< periods of the mesh, m
+  std::vector<Point> translations;  ///< see translations() in periodic.hpp, m
   Candidates candidates;
 };
 
@@ -51,7 +51,7 @@ std::vector<CoveredFace> cover(MPI_Comm comm, const Surfaces& surfaces, const st
 /// The values at the nodes of the slave that define the basis φ̃, [local node]. They are equal on
 /// all ranks that have the node, and on its images.
 struct SlaveBasis {
-  std::vector<double> alpha;  ///< at a mid-edge node: α of its edge
+  std::vector<double> alpha;  ///< at a mid-edge node: α of its edge (see mortar/basis.hpp)
   std::vector<double> whole;  ///< ∫ φ̃ dA over all faces of the slave; zero elsewhere
   /// Nodes of the slave without a condition: excluded, or too little covered.
   std::vector<bool> dropped;
@@ -65,8 +65,8 @@ struct SlaveBasis {
 
 /// Collective. Returns α and the dropped nodes, including the nodes with excluded[local node] set.
 /// Partly covered faces need a larger α, and α must be the same for all faces at an edge. A dropped
-/// mid-edge node has α = 0, hence ũ = u there. SlaveBasis::whole is computed with the values of α
-/// before nodes are dropped, with which it is positive.
+/// mid-edge node has α = 0, hence ũ = u at this node. SlaveBasis::whole is computed before nodes
+/// are dropped, since it is positive with the values of α at that time.
 SlaveBasis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
                        const std::vector<CoveredFace>& faces,
                        const std::vector<unsigned char>& excluded);

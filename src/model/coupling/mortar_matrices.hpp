@@ -22,7 +22,7 @@ Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const Sl
 /// pivot.
 struct Matrices {
   OwnedMat masters, jumps, jumpsOf, convected;  ///< P, G, G⁻¹, rows of SlaveNode::convected
-  OwnedMat parts, bodies;                       ///< shares, a column per part or body
+  OwnedMat parts, bodies;                       ///< shares, one column per part or body
   std::vector<Point> offsets;                   ///< SlaveNode::offset, [pivot of this rank]
 };
 

@@ -9,10 +9,9 @@
 
 namespace squeal::coupling {
 
-/// Collective. Returns the translations, m, by which faces of these surfaces repeat. These are the
-/// shifts from primaries to their images on the connected parts of the mesh that have such faces,
-/// the opposite shifts, and the differences of two shifts. The list is empty if there are no
-/// images.
+/// Collective. Returns the translations, m, by which faces of these surfaces repeat: the shifts
+/// from primaries to images on all connected parts of the mesh with such faces, the opposite
+/// shifts, and the differences of two shifts. The list is empty if there are no images.
 std::vector<mesh::Point> translations(const mesh::Mesh& mesh,
                                       const std::vector<mortar::Face>& first,
                                       const std::vector<mortar::Face>& second);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Sums, at the nodes of the mesh, of the terms of single slave faces.
+/// Sums of the terms of all slave faces at the nodes of the mesh.
 #include <array>
 #include <vector>
 
@@ -17,7 +17,8 @@ using elasticity::Triples;
 /// are added.
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples triples, PetscInt columns = PETSC_DETERMINE);
 
-/// The sums over the faces of this rank. Rows and columns are numbers of primaries.
+/// The sums over the faces of this rank. B, C, D, G, M and W are those of mortar::FaceTerms. Rows
+/// and columns are the numbers of nodes, with primaries in place of images.
 struct Sums {
   Triples masters;                         ///< M − B, [pivot][node of the master or dropped node]
   Triples convected;                       ///< C

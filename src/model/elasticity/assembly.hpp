@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Assembly of element arrays into distributed matrices and vectors on nodal
-/// displacements.
+/// Assembly of element arrays into distributed matrices and vectors on nodal displacements.
 #include <compare>
 #include <functional>
 #include <span>
@@ -38,14 +37,14 @@ void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> 
 /// Selects cells by their block and index.
 using CellFilter = std::function<bool(const mesh::CellBlock&, std::size_t)>;
 
-/// Counts the nodes that share a cell with each node of this rank.
+/// Counts the nodes that share a cell with each node of this rank, including the node itself.
 struct NodePattern {
   std::vector<PetscInt> own, other;  ///< [owned node] nodes of this rank, and of other ranks
-  /// Collective. Counts over those cells of all ranks that `uses` selects.
+  /// Collective. Takes into account the cells of all ranks that `uses` selects.
   NodePattern(const mesh::Mesh& mesh, const CellFilter& uses);
 };
 
-/// Adds element matrices one by one to an N×N matrix, so they are never in memory together.
+/// Adds element matrices one by one to an N×N matrix, so that they need not be stored all at once.
 class Assembly {
  public:
   /// Collective. Reserves entries for the pairs of nodes of the pattern, for all components or,
@@ -89,7 +88,7 @@ inline CellName nameOf(const mesh::CellBlock& block, std::size_t e) {
 struct InvertedCell {
   CellName name;
   double ratio;    ///< jacobianRatio()
-  bool byCorners;  ///< it is also inverted with straight edges
+  bool byCorners;  ///< true if it is also inverted with straight edges
 };
 /// Not collective. Describes a cell whose integration throws InvertedElement.
 InvertedCell invertedCell(const mesh::CellBlock& block, std::size_t e,
@@ -98,8 +97,8 @@ InvertedCell invertedCell(const mesh::CellBlock& block, std::size_t e,
 /// number, the worst Jacobian, the names of the first ten and the remedy.
 void failOnInverted(const mesh::Mesh& mesh, const std::vector<InvertedCell>& inverted);
 
-/// Collective. Prints one warning of the cells that are folded() but usable, with their number and
-/// the names of the first ten.
+/// Collective. Prints one warning about the cells that are folded() but usable, with their number
+/// and the names of the first ten.
 void warnOfFoldedCells(const mesh::Mesh& mesh);
 
 /// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell of this rank.

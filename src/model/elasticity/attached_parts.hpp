@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Matrices and loads of springs, bushings and point masses: of all together, and of each
-/// separately.
+/// Matrices and loads of springs, bushings and point masses, summed and separate.
 #include <string>
 #include <vector>
 
@@ -19,9 +18,9 @@ OwnedMat formMatrix(const mesh::Mesh& mesh, const std::vector<attachments::Form>
 std::vector<double> formValues(const mesh::Mesh& mesh, const std::vector<attachments::Form>& forms,
                                Vec u);
 
-/// The contribution of one stiffness, damping or mass to Bodies, on all nodal displacements. It
-/// consists of derivatives with respect to a factor on this quantity. Matrices and vectors are null
-/// if they are zero.
+/// The contribution of one stiffness, damping or mass to Bodies, on all nodal displacements: the
+/// derivatives of matrices and loads with respect to a factor on this quantity. Null members do not
+/// contribute.
 struct AttachedPart {
   std::string parameter;  ///< name, such as bushing_hub_stiffness, spring_s_damping, mass_hub
   OwnedMat stiffness, damping, mass, gyroscopic;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Checks of the axes of anisotropic materials. The axes must be defined in all cells, and the
-/// motion of a body must not change them: matter that arrives at a place must have the law of this
-/// place.
+/// motion of a body must not change them: matter that arrives at a place must have the elastic law
+/// of this place.
 #include <vector>
 
 #include "model/elasticity/motion.hpp"
@@ -16,7 +16,7 @@ namespace squeal::elasticity {
 /// true for isotropic laws, for cylindrical axes about the axis of rotation, for an axis of
 /// transverse isotropy along the axis of rotation, and for uniform laws under translation.
 /// Otherwise throws Error with `convective` terms, and warns without them: under approximation A
-/// the axes stay at rest while the matter moves.
+/// (docs/method.md) the axes stay at rest while the matter moves.
 void checkCarriedAxes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                       const std::vector<Motion>& motions, bool convective);
 

@@ -20,9 +20,9 @@ struct CarriedMass {
 
 /// Collective. Returns the masses at nodes of moving bodies, and at reference nodes that couplings
 /// connect only with bodies of the same motion. Omits masses that are connected with bodies of
-/// different motions, and warns of them. With convective terms, throws Error for a mass that is not
-/// steady in the axes of the vehicle: a rotating mass must have its centre on the axis of rotation
-/// and an inertia that is symmetric about this axis, both within a thousandth.
+/// different motions, and warns about them. With convective terms, throws Error for a mass that is
+/// not steady in the axes of the vehicle: a rotating mass must have its centre on the axis of
+/// rotation and an inertia that is symmetric about this axis, both within a thousandth.
 std::vector<CarriedMass> carriedMasses(const mesh::Mesh& mesh, const Settings& settings,
                                        const std::vector<constraints::CouplingSettings>& couplings,
                                        const std::vector<Motion>& motions);

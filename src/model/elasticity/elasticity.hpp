@@ -19,9 +19,10 @@ namespace squeal::elasticity {
 
 /// The matrices, loads and base motions of all bodies, with the settings and materials.
 struct Bodies {
-  OwnedMat stiffness;  ///< K, N×N, symmetric, block-diagonal over the bodies, grounded springs
-                       ///< included, N/m
-  OwnedMat mass;       ///< M, N×N, symmetric positive definite, kg
+  OwnedMat stiffness;  ///< K, N×N, symmetric, N/m; only springs and bushings couple different
+                       ///< bodies; includes grounded springs and compliant contact layers
+  OwnedMat mass;       ///< M, N×N, symmetric positive semidefinite, kg; zero at nodes outside
+                       ///< all cells, except for point masses
   OwnedMat damping;  ///< C, N×N, symmetric, acts on rates in the axes of the vehicle, N·s/m; null
                      ///< if none
   OwnedMat gyroscopic;  ///< G = 2∫ρ(Dφⱼ)·φᵢ at the speed factor 1 [4.10], N×N, exactly skew, N·s/m;
@@ -48,7 +49,7 @@ struct Bodies {
 /// Collective. Assembles the matrices and loads of all bodies. Throws Error for materials and
 /// motions that do not suit the mesh, for an inverted element (the message names body and cell),
 /// for convective terms on a body whose place changes as its matter moves, and for reduced
-/// integration of other cells than hex20. The couplings connect point masses with the bodies that
+/// integration of cells other than hex20. The couplings connect point masses with the bodies that
 /// carry them.
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
                 const std::vector<constraints::CouplingSettings>& couplings,
@@ -66,9 +67,9 @@ bool locks(double poisson);
 std::vector<PetscInt> linearCells(const mesh::Mesh& mesh, const Settings& settings);
 
 /// The contribution of one material group (a body, or a section of a body) to Bodies, on all nodal
-/// displacements. It consists of derivatives. Those of K, and of the part of C that is proportional
-/// to K, are with respect to a factor on the moduli of the group; all others are with respect to a
-/// factor on its density.
+/// displacements. It consists of derivatives: of K, and of the part of C that is proportional to K,
+/// with respect to a factor on the moduli of the group; of all others with respect to a factor on
+/// its density.
 struct MaterialPart {
   OwnedMat stiffness, mass;  ///< without grounded springs
   OwnedMat gyroscopic,
@@ -93,8 +94,8 @@ MaterialRows materialRows(const mesh::Mesh& mesh, const Bodies& bodies, int grou
 /// Collective. Returns the geometric stiffness [M.6], equal for all components,
 ///   K_σ,ij = ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
 /// for the stress of the given nodal displacements and of their incompatible modes. It is N×N, N/m,
-/// exactly symmetric and has the pattern of K. If `group` is given, only this material group
-/// contributes.
+/// exactly symmetric, and has the pattern of the part of K that is due to cells. If `group` is
+/// given, only this material group contributes.
 OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec displacement,
                             std::optional<int> group = {});
 

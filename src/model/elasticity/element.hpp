@@ -18,13 +18,14 @@ using material::Law;
 using material::Material;
 using mesh::Point;
 
-/// Thrown by routines that need J⁻¹ if det J ≤ 0 at a point of their quadrature rule, and by mass()
-/// if the volume is not positive or the matrix is not positive definite.
+/// Thrown if det J ≤ 0 at a quadrature point of a routine that needs J⁻¹. mass() throws it only if
+/// the volume is not positive or the matrix is not positive definite.
 struct InvertedElement {};
 
-/// Returns true if det J ≤ 0 at a point of the rule. Such a cell is usable if the smallest rule for
-/// the stiffness has no such point. Terms with J⁻¹ are then integrated by that rule. Loads are
-/// polynomials and are integrated as usual, and the mass is that of the true volume.
+/// Returns true if the cell is folded: det J ≤ 0 at a point of the rule of `table`. A folded cell
+/// is usable if det J > 0 at all points of the smallest rule for the stiffness. Terms with J⁻¹ are
+/// then integrated by that rule. Loads have polynomial integrands and are integrated as usual, and
+/// the mass is that of the true volume.
 bool folded(const ShapeTable& table, const std::vector<Point>& nodes);
 /// Returns the table of a cell for terms with J⁻¹: the given table or, for a folded cell, the table
 /// of the stiffness.
@@ -49,8 +50,8 @@ std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>&
 
 /// Returns the geometric stiffness
 ///   ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
-/// row-major [node][node], N/m, the same for all components. ε is the strain of the displacement,
-/// [node][component], m, and of its bubble modes.
+/// row-major [node][node], N/m, the same for all components. ε is the strain of `displacement`,
+/// [node][component], m, and of the bubble modes that follow from it if `incompatible`.
 std::vector<double> geometricStiffness(const ShapeTable& table, const std::vector<Point>& nodes,
                                        const Law& law, bool incompatible,
                                        std::vector<double> displacement);

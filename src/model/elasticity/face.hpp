@@ -13,10 +13,9 @@ using element::ShapeTable;
 using mesh::Point;
 
 /// Returns ∫ φᵢ n dA on a face (a line in plane problems), [node][3], m² (m in plane problems). The
-/// unit normal n is the one by node order times `sign`.
+/// unit normal n is that given by the node order, times `sign`.
 std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
-/// Returns the weights of the points of the rule for integrals over the face, [point], m² (m in
-/// plane problems).
+/// Returns the quadrature weights for integrals over the face, [point], m² (m in plane problems).
 std::vector<double> areaWeights(const ShapeTable& table, const std::vector<Point>& nodes);
 /// Returns ∫ φᵢ φⱼ dA on a face, row-major [node][node], m² (m in plane problems).
 std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& nodes);
@@ -29,7 +28,8 @@ std::vector<double> normalMass(const ShapeTable& table, const std::vector<Point>
 /// effect.
 std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Point>& nodes,
                                    const std::vector<Point>& velocity);
-/// Returns the unit normal of the face at each of its nodes, by node order times `sign`, [node].
+/// Returns the unit normal at each node of the face, [node]: that given by the node order, times
+/// `sign`.
 std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
 
 }  // namespace squeal::elasticity

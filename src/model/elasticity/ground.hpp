@@ -10,12 +10,12 @@
 
 namespace squeal::elasticity {
 
-/// The sums over all groups, N×N, with entries between the components of a node. A matrix is null
-/// if all its values are zero.
+/// The matrices of all groups together, N×N. They couple only components of the same node. A matrix
+/// is null if all its values are zero.
 struct Ground {
   OwnedMat springs;             ///< N/m, symmetric
   OwnedMat dashpots;            ///< N·s/m, symmetric
-  bool turnedDashpots = false;  ///< some dashpots are in other axes than the global ones
+  bool turnedDashpots = false;  ///< some dashpots act along axes of a frame
 };
 
 /// Collective. Returns the springs and dashpots. The nodes of each group share its total stiffness

@@ -12,13 +12,13 @@
 
 namespace squeal::elasticity {
 
-/// Collective. Throws Error for a material group with reduced integration that has other cells than
+/// Collective. Throws Error for a material group with reduced integration that has cells other than
 /// hex20.
 void requireHex20(const mesh::Mesh& mesh, const std::vector<material::Material>& materials);
 
 /// A cell with reduced integration, on any rank, that has no edge in the interior of a body.
 struct ExposedCell {
-  PetscInt tag;                   ///< gmsh's
+  PetscInt tag;                   ///< gmsh's element tag
   int material, part;             ///< index into Mesh::materialGroups, connected part
   std::array<PetscInt, 20> node;  ///< global nodes, in gmsh's order
   std::array<mesh::Point, 20> point;
@@ -29,10 +29,11 @@ struct ExposedCell {
 /// shape of an L, do not prevent hourglass modes.
 std::vector<ExposedCell> exposedCells(const mesh::Mesh& mesh,
                                       const std::vector<material::Material>& materials);
-/// Collective. Warns of each material group with such cells.
+/// Collective. Warns of each material group with exposed cells.
 void warnOfHourglass(const mesh::Mesh& mesh, std::span<const ExposedCell> cells);
 
-/// The number of motions of a cell without strain at the points of the reduced rule.
+/// The number of independent motions of a cell that cause no strain at the points of the reduced
+/// rule.
 inline constexpr int strainlessMotions = 12;
 /// Not collective. Returns these motions as orthogonal columns, rows [node][component], each with a
 /// mean square of 1 per node: the rigid motions and the hourglass modes, mixed.

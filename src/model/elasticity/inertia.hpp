@@ -24,9 +24,9 @@ using mesh::Point;
 std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density,
                          MassKind kind);
 
-/// Returns the centrifugal forces [M.4]
+/// Returns the centrifugal forces of a rotation [M.4],
 ///   ∫ φᵢ ρ ω² r,
-/// of a rotation, [node][3], N.
+/// [node][3], N. r is the vector to a point from the nearest point of the axis.
 std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes,
                                 double density, const Motion& motion);
 

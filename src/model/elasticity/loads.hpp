@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Load vectors on all nodal displacements, with N entries each, in newtons (moments on reference
+/// Load vectors with N entries, one per component of each node, in newtons (moments on reference
 /// nodes in N·m).
 #include <optional>
 #include <vector>
@@ -28,13 +28,13 @@ OwnedVec centrifugalForces(const LoadInput& input, const std::vector<Motion>& mo
 /// the cells of one material group. Throws Error for options of a group that is not a body.
 OwnedVec bodyForces(const LoadInput& input, std::optional<int> material);
 
-/// Pressures and forces on nodes, and the weight of point masses.
+/// The load vectors of pressures, of forces on nodes, and of the weight of point masses.
 struct SurfaceLoads {
   OwnedVec hydraulic;  ///< scaled by the pressure of the sweep
   OwnedVec constant;
 };
 
-/// Collective. Returns these loads.
+/// Collective. Returns the load vectors. `masses` are the point masses.
 SurfaceLoads surfaceLoads(const LoadInput& input, const std::vector<attachments::Form>& masses);
 
 }  // namespace squeal::elasticity

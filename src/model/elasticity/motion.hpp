@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Base motion of a body's matter (paper, section 2), a rotation or a translation [2.1]:
+/// Base motion of a body's matter (Moirot and Nguyen 2000, section 2), a rotation or a translation
+/// [2.1]:
 ///   V = ω k × (x − x0)   or   V = const.
 /// The sweep multiplies V by a speed factor. Not collective: all ranks have the same options, and
 /// therefore the same results and Errors.
@@ -13,7 +14,7 @@
 
 namespace squeal::elasticity {
 
-/// The base motion of one body; both velocities are zero for a body at rest.
+/// The base motion of one body; `translation` and `speed` are zero for a body at rest.
 struct Motion {
   mesh::Point translation{};  ///< m/s
   double speed = 0;           ///< ω, rad/s

@@ -26,7 +26,7 @@ struct MotionSettings {
   std::string axisOption = {};  ///< the option of the axis, with its dash, for messages
 };
 
-/// Springs and dashpots from the nodes of one group to the ground, in total for the group.
+/// The total stiffness and damping of the springs and dashpots between one group and the ground.
 struct GroundSettings {
   VectorValue stiffness;   ///< N/m
   VectorValue damping;     ///< N·s/m
@@ -39,10 +39,10 @@ struct Settings {
   std::vector<std::string> incompatible{"hex8"};  ///< cell types with incompatible modes
   bool prestress = false;   ///< the geometric stiffness of the steady stress is added to K
   bool centrifugal = true;  ///< centrifugal forces act on rotating bodies
-  /// The matter of moving bodies convects its displacement, D u = (V·∇)u.
+  /// The convective terms of moving bodies, with D u = (V·∇)u, are included.
   bool convective = false;
   std::map<std::string, double> pressure;            ///< [surface group], Pa, positive inwards
-  std::set<std::string> constantPressure;            ///< surface groups that no sweep scales
+  std::set<std::string> constantPressure;            ///< surface groups with fixed pressure
   VectorValue gravity;                               ///< of all bodies and point masses, m/s²
   std::map<std::string, VectorValue> accelerations;  ///< [body] added to gravity, m/s²
   /// [body] a rotation that acts only as a load, by its centrifugal forces

@@ -31,14 +31,14 @@ bool isKnown(int gmshType);
 /// Returns the table of a gmsh element type, which must be known. Its rule integrates polynomials
 /// of the degree 2·order + 1 exactly. The shape functions of pyramids are rational and tend to 0 or
 /// 1 at the apex. They are polynomials in the coordinates of the cube that collapses to the pyramid
-/// (Bergot, Cohen and Duruflé 2010). The rule of a pyramid is a product of Gauss rules in these
-/// coordinates. It is exact for polynomials of the same degree in them.
+/// (Bergot, Cohen and Duruflé 2010). The rule of a pyramid is a product of Gauss rules in the
+/// coordinates of the cube, and is exact for polynomials of the same degree in these coordinates.
 const ShapeTable& shapeTable(int gmshType);
 /// Returns the table with the smallest rule that the stiffness needs. For tri6 this rule has three
 /// points, and for tet10 four. It is exact for cells with straight edges; on curved cells its
 /// degree of 2 preserves the order of convergence (Ciarlet and Raviart 1972). Its points lie
-/// further inside the cell. There many curved cells have det J > 0 although det J changes its sign
-/// near an edge. All other cells have the rule of shapeTable().
+/// further inside the cell, where many curved cells have det J > 0 even if det J changes its sign
+/// near an edge. For all other cells, the rule is that of shapeTable().
 const ShapeTable& stiffnessTable(int gmshType);
 /// Returns the table of hex20 with the rule of reduced integration, 2×2×2 points; null for any
 /// other type. A cell with this rule has 6 hourglass modes: motions that are not rigid but have no

@@ -24,7 +24,7 @@ class Frame {
   /// Throws Error for directions that are zero or parallel and, if `dimension` is 2, for axes that
   /// are not in the plane x, y or are turned out of it.
   Frame(const FrameSettings& settings, int dimension);
-  /// Does the same for a frame that an option selects, on a mesh. Messages name this option.
+  /// Makes the same axes for a mesh. Messages name `option`, which selects the frame.
   Frame(const FrameSettings& settings, const std::string& option, const mesh::Mesh& mesh);
   /// Returns the axes at a point, by rows. Throws Error, naming the option and the frame, if the
   /// frame is cylindrical and the point lies on its axis, up to round-off in coordinates of the
@@ -32,10 +32,10 @@ class Frame {
   Matrix3 axesAt(const Point& x) const;
   bool isGlobal() const { return name_.empty(); }
   bool isCylindrical() const { return cylindrical_; }
-  /// Return the origin, m, and the axis of a cylindrical frame, a unit vector.
+  /// Return the origin, m, and the unit vector of the axis of a cylindrical frame.
   const Point& origin() const { return origin_; }
   const Point& axis() const { return axes_[2]; }
-  /// Returns the turned axes, by rows, in components along the axes before the turn.
+  /// Returns the turned axes, by rows, as components along the axes before the turn.
   const Matrix3& turn() const { return turn_; }
 
  private:

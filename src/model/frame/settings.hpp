@@ -13,13 +13,13 @@ namespace squeal::frame {
 struct FrameSettings {
   std::string name;
   bool cylindrical = false;
-  VectorValue origin = {};  ///< m; of a cylindrical frame a point on its axis
+  VectorValue origin = {};  ///< m; a point on the axis if cylindrical
   VectorValue first = {};   ///< direction of x or, if cylindrical, of the axis
   VectorValue second = {};  ///< another direction in the plane of x and y, if rectangular
-  double turn = 0;          ///< angle by which these axes are turned about one of them, rad
-  int turnAxis = 2;         ///< 0, 1, 2: about their x, y, z
+  double turn = 0;          ///< angle by which the axes are turned about one of them, rad
+  int turnAxis = 2;         ///< the axis of the turn; 0, 1, 2: x, y, z of the frame
   std::string firstOption, secondOption, turnAxisOption;  ///< with their dash, for messages
-  std::string originOption = {};  ///< the same; empty if the origin is not given
+  std::string originOption = {};  ///< likewise; empty if the origin is not given
 };
 
 /// Returns the frames of the options, [name]. Throws Error for a frame without directions, and for

@@ -15,14 +15,14 @@ namespace squeal::gmshreader {
 /// declares.
 void applyParameters(const std::vector<meshfile::GeometryParameter>& parameters);
 
-/// Throws Error if the geometry has replaced the parameters by other values. Call it after the
-/// geometry was read.
+/// Throws Error if the geometry has overwritten a parameter with another value. Call it after the
+/// geometry has been read.
 void requireParametersUsed(const std::vector<meshfile::GeometryParameter>& parameters);
 
 /// Meshes the geometry that gmsh has open. The edges are meshed first, and the number of cells is
-/// estimated from them. Throws Error if the displacements of so many cells cannot be numbered, or
-/// if gmsh needs more than twice the free memory. Warns if gmsh needs more than half of the free
-/// memory.
+/// estimated from them. Throws Error if so many cells have more displacements than PetscInt can
+/// count, or if gmsh needs more than twice the free memory. Warns if gmsh needs more than half of
+/// the free memory.
 void meshGeometry(const std::string& file, const Warn& warn);
 
 }  // namespace squeal::gmshreader

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The mesh that gmsh reads or makes. This room is compiled only into the program `squeal_gmsh`,
+/// The mesh that gmsh reads or makes. This folder is compiled only into the program `squeal_gmsh`,
 /// the only one that calls gmsh. Not collective.
 #include "base/system/child_limits.hpp"
 #include "model/meshfile/contents.hpp"

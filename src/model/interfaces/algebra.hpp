@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// N×N matrices with a block per pair of nodes, for the contact.
+/// N×N matrices that consist of a block per pair of nodes, for the contact.
 #include <string>
 #include <vector>
 
@@ -20,7 +20,7 @@ OwnedMat nodalMatrix(const mesh::Mesh& mesh, const std::vector<PetscInt>& blocks
 /// Collective. Assembles the matrix after values have been set.
 void assembled(Mat matrix);
 /// Not collective. Sets the block of two global nodes, row-major. Zeros are stored as entries, so
-/// friction changes only values within the frictionless pattern.
+/// friction changes only values, not the sparsity pattern.
 void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
               const std::vector<double>& block);
 /// Not collective. Sets the diagonal of the block of a global node to one.

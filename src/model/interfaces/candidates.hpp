@@ -18,7 +18,8 @@ struct Candidate {
   coupling::SlaveNode slave;
 };
 
-/// The claims on nodes, [local node]: the index of the interface plus 1; 0: none.
+/// The claims of interfaces on nodes. Each list is [local node]: the index of the interface plus 1;
+/// 0: no claim.
 class Claims {
  public:
   /// Collective. The exchange is borrowed.
@@ -48,7 +49,8 @@ std::vector<PetscInt> slaveNodesOf(const mesh::Mesh& mesh, const coupling::NodeE
 /// Collective. Returns the candidate nodes of an interface, from pairs of nodes or from the
 /// coupling of its surfaces. Nodes with excluded[local node] set are left out and added to
 /// Interfaces::lost. Also sets the report and the slave side of an interface whose meshes do not
-/// match. `bodies` may be null for a tie. Throws Error for surfaces that do not meet.
+/// match. `bodies` may be null for a tie. Throws Error for surfaces that do not meet, and if all
+/// nodes of the slave belong to other interfaces.
 std::vector<Candidate> candidatesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                                     const elasticity::Bodies* bodies, int interface,
                                     const std::vector<unsigned char>& excluded, Interfaces& all);

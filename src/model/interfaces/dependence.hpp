@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The rows of u = A z at followers, which are nodes that follow others through ties and couplings,
-/// and at nodes with turned axes.
+/// The rows of the change of variables u = A z (see contact::Contact) at nodes with turned axes and
+/// at followers, which are nodes that follow others through ties and couplings.
 #include <vector>
 
 #include "base/petsc/owned.hpp"

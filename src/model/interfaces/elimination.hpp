@@ -14,7 +14,7 @@ namespace squeal::interfaces {
 
 /// Where an equation comes from: a support of a node that follows others, or an option.
 struct Source {
-  PetscInt node = -1;  // held by the support, global
+  PetscInt node = -1;  // global node that the support holds
   Point direction{};   // in which the support holds it
   int component = 0, group = -1;
   bool isTurned = false;              // the direction is not that of the component
@@ -32,7 +32,7 @@ struct Component {
   double value = 0;
 };
 
-/// An equation Σ w u = value of components.
+/// An equation Σ w u = value with weights w of components u.
 struct Equation {
   const Source* source;
   std::map<PetscInt, double> weights;  // [row]
@@ -53,10 +53,11 @@ class Elimination {
   void add(Equation equation);
   /// Returns the equation of each pivot, [pivot], with the weight 1 at the pivot.
   const std::map<PetscInt, Equation>& solved() const { return solved_; }
-  /// Returns the equations that depend on the others, exactly or nearly.
+  /// Returns the sources of the equations that are linearly dependent on the others, exactly or
+  /// nearly.
   const std::vector<const Source*>& idle() const { return idle_; }
   /// Throws Error if an equation contains a component of a contact node, whose unknowns are not
-  /// Cartesian components. Equations of supports with only one component are allowed.
+  /// Cartesian components. Equations of supports are allowed if they contain only one component.
   void rejectContact() const;
 
  private:

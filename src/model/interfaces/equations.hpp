@@ -10,7 +10,7 @@
 namespace squeal::interfaces {
 
 /// Collective. Solves these equations for components of nodes that follow no others. A component
-/// whose value follows from them is held (Constraints::held). Other components depend on components
+/// whose value they determine is held (Constraints::held). Other components depend on components
 /// of further nodes (Constraints::dependent). If the equation for a support of a tied node follows
 /// from the other equations, up to weights below `leastPivot`, the support holds the tied node
 /// itself and constrains no master (TiedNode::apart). Sets InterfaceReport::carried. Throws Error,
@@ -18,8 +18,9 @@ namespace squeal::interfaces {
 /// would depend on contact nodes.
 void solveEquations(const mesh::Mesh& mesh, Interfaces& all);
 
-/// The smallest weight of a pivot in its equation. With a smaller bound, equations that differ only
-/// by quadrature errors would also hold nodes that lie between the held ones.
+/// The smallest weight of a pivot in the equation of a support of a tied node, relative to the
+/// largest weight there. With a smaller bound, equations that differ only by quadrature errors
+/// would also hold nodes that lie between the held ones.
 constexpr double leastPivot = 0.05;
 
 }  // namespace squeal::interfaces

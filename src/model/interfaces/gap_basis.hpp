@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The basis of the gaps on faces with six or eight nodes (tri6, quad8). A uniform pressure on
-/// these faces has zero or negative nodal forces at the corners. The sign of a nodal force
-/// therefore does not show whether the node is pressed. For this reason the unknowns are other
-/// values, h. Let a and b be the corners of an edge, and e its middle node. With a weight α,
-/// usually 1/5, the gaps g are [M.12]
+/// these faces causes zero or negative nodal forces at the corners, so the sign of a nodal force
+/// does not show whether there is pressure at the node. Therefore the unknowns are not the gaps g
+/// but coefficients h. Let a and b be the corners of an edge, and e its middle node. With a weight
+/// α, usually 1/5, the gaps are [M.12]
 ///   g_a = h_a,   g_e = (1 − 2α) h_e + α (h_a + h_b),   in short g = E h.
 /// The shape functions of h follow from those of g, φ:
 ///   φ̃_a = φ_a + α Σ φ_e,   φ̃_e = (1 − 2α) φ_e.

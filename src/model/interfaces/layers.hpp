@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Compliant layers on contact faces. A layer of the stiffness k, N/m³, lies between the nodes P of
-/// a face and the layer nodes L, which have the gaps to the other side. Along the normal n, the
-/// layer is a spring over the whole face [M.85],
-///   E = ½ k ∫ (Σ φ_i n_i·(u_P,i − u_L,i))² dA,
-/// Along the face, L moves with P; on a sticking interface, the layer is a spring along the face
-/// instead. If the other side covers only a part of the integral of a shape function, the factor √k
-/// of this function is reduced by the square root of the covered fraction.
+/// Compliant layers on contact faces. A layer of stiffness k, N/m³, lies between the nodes P of a
+/// face and the layer nodes L, which have the gaps to the other side. Along the normal n, the layer
+/// is a spring over the whole face with the energy [M.85]
+///   E = ½ k ∫ (Σ φ_i n_i·(u_P,i − u_L,i))² dA.
+/// Along the face, L moves with P, except on a sticking interface, where the layer is also a spring
+/// along the face. If the other side covers only part of the area of a node i, the term of i in the
+/// sum is multiplied by the square root of the covered fraction (ContactNode::area over wholeArea).
 #include <vector>
 
 #include "model/interfaces/nodes.hpp"

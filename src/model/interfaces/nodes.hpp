@@ -63,8 +63,8 @@ struct TiedNode {
   Point offset;  ///< Σ P_il x_l − x_i, m: from the node to its position on the master, both as in
                  ///< the file
   /// [component] 1 if a support holds the component directly and the tie does not act on it.
-  /// Normally a support of a tied node acts on its masters instead; if that condition on the
-  /// masters already follows from others, the support holds the node itself.
+  /// Normally a support of a tied node acts on its masters instead; if the resulting condition on
+  /// the masters already follows from other conditions, the support holds the node itself.
   std::array<unsigned char, 3> apart{};
 };
 
@@ -84,8 +84,8 @@ struct LossReport {
 
 /// The cells that the adjustment of a tie stretches or compresses.
 struct StrainReport {
-  PetscInt cells = 0;  ///< cells in which the distance of two corners changes by over a tenth
-  double change = 0;   ///< largest relative change of a distance of two corners
+  PetscInt cells = 0;  ///< cells in which the distance of two corners changes by more than 10 %
+  double change = 0;   ///< largest relative change of the distance of two corners
   Point where{};       ///< midpoint of these two corners, with the coordinates of the file, m
 };
 
@@ -141,7 +141,7 @@ struct Interfaces {
   std::vector<constraints::CoupledNode> coupled;     ///< owned by this rank, by local node
   PetscInt totalNodes = 0;                           ///< contact nodes of all ranks
   /// [local node] contact interface with a gap at the node, index into `options`; −1 if there is
-  /// none. Includes ghosts and periodic images
+  /// none. Includes ghosts and periodic images.
   std::vector<int> interfaceOf;
   int levels = 1;                       ///< largest level of any connection on any rank
   GapBasis gapBasis;                    ///< E
@@ -154,8 +154,8 @@ struct Interfaces {
   bool slideTogether(int one, int other) const;
   /// Returns true if the local node has a gap on the slave surface of this name.
   bool hasGapOn(const std::string& surface, PetscInt node) const;
-  /// Returns the slave side of a contact interface if this surface is one, borrowed; otherwise
-  /// null.
+  /// Returns the slave side of the contact interface whose slave surface has this name, borrowed;
+  /// null if there is none.
   const SlaveSide* slaveOf(const std::string& surface) const;
   /// Returns the labels of the interfaces whose `marks`, [interface], are not zero.
   std::vector<std::string> labels(const std::vector<int>& marks) const;

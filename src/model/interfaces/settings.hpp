@@ -17,7 +17,7 @@ using mesh::Point;
 /// The side of an interface whose nodes have the gaps.
 enum class SlaveChoice { finer, pad, disc };
 
-/// The interaction of the two sides of an interface. All except tied interfaces may separate.
+/// The interaction of the two sides of an interface. Tied interfaces never separate.
 enum class Role {
   sliding,       ///< friction along the sliding velocity
   sticking,      ///< no tangential jump
@@ -55,7 +55,7 @@ struct InterfaceSettings {
   /// Stiffness of a compliant layer along the normal and, on a sticking interface, along the face,
   /// N/m³; 0: hard contact.
   double layerStiffness = 0, layerTangentialStiffness = 0;
-  bool separates = true;  ///< false: the gap of contact stays zero, also under tension
+  bool separates = true;  ///< false: the gap stays zero, even under tension
   bool adjust = false;    ///< of a tie: its nodes are moved onto the master
 
   /// Returns true for an interface that the options `-tie_*` define, and false for one that the
@@ -96,7 +96,7 @@ std::string separationName(const std::string& interface);
 std::string slaveName(const std::string& interface);
 std::string stiffnessName(const std::string& interface);
 std::string adjustName(const std::string& tie);
-/// Returns the option of the search with its value in words, for messages.
+/// Returns the option of the search distance with its value in words, for messages.
 std::string searchText(const InterfaceSettings& interface);
 
 }  // namespace squeal::interfaces

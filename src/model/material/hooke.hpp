@@ -21,7 +21,7 @@ struct Hooke {
   std::vector<double> matrix;
   double operator()(int i, int j) const { return matrix[i * size + j]; }
 };
-/// Returns the law of an isotropic material, for `young` in Pa and in the given dimension.
+/// Returns the law of an isotropic material in this dimension. `young` is in Pa.
 Hooke isotropic(double young, double poisson, int dimension, bool planeStress);
 
 /// The engineering constants of an orthotropic material, moduli in Pa. νij is the contraction along

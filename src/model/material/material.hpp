@@ -15,7 +15,7 @@ struct Material {
   double density;           ///< kg/m³
   double massDamping;       ///< α, 1/s: C = α M + …
   double stiffnessDamping;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
-  /// The stiffness is integrated by the reduced rule; all cells are hex20.
+  /// True if the stiffness is integrated by the reduced rule; all cells are then hex20.
   bool reducedIntegration;
   /// Poisson's ratio; for an anisotropic material, the ratio that follows from the mean bulk and
   /// shear moduli. Zero in plane stress, where the thickness is free to change.

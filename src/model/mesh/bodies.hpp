@@ -6,13 +6,13 @@
 
 namespace squeal::mesh {
 
-/// A NodeIndex maps nodes of the gmsh model to indices into WholeMesh::points. It borrows both
-/// during the life of the object.
+/// A NodeIndex maps nodes of the gmsh model to indices into WholeMesh::points. It borrows the mesh
+/// and the model during its lifetime.
 class NodeIndex {
  public:
   NodeIndex(WholeMesh& mesh, const GmshModel& model)
       : mesh_(mesh), model_(model), index_(model.nodeCount(), -1) {}
-  /// Replaces nodes of the gmsh model by indices into WholeMesh::points; new ones are added there.
+  /// Replaces nodes of the gmsh model by indices into WholeMesh::points. Adds new nodes there.
   void add(std::vector<PetscInt>& nodes) {
     for (auto& node : nodes) {
       auto& index = index_[node];
@@ -24,7 +24,8 @@ class NodeIndex {
       node = index;
     }
   }
-  /// Returns the number of nodes of the file that were not added.
+  /// Returns the number of nodes of the file that were not added, except those at points of the
+  /// geometry (GmshModel::isOfMesh()).
   PetscInt countUnused() const {
     PetscInt count = model_.droppedNodes();
     for (PetscInt node = 0; node < model_.nodeCount(); ++node)
@@ -32,7 +33,7 @@ class NodeIndex {
     return count;
   }
   /// Replaces nodes of the gmsh model by indices into WholeMesh::points. Returns false if a node
-  /// belongs to no cell.
+  /// has not been added.
   bool translate(std::vector<PetscInt>& nodes) const {
     for (auto& node : nodes) {
       node = index_[node];

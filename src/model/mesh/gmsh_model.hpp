@@ -9,7 +9,7 @@
 
 namespace squeal::mesh {
 
-/// A GmshModel is the mesh that gmsh reads from a file or makes of a geometry. The reader calls
+/// A GmshModel is the mesh that gmsh reads from a file or makes from a geometry. The reader calls
 /// gmsh in a child process: a crash there becomes an Error here, and the memory of the child is
 /// freed when it ends.
 class GmshModel {
@@ -35,7 +35,7 @@ class GmshModel {
   int largestDimension() const { return contents_.dimension; }
   /// Returns the tags of those elements of the largest dimension that are in no group.
   const std::vector<PetscInt>& ungrouped() const { return contents_.ungrouped; }
-  /// Returns false for a node at a point of the geometry. gmsh makes these whether or not a cell
+  /// Returns false for a node at a point of the geometry. gmsh makes such nodes even where no cell
   /// uses them, for example at the centre of a circle.
   bool isOfMesh(PetscInt index) const { return !contents_.atPoint[index]; }
   /// Returns the number of nodes of the file that are in no element; gmsh drops them.

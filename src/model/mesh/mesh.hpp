@@ -35,8 +35,8 @@ struct CellBlock {
 /// A FaceBlock holds the boundary faces of one gmsh element type, from the surface groups that
 /// options name. A face is on the rank of the cell that it bounds. If pad and disc share nodes in
 /// the file, the group of the pad has the faces of the cells whose body has no motion
-/// (Request::moving). The group of the disc has the faces of the moving cells, unless it is a pad
-/// as well.
+/// (Request::moving). The group of the disc has the faces of the moving cells, unless it is also
+/// the group of a pad.
 struct FaceBlock {
   int type = 0;
   int nodesPerFace = 0;
@@ -102,12 +102,12 @@ struct LayerNode {
 /// How the meshes of the two sides of an interface fit together.
 struct InterfaceMatch {
   std::string label;  ///< label of the request, the key of the interface
-  /// The pad's faces lie on faces of the disc, node on node, or the pad is on a rigid obstacle.
-  /// Otherwise the interface has no pairs.
+  /// True if the faces of the pad coincide with faces of the disc, node by node, or if the pad is
+  /// on a rigid obstacle. Otherwise the interface has no pairs.
   bool matching = true;
   /// Where and why the meshes do not match, without full stop; empty if they match.
   std::string mismatch;
-  /// The meshes do not match, but most nodes of the pad have a partner.
+  /// True if the meshes do not match, but most nodes of the pad have a partner.
   bool nearlyMatching = false;
 };
 
@@ -166,7 +166,8 @@ struct Mesh {
   std::vector<Reference> references;
   std::vector<Section> sections;  ///< the same on all ranks
   std::vector<SectionPair> sectionPairs;
-  /// All layer nodes that this rank owns, including those of images and of no interface.
+  /// All layer nodes that this rank owns, including those of images and those that no interface
+  /// uses.
   std::vector<LayerNode> layers;
   PetscInt layerNodes = 0;  ///< on all ranks together
   std::vector<Image> images;
@@ -215,15 +216,15 @@ struct GroupRequest {
   std::string name, option;
 };
 
-/// One contact interface as the mesh sees it: two surface groups, or a pad on a rigid obstacle.
+/// The surfaces of one interface: two surface groups, or a pad on a rigid obstacle.
 struct InterfaceRequest {
   std::string name;
   std::string label;       ///< the kind of interface and its name: unique, for messages
   GroupRequest pad, disc;  ///< an empty name of the disc means a rigid obstacle
   bool discIsSlave =
       false;  ///< the gaps are those of the nodes of the disc, even if the meshes match
-  /// Surfaces whose nodes get layer nodes, if the interface has a compliant layer: those that may
-  /// become its slave side. The nodes of the slave side have the gaps.
+  /// If the interface has a compliant layer: the surfaces whose nodes get layer nodes. They are
+  /// those that may become its slave side, whose nodes have the gaps.
   std::vector<std::string> layered = {};
 };
 

@@ -7,10 +7,10 @@
 
 namespace squeal::mesh {
 
-/// Returns the rank of each cell, [cell], which METIS finds from the dual graph, so that the ranks
-/// get equal shares of the nodes and of the faces on surfaces. Contact partners
-/// are treated as one node, and so are periodic images and their primaries. Throws Error for more
-/// ranks than cells.
+/// Returns the rank of each cell, [cell]. METIS partitions the dual graph of the cells so that the
+/// ranks get nearly equal shares of the nodes and of the faces on surfaces. Contact partners are
+/// treated as one node, and so are periodic images and their primaries. Throws Error for more ranks
+/// than cells.
 std::vector<int> partition(const WholeMesh& mesh, int ranks);
 
 }  // namespace squeal::mesh

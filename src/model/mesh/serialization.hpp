@@ -12,7 +12,7 @@ void fields(Stream& stream, InterfaceMatch& match);
 void fields(Stream& stream, Reference& reference);
 void fields(Stream& stream, MaterialGroup& group);
 void fields(Stream& stream, Section& section);
-/// Exchanges all members except the communicator.
+/// Writes or reads all members except the communicator.
 void fields(Stream& stream, Mesh& mesh);
 
 }  // namespace squeal::mesh

@@ -47,7 +47,7 @@ inline Point axis(int component) {
 /// A matrix, stored by rows.
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 inline constexpr Matrix3 identity3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-/// Returns the vector with these components along axes, given by rows.
+/// Returns the vector with these components along the axes, which are the rows of `axes`.
 inline Point along(const Matrix3& axes, const Point& components) {
   Point sum{};
   for (std::size_t k = 0; k < 3; ++k) sum = plus(sum, axes[k], components[k]);

@@ -33,7 +33,7 @@ struct WholeMesh {
   std::vector<WholeFaces> faces;
   std::map<std::string, std::vector<PetscInt>> nodeGroups;
   std::map<std::string, std::vector<std::vector<PetscInt>>>
-      discFaces;          ///< [surface of a disc] nodes of each face, for each cell it bounds
+      discFaces;          ///< [surface of a disc] nodes of each face, once per cell it bounds
   std::vector<int> part;  ///< [node] connected part
   std::vector<std::string> partName;
   std::vector<Section> sections;          ///< see Mesh

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Contents of a mesh as gmsh has read or made it. The program that calls gmsh passes them to this
-/// one. Not collective.
+/// Contents of a mesh that gmsh has read or made. The program `squeal_gmsh`, which calls gmsh,
+/// passes them to the main program. Not collective.
 #include <petscsystypes.h>
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace squeal::meshfile {
 
-/// The elements of one gmsh type. The program that calls gmsh leaves the labels empty.
+/// The elements of one gmsh type. `squeal_gmsh` leaves `label` and `material` empty.
 struct ElementBlock {
   int type = 0, nodesPerElement = 0, corners = 0;
   std::vector<PetscInt> nodes;     ///< [element][node] index of the node
   std::vector<int> label;          ///< [element] body (cells) or surface (faces)
   std::vector<PetscInt> tag;       ///< [element] gmsh's tag
   std::string typeName = {};       ///< gmsh's name of the type, for messages
-  std::vector<int> material = {};  ///< [element] material group of a cell; empty like the labels
+  std::vector<int> material = {};  ///< [element] material group of a cell
 
   std::span<PetscInt> nodesOf(std::size_t element) {
     return std::span(nodes).subspan(element * nodesPerElement, nodesPerElement);

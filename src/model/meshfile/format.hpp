@@ -23,7 +23,7 @@ struct Format {
 /// Returns the format of a file. A geometry is recognised by its name, and a mesh or shape by its
 /// name and its first line. Throws Error for any other file, since gmsh would run it as a script,
 /// and for a file that cannot be read. Also throws Error if there is an options file of gmsh next
-/// to the file, since gmsh would run this file too.
+/// to the file, since gmsh would run that file as well.
 Format requireSound(const std::string& file);
 
 }  // namespace squeal::meshfile

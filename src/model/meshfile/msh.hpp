@@ -14,10 +14,10 @@ struct MshContents {
 
 /// Not collective. Returns the contents of a .msh file of version 2 to 2.2, 4 or 4.1, ASCII or
 /// binary. Throws Error, with the line (or the byte in a binary file), unless the sections $Nodes
-/// and $Elements contain what their headers announce: tags that are positive and given once, finite
-/// coordinates, and elements of known types on existing nodes. gmsh's reader does not check the
-/// headers. If they are wrong, it writes beyond its arrays, stops early without a message, or uses
-/// -1 as a node.
+/// and $Elements have as many entries as their headers announce, with tags that are positive and
+/// given once, finite coordinates, and elements of known types on existing nodes. gmsh's reader
+/// does not check this. In a wrong file, it writes beyond its arrays, stops early without a
+/// message, or uses -1 as a node.
 MshContents requireSoundMsh(const std::string& file);
 
 }  // namespace squeal::meshfile

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Settings of the file that the mesh is read from or made of. Not collective.
+/// Settings of the file that the mesh is read from or made from. Not collective.
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@ struct GeometryParameter {
 
 /// How a shape is meshed.
 struct ShapeMesh {
-  double size = 0;                 ///< length of edges in the unit of the shape; 0: gmsh chooses it
+  double size = 0;                 ///< edge length, mm (BREP: unit of the file); 0: gmsh chooses it
   int order = 2;                   ///< of the tetrahedra
   std::vector<std::string> given;  ///< options given for shapes, with their dash
 };

@@ -42,29 +42,29 @@ const FaceType& faceType(int gmshType);
 /// The shape functions of a face at a point.
 struct FaceShape {
   NodeValues value{};
-  std::array<Reference, mostNodes> gradient{};  ///< [node], with respect to the reference point
+  std::array<Reference, mostNodes> gradient{};  ///< [node] in reference coordinates
 };
 
 /// Returns the shape functions at a point, inside or outside the face.
 FaceShape faceShape(const FaceType& type, const Reference& point);
 
-/// The nodes that carry a multiplier: all, or the corners, where the multiplier is (bi)linear.
+/// The nodes that carry a multiplier: all nodes, or only the corners for a (bi)linear multiplier.
 enum class Multiplier { nodes, corners };
 
 /// The cover of a slave face by the master faces.
 enum class Cover { full, partial };
 
 /// Returns α for those edges of a face at which only faces of the same type meet. With this α, ∫φ̃
-/// is positive for all pivots of fully covered faces, and φ̃ itself is nonnegative on partly
+/// is positive for all pivots (dual.hpp) of fully covered faces, and φ̃ is nonnegative on partly
 /// covered tri6 and quad8 faces. On line3 and quad9 faces α is 0, and ∫φ̃ is positive only for a
 /// fully covered face. With multipliers at the corners of a straight tri6, the dual functions ψ_p
 /// are the linear functions of the corners.
 double usualAlpha(const FaceType& type, Cover cover, Multiplier multiplier = Multiplier::nodes);
 
 /// Returns φ̃ from φ at the same point:
-///   φ̃_c = φ_c + Σ α_e φ_e over the edges e at the corner c,   φ̃_e = (1 − 2α_e) φ_e,
-/// where the function of a centre node does not change. `alpha` contains α of each edge, in the
-/// order of FaceType::edges.
+///   φ̃_c = φ_c + Σ α_e φ_e over the edges e at the corner c,   φ̃_e = (1 − 2α_e) φ_e.
+/// The function of a centre node does not change. `alpha` contains α of each edge, in the order of
+/// FaceType::edges.
 NodeValues slaveBasis(const FaceType& type, const NodeValues& shape, std::span<const double> alpha);
 
 }  // namespace squeal::mortar

@@ -20,10 +20,9 @@ struct Pivots {
   linalg::DenseMatrix functions;
 };
 
-/// Returns the pivots of a face. Not collective. `dropped`, [node], marks nodes without a
-/// multiplier although other nodes of their kind (see Multiplier) have one. The functions of
-/// dropped nodes are distributed equally among the pivots. If all nodes are dropped, there are no
-/// pivots.
+/// Returns the pivots of a face. Not collective. `dropped`, [node], marks nodes that get no
+/// multiplier although `multiplier` assigns one to nodes of their kind. The functions of dropped
+/// nodes are distributed equally among the pivots. If all nodes are dropped, there are no pivots.
 Pivots pivots(const FaceType& type, Multiplier multiplier, const std::vector<bool>& dropped);
 
 /// The coupling of a slave face to one master face:
@@ -37,7 +36,7 @@ using MasterTerms = MasterMoments;
 /// is the jump of displacements at a pivot, times W.
 struct FaceTerms {
   std::vector<double> slave;  ///< D: ∫ ψ_p φ̃_p dA, [pivot]
-  /// W: ∫ ψ_p dA, [pivot]; equal to the row sums of D and B together, and of all M
+  /// W: ∫ ψ_p dA, [pivot]; equal to the row sums of [D B], and to those of all M together
   std::vector<double> weight;
   linalg::DenseMatrix others;  ///< B: ∫ ψ_p φ̃_o dA, [pivot][other node]
   std::vector<double> gap;     ///< G: ∫ ψ_p gap dA, [pivot], m³ (m²)

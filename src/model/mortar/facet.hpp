@@ -13,16 +13,16 @@ namespace squeal::mortar {
 struct Facet {
   std::vector<Point> corners;        ///< anticlockwise, seen from outside of the body
   std::vector<Reference> reference;  ///< [corner]
-  /// True if the facet is the whole face. All edges of the face are then straight in the
-  /// projection.
+  /// True if the facet is the whole face. facets() returns such a facet only if all edges of the
+  /// face are straight in the projection.
   bool whole = true;
 
   Point centre() const;
   Point normal() const;  ///< unit vector out of the body
 };
 
-/// Returns the whole face without its mid-edge nodes. Its normal is the mean normal of the face.
-/// Not collective.
+/// Returns the whole face without its mid-edge nodes, as one facet. Its normal is the mean normal
+/// that the face would have with straight edges. Not collective.
 Facet wholeFacet(const Face& face);
 /// Returns the facets of a face for projection along a unit vector. Not collective. If the
 /// projection has straight edges and is convex, the only facet is the whole face. Otherwise the

@@ -12,7 +12,7 @@ namespace squeal::mortar {
 /// An integration point on the covered part of a slave face.
 struct OverlapPoint {
   Reference slave, master;  ///< its position on both faces
-  double weight;            ///< area of the slave face at this point, m² (m in plane problems)
+  double weight;            ///< quadrature weight on the slave face, m² (m in plane problems)
   std::size_t masterFace;   ///< index into the master faces
   /// Signed distance of the point on the master from the point on the slave, m, positive if open:
   ///   x_master = x_slave + gap · normal.
@@ -28,12 +28,12 @@ struct OverlapPoint {
 /// two master faces cover the same place, the nearer one is used. At an uncovered rim of the slave
 /// face, master faces are extended beyond their edges if this closes the open part. The extension
 /// is the sag of curved edges plus the shift that a gap between inclined faces causes in the
-/// projection. If two different meshes have a common rim, it is therefore covered, but an overhang
+/// projection. A rim that is common to two different meshes is therefore covered, but an overhang
 /// is not.
 ///
 /// If edges are straight in the projection, faces are cut at the edges of both sides, and the
 /// covered part is exact within round-off; for the quadrature rules see overlapRule(). Otherwise
-/// each edge is replaced by four straight pieces. The triangles that result tile the slave face
+/// each edge is replaced by four straight pieces. The resulting triangles tile the slave face
 /// exactly, and master faces are extended beyond their edges by their sag.
 ///
 /// Throws Error for a type of face without a faceType(), and for a slave face whose normal turns by

@@ -24,9 +24,9 @@ inline FacePoint facePoint(const Face& face, const Reference& at) {
 struct Foot {
   Reference reference{};
   double distance = 0;  ///< from the start of the line along its direction, m
-  /// False if the line does not meet the face, or only outside it by more than a quarter of its
-  /// size. Then `reference` is a point on the rim, and `distance` is that of the point of the line
-  /// nearest to it.
+  /// False if the line misses the face by more than a quarter of the face's size. Then `reference`
+  /// is a point of the face near the line, and `distance` is that of the point of the line nearest
+  /// to it.
   bool met = true;
 };
 
@@ -39,8 +39,8 @@ Foot project(const Face& face, const Point& from, const Point& direction);
 /// Does the same for a point that is known to be near `start`.
 Foot project(const Face& face, const Point& from, const Point& direction, const Reference& start);
 
-/// Returns Σ V_S · ∇_S φ_i, the derivative of each shape function along a velocity, 1/s for m/s;
-/// only the tangential part of the velocity has an effect.
+/// Returns V·∇_S φ_i, the derivative of each shape function along a velocity V, 1/s for V in m/s.
+/// Only the tangential part of V has an effect.
 NodeValues derivativeAlong(const FacePoint& point, const FaceShape& shape, const Point& velocity);
 
 }  // namespace squeal::mortar

@@ -8,10 +8,10 @@
 namespace squeal::ties {
 
 /// Collective. Moves the tied nodes of adjusted ties to Σ P_il x_l; in chains of ties, masters are
-/// moved before their slaves. It uses the P of the original coupling. The P of the moved nodes
-/// would differ by about a hundredth of the move, and would move the nodes along the surface again
-/// and again. Nodes within edges, faces and cells follow the corners of their cells unless they are
-/// on a surface that options name. Periodic images move with their primaries. Sets
+/// moved before their slaves. P is that of the original coupling. A P computed from the moved nodes
+/// would shift them again along the surface, by about a hundredth of the first move, and repeated
+/// moves would not end. Nodes within edges, faces and cells follow the corners of their cells,
+/// unless they are on a surface that options name. Periodic images move with their primaries. Sets
 /// InterfaceReport::largestAdjustment and InterfaceReport::strain. Throws Error for a tie that
 /// folds a cell, and warns of a tie that changes a distance between corners of a cell by more than
 /// a tenth.

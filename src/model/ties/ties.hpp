@@ -10,8 +10,8 @@
 namespace squeal::ties {
 
 /// Collective. Returns the options of all interfaces, the supports, the tied nodes and the coupled
-/// nodes. A node belongs to only one tie. Among ties whose meshes do not match, this is the first
-/// one that claims the node; for ties with matching meshes, see tieMatched(). The nodes of adjusted
+/// nodes. A node belongs to only one tie. Among ties whose meshes do not match, it belongs to the
+/// first one that claims it; for ties with matching meshes, see tieMatched(). The nodes of adjusted
 /// ties are moved to satisfy the equation above within round-off with the returned P. Warns of ties
 /// if less than half of the slave is covered. Throws Error for surfaces that do not meet, for ties
 /// that depend on each other in a circle, and for a tie that folds a cell.

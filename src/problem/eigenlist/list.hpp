@@ -22,7 +22,7 @@ struct List {
 };
 
 /// Returns the list in this text. Throws Error, without the name of the file, if the text contains
-/// no list or several, if an entry is not finite, if figures of an entry contradict each other, and
+/// no list or several, if an entry is not finite, if figures of an entry contradict each other, or
 /// if the unit of columns is not known.
 List parse(std::string_view text, Format format, std::optional<Unit> unit);
 

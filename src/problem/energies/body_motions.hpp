@@ -20,19 +20,20 @@ struct NamedMode {
   NamedMotion motion;           ///< named by Revolution or Sections; no name in plane problems
 };
 
-/// Names the motion of each body in a mode, in three-dimensional models only. The name is the first
-/// of these that applies, with the given minimum share of the kinetic energy of the body: a rigid
-/// motion, 0.9; the nodal diameters and circles of a body of revolution, 0.6; the elastic modes of
-/// the body by itself that have the same name, 0.6 together; a rigid motion, 0.6.
+/// Names the motion of each body in a mode, in three-dimensional models only. The name is that of
+/// the first of these motions that has at least the given share of the kinetic energy of the body:
+/// rigid motion, 0.9; motion with nodal diameters and circles of a body of revolution, 0.6; elastic
+/// modes of the body by itself that have the same name, 0.6 together; rigid motion, 0.6.
 class BodyMotions {
  public:
   /// Collective. Takes the owned nodes of each body, [body], and borrows the mesh during the
   /// lifetime of the object. `own` are the elastic modes of each body by itself, [body]; empty:
   /// none. A rotating body is analysed about its axis of rotation. A body at rest is analysed about
   /// the first or the last principal axis of inertia, if it is a body of revolution about that
-  /// axis. The rigid motions of a body of revolution across its axis come in pairs, and both have
-  /// the same name: along or about a diameter. The lumped mass of a node is the mean diagonal entry
-  /// of the mass matrix there; a common factor in all masses would not change the shares.
+  /// axis. The two rigid translations of a body of revolution across its axis have the same name,
+  /// "along a diameter", and so have the two rotations, "about a diameter". The lumped mass of a
+  /// node is the mean diagonal entry of the mass matrix there; a common factor in all masses would
+  /// not change the shares.
   BodyMotions(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
               const std::vector<std::vector<PetscInt>>& nodes, std::vector<OwnModes> own = {});
   /// Returns the frequencies and names of the elastic modes, [body].

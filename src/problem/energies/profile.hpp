@@ -7,8 +7,8 @@
 
 namespace squeal::energies {
 
-/// Returns the number of sign changes of a profile, without the values below 5 % of the largest
-/// magnitude.
+/// Returns the number of sign changes of a profile, ignoring values whose magnitude is below 5 % of
+/// the largest one.
 inline int signChanges(const std::vector<double>& profile) {
   double most = 0;
   for (const double value : profile) most = std::max(most, std::abs(value));

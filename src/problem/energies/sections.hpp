@@ -21,8 +21,8 @@ struct Principal {
 ///   torsion    u = p(ζ) (e × X),
 ///   axial      u = p(ζ) e,
 /// with polynomials p and q of degree 9 in the scaled position ζ along e, and the position X
-/// relative to the centre. The principal axes have the numbers 1 to 3, the longest first. The names
-/// are
+/// relative to the centre. The principal axes are numbered 1 to 3 in the order of Principal. The
+/// names are
 ///   bending            e = 1, a = 3, or, unless the body is flat, a combination of 2 and 3,
 ///   in-plane bending   e = 1, a = 2, of a flat body,
 ///   cross bending      e = 2, a = 3,

@@ -12,8 +12,9 @@
 
 namespace squeal::energies {
 
-/// Collective. Returns the components with their shares in the energies of a free mode u. With a
-/// steady stress, `prestress` is uᵀ K_σ u, twice its part of the strain energy, and is included.
+/// Collective. Returns the components with their shares in the energies of a free mode u.
+/// `prestress` is uᵀ K_σ u, twice the contribution of a steady stress to the strain energy; none
+/// without such a stress. It is included in the strain energy and appended as a component.
 std::vector<pencil::Component> sharesOfFreeMode(const Components& components,
                                                 const NodalProducts& mode,
                                                 std::optional<double> prestress);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The eigenvalue problem with friction, given by matrices from files. Each matrix has a role (M, Z
-/// or K), a factor, and exponents of friction, speed and damping [M.23]. Matrices exported by other
-/// programs, and published models, are reduced and certified like models made from a mesh.
+/// or K: the factor of s², s or 1), a factor, and exponents of friction, speed and damping [M.23].
+/// Matrices exported by other programs, and published models, are reduced and certified like models
+/// made from a mesh.
 #include <string>
 #include <vector>
 

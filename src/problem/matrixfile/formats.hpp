@@ -39,7 +39,7 @@ struct Compressed {
   std::vector<double> value;
   const char *beginName = "indptr", *indexName = "indices";  ///< their names in messages
 
-  /// Removes unused places after the last entry; MATLAB stores at least one of them.
+  /// Removes unused places after the last entry. MATLAB files may contain some.
   void dropFree();
   /// Returns the entries. Throws Error if the lists are inconsistent.
   Entries entries() const;

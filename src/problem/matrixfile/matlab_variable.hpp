@@ -16,7 +16,7 @@ struct Variable {
   bool real = false;             ///< a matrix of real numbers; in version 5 of doubles or singles
   bool sparse = false;           ///< otherwise a full matrix
   std::vector<long long> shape;  ///< one number per dimension
-  std::uint64_t begin = 0, end = 0;  ///< its bytes in the file
+  std::uint64_t begin = 0, end = 0;  ///< first byte in the file, and the byte after the last
   bool swapped = false, packed = false;
   int type = 0;  ///< type of the values in version 4
 };

@@ -9,7 +9,7 @@ namespace squeal::matrixfile {
 
 /// Reads a file in Matrix Market format: coordinate or array; general, symmetric or skew-symmetric;
 /// real, integer or pattern (all values 1). Exponents may begin with D. A symmetric or
-/// skew-symmetric file must contain one triangle only. Throws Error, with the number of the line,
+/// skew-symmetric file must contain only one triangle. Throws Error, with the number of the line,
 /// for anything else.
 Entries readMatrixMarket(const std::filesystem::path& path);
 

@@ -41,14 +41,13 @@ MotionForces motionForces(const elasticity::Bodies& bodies, const Motion& motion
 
 /// The amplitudes of a motion at the contact.
 struct ContactMotion {
-  linalg::ComplexVector jump;       ///< [u] in the rows of the pad nodes, N entries
+  linalg::ComplexVector jump;       ///< jump [u] in the rows of the contact nodes, N entries
   linalg::ComplexVector convected;  ///< D u_D in the same rows; null without convective terms
   /// The normal components E⁻ᵀ R_N* of the nodal forces, [owned contact node], with R_N* = N r* at
   /// closed gaps and R_N* = 0 at open ones.
   std::vector<Complex> nodalForce;
 };
-/// Collective. Returns the values of a nodal vector in the rows of the pad nodes, [owned contact
-/// node].
+/// Collective. Returns the values of a nodal vector at the contact nodes, [owned contact node].
 std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
                                      const linalg::ComplexVector& u);
 /// Collective. Returns the amplitudes at the contact of the motion u with the nodal forces
@@ -57,19 +56,19 @@ ContactMotion contactMotion(const contact::Contact& contact,
                             const std::vector<unsigned char>& closed,
                             const linalg::ComplexVector& u, const linalg::ComplexVector& forces);
 
-/// The data of friction at one point of a sweep.
+/// The friction data of one point of a sweep.
 struct FrictionState {
   sweep::Parameters at;             ///< its `friction` is used only for FrictionForm::pressing
   std::vector<contact::Slip> slip;  ///< [contact node]
   OwnedMat response;                ///< B at this state, N×N
   OwnedMat turning;                 ///< the part of B without the slope of the friction law, N×N
 };
-/// Collective. Returns the data of friction. B is computed from the normal forces `responseForce`,
+/// Collective. Returns the friction data. B is computed from the normal forces `responseForce`,
 /// which responseForces() returns.
 FrictionState frictionState(const contact::Contact& contact, const sweep::Parameters& at,
                             std::vector<contact::Slip> slip,
                             const std::vector<double>& responseForce);
-/// Collective. Returns the data of friction of the steady state.
+/// Collective. Returns the friction data of the steady state.
 FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution,
                             const Settings& settings);
 

@@ -49,7 +49,7 @@ class Influences {
               const sensitivity::StartSpace& start);
 
   /// Collective. Returns the forms yᴴ (∂P/∂θ) x of the same parameters θ at a point, as a function
-  /// of the eigenvalue and its vectors. This function borrows the object and the arguments.
+  /// of the eigenvalue and its vectors. The returned function borrows the object and the arguments.
   sensitivity::Forms forms(const pencil::Pencil& pencil, const BodyPoint& state);
 
  private:

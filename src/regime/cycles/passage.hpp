@@ -25,7 +25,7 @@ struct Orbit {
 /// Measures of a motion over one period.
 struct Measures {
   double largestKinetic = 0;       ///< J
-  double frictionPower = 0;        ///< heat of friction, W
+  double frictionPower = 0;        ///< mean power that friction dissipates, W
   double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N
   int opening = 0, sticking = 0;   ///< numbers of nodes that are open or stick at some time
   bool linear = true;  ///< each node stays open, sticking or sliding as in steady sliding
@@ -38,12 +38,13 @@ struct Passage {
   int quietest = 0;  ///< number of steps after which the fewest nodes stick
 };
 
-/// The derivative of the end of a passage with respect to its start. The variables are q, v, and
-/// the slips in z that stick at the start; the effect of other entries of z decays in a few steps.
+/// The derivative of the end of a passage with respect to its start. The variables are q, v, and,
+/// of z, the slips of nodes that stick at the start; the effect of other entries of z decays within
+/// a few steps.
 struct Monodromy {
   std::vector<PetscInt> stuck;  ///< rows of z
   DenseMatrix end;              ///< derivative of q, v and the stuck z, square
-  DenseMatrix z;                ///< derivative of all z, rows × columns of `end`
+  DenseMatrix z;                ///< derivative of all z, rows of z × columns of `end`
 };
 
 /// Returns √(qᵀΛq + vᵀv + zᵀK_z z), √J.

@@ -23,8 +23,8 @@ struct Passes {
   int count = 0;
   Pass sum;
   /// The pass with the smallest relative difference from the preceding one, in the energy norm. Two
-  /// passes are compared only if a node has separated or stuck between them, since those of a
-  /// slowly growing linear motion would differ even less.
+  /// passes are compared only if a node has left its steady state (open, sticking or sliding)
+  /// between them. Without this condition, passes of a slowly growing linear motion would win.
   Pass nearest;
   double change = -1;  ///< relative difference of `nearest` from the pass before it; −1: none
   void add(const Passes& other);
@@ -54,9 +54,9 @@ class Section {
   Passes passes_;
 };
 
-/// Returns the initial orbits for shooting: the one from the mean of the passes and, if there is
-/// one, the one from `nearest`. Each has periods of `steps` steps. `step` is the time step of the
-/// time integration, s. Does not set Orbit::friction.
+/// Returns the initial orbits for shooting: one from the mean of the passes and, if `nearest` is
+/// set, one from it. A period of an orbit has `steps` steps. `step` is the time step of the time
+/// integration, s. Does not set Orbit::friction.
 std::vector<Orbit> firstOrbits(const Passes& passes, double step, int steps);
 
 }  // namespace squeal::cycles

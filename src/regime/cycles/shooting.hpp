@@ -14,22 +14,22 @@ namespace squeal::cycles {
 /// A direction in the unknowns (q, v, period, friction), each multiplied by a scale that gives it
 /// the unit √J. The scale of q is the angular frequency; v needs no scale, since its unit is √J.
 /// The scale of the period is the norm of the motion divided by the period; that of the friction is
-/// the norm divided by the friction.
+/// the norm divided by the friction or by 0.001, whichever is larger.
 using Direction = std::vector<double>;
 
 /// Floquet multipliers: the factors by which disturbances of a periodic motion grow in a period.
 struct Multipliers {
   std::vector<Complex> values;  ///< by descending modulus
-  /// Index of the multiplier that belongs to a shift in time, identified by its eigenvector. The
-  /// multiplier is 1 to within the error of the time step.
+  /// Index of the multiplier that belongs to a shift in time, identified by its eigenvector. This
+  /// multiplier is 1 except for the error of the time integration.
   std::size_t trivial = 0;
 };
 
 /// The equations of a periodic motion, linearised about an orbit:
 ///   (M − 1) δx + ∂x(T)/∂T δT + ∂x(T)/∂f δf = −(x(T) − x),   ẋᵀ δx = 0,   and δf = 0 or tᵀδ = 0.
-/// The last equation is tᵀδ = 0 if a tangent t of the branch is given. x consists of q and v with
-/// the scales of Direction, and of the slips in z of the nodes that stick at the start of the
-/// period. M is the monodromy matrix.
+/// The last equation is tᵀδ = 0 if a tangent t of the branch is given, where δ is the Direction of
+/// the changes. x consists of q and v with the scales of Direction, and of the slips in z of the
+/// nodes that stick at the start of the period. M is the monodromy matrix.
 class Linearisation {
  public:
   /// Collective.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The contact forces of a time step: unilateral contact and Coulomb's friction cone at every node.
-/// The jumps depend on the forces by an affine function [M.72].
+/// The jumps are an affine function of the forces [M.72].
 #include <vector>
 
 #include "base/system/termination.hpp"
@@ -22,9 +22,10 @@ class StepSolver {
   StepSolver(DenseMatrix w, int dimension, std::vector<unsigned char> moves);
   const DenseMatrix& w() const { return w_; }
 
-  /// Improves the forces R by the projected Gauss–Seidel method until they change by at most
-  /// `tolerance`, N, in a sweep. With strong friction the sweeps may never converge; after many of
-  /// them Newton's method is tried. The forces of open nodes are exactly zero at the end. On entry,
+  /// Improves the forces R by the projected Gauss–Seidel method until they change in a sweep by at
+  /// most `tolerance`, N, or 1e-10 of the largest force if this is larger. With strong friction the
+  /// sweeps may never converge; after many of them Newton's method is tried, and again each time
+  /// their number has doubled. The forces of open nodes are exactly zero at the end. On entry,
   /// d must be b + W R for the initial forces; it is updated with R. `friction` are the
   /// coefficients f, [node]. active[node] is 0 for a node that is known to be open; its forces must
   /// be zero. Returns the number of sweeps. Throws Error if the largest number of sweeps is not

@@ -49,8 +49,8 @@ class Massless : public Scheme {
   /// Returns 1 for each slip that stuck in the last step, otherwise 0, [row].
   std::vector<unsigned char> stuck() const;
   /// Maps variations of the initial state of the last step to the resulting variations of the
-  /// initial state of the next one. It assumes that the variation leaves each node open, sticking
-  /// or sliding, and its coefficient of friction constant.
+  /// initial state of the next one. The variations are assumed to change neither the state of a
+  /// node (open, sticking or sliding) nor its coefficient of friction.
   void propagate(Variations& x) const;
 
  private:

@@ -5,10 +5,11 @@
 ///   u = u_s + V q + Ψ z,   y = j q + z,
 ///   q̈ + C q̇ + Λ q + K_zqᵀ z + C_zqᵀ ż = jᵀ R*,
 ///   M_z z̈ + C_z ż + K_z z + K_zq q + C_zq q̇ = R*,
-/// where the jump y contains gaps and slips, and R = R_s + R* are the contact forces. The jump
-/// consists of j q, which the modes represent, and of z, which they do not. The unknowns z are
-/// called the boundary. Only the scheme of Moreau and Jean uses M_z. Without M_z the boundary is
-/// massless, and a contact that closes causes no impulse.
+/// where u_s is the steady displacement, V are modes, Ψ are static responses, and R = R_s + R* are
+/// the contact forces. The jump y contains gaps and slips. It is the sum of j q, the part that the
+/// modes represent, and z, the part that they do not. The unknowns z are called the boundary. Only
+/// the scheme of Moreau and Jean uses M_z. Without M_z the boundary is massless, and a contact that
+/// closes causes no impulse.
 #include <array>
 #include <functional>
 #include <vector>
@@ -31,11 +32,11 @@ struct Node {
   Point normal{};                    ///< unit, from disc to pad
   std::array<Point, 2> tangents{};   ///< unit; if the node slides, the first is τ
   double friction = 0;               ///< coefficient of friction in steady sliding
-  double lawCoefficient = 0;         ///< factor on the friction law φ; 0: no law applies
+  double lawCoefficient = 0;         ///< factor on the friction law φ; 0: not used at this node
   double frictionSlope = 0;          ///< derivative of `friction` with respect to the speed, s/m
   double sweptFriction = 0;          ///< derivative of `friction` with respect to the swept one
   double area = 0;                   ///< m²
-  double gap = 0;                    ///< steady gap, m; 0 if it is closed
+  double gap = 0;                    ///< steady gap, m; 0 if the node is closed
   double normalForce = 0;            ///< steady R_N, N, ≥ 0
   std::array<double, 2> shear{};     ///< steady friction force on the pad along the tangents, N
   std::array<double, 2> velocity{};  ///< steady relative velocity of the pad, m/s; 0: sticks
@@ -65,8 +66,8 @@ struct ReducedModel {
   PetscInt rows() const { return std::ssize(nodes) * dimension; }
 };
 
-/// Not collective. Returns the coefficient of friction of a node at a sliding speed, m/s. The swept
-/// coefficient is that of the model plus `sweptChange`.
+/// Not collective. Returns the coefficient of friction of a node at a sliding speed, m/s.
+/// `sweptChange` is added to the swept coefficient of friction of the model.
 double coefficient(const ReducedModel& model, const Node& node, double speed, double sweptChange);
 
 /// A motion of the linearised model: e^{st} times these amplitudes.
@@ -81,8 +82,8 @@ struct LinearMode {
 /// Newton's method starting from s. In the linearised model, closed nodes stay closed, and sliding
 /// ones obey
 ///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7].
-/// Sticking nodes stick, and open nodes are free. Throws Error if the method does not converge.
-/// Throws Interrupted, only on this rank, once stopRequested() is true.
+/// Sticking nodes do not slip, and open nodes are free. Throws Error if the method does not
+/// converge. Throws Interrupted, only on this rank, once stopRequested() is true.
 LinearMode nearestMode(const ReducedModel& model, Complex s,
                        const StopRequested& stopRequested = {});
 

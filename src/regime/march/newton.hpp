@@ -12,7 +12,7 @@
 
 namespace squeal::march {
 
-/// The problem of a time step, as in StepSolver. It borrows its arrays.
+/// The problem of a time step, with the arguments of StepSolver. It borrows its arrays.
 struct StepProblem {
   const linalg::DenseMatrix& w;                       ///< rows × rows
   int dimension;                                      ///< rows per node
@@ -23,10 +23,10 @@ struct StepProblem {
 };
 
 /// Not collective. Improves the forces R, and d = b + W R with them, until no entry of F exceeds
-/// `accuracy`, N. Each step reduces the norm of F. Open nodes then have no force, not even
-/// round-off. Returns false, with R and d unchanged, if a step does not reduce the norm, if the
-/// derivative is singular or if there are too many steps. Throws Interrupted, only on this rank,
-/// once stopRequested() is true.
+/// `accuracy`, N, in magnitude. Each step reduces the norm of F. At the end, the forces of open
+/// nodes are exactly zero. Returns false, with R and d unchanged, if a step cannot reduce the norm,
+/// if the derivative is singular or if there are too many steps. Throws Interrupted, only on this
+/// rank, once stopRequested() is true.
 bool newton(const StepProblem& problem, double accuracy, std::vector<double>& r,
             std::vector<double>& d, const StopRequested& stopRequested = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The onset of nonlinearity. The motion of a growing mode is linear until the first contact node
-/// separates or comes to rest, or a sticking node slides [M.75].
+/// The onset of nonlinearity. The motion of a growing mode is linear until a contact node
+/// separates, a sliding node comes to rest, or a sticking node slides [M.75].
 #include <span>
 #include <string>
 #include <vector>

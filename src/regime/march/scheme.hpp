@@ -16,7 +16,7 @@ struct State {
   double time = 0;            ///< s
   std::vector<double> q, v;   ///< modal coordinates and velocities
   std::vector<double> jump;   ///< y, [row]
-  std::vector<double> rate;   ///< [row] rate of a gap; w of a slip, with its steady part, m/s
+  std::vector<double> rate;   ///< [row] rate of the gap; slip velocity w with steady part, m/s
   std::vector<double> force;  ///< R, [row], N
   double kinetic = 0;         ///< kinetic energy, J
 };
@@ -66,7 +66,7 @@ class Scheme {
   int sweeps_ = 0;
   double tolerance_;                                              // tolerance of the forces, N
   std::vector<double> friction_;                                  // [node] coefficients in the step
-  std::vector<double> steadyForce_, steadyVelocity_, steadyGap_;  // [row], zero elsewhere
+  std::vector<double> steadyForce_, steadyVelocity_, steadyGap_;  // [row], zero if undefined
   std::vector<double> increments_;                                // d of the last step
   std::vector<double> stiffness_;  // [node] weight of gaps in a defect, N/m
   StopRequested stopRequested_;    // empty: never

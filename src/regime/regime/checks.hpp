@@ -24,8 +24,8 @@ void checkOptions(const Settings& settings, const pencil::Settings& pencil,
 void requireSupported(const Settings& settings, const elasticity::Bodies& bodies,
                       const contact::Contact& contact);
 
-/// Collective. Warns if a time step exceeds `stableStep`, and if a period has fewer steps than the
-/// frames that are wanted.
+/// Collective. Warns if the boundary is massless and a time step exceeds `stableStep`, s, and if a
+/// period has fewer steps than the number of frames requested.
 void warnAboutSteps(MPI_Comm comm, const Settings& settings, std::span<const Task> tasks,
                     double stableStep);
 
@@ -33,8 +33,8 @@ void warnAboutSteps(MPI_Comm comm, const Settings& settings, std::span<const Tas
 void warnAboutDamping(const FullModel& full);
 
 /// Collective. Throws Error if the friction law makes the slips of a massless boundary unstable
-/// (lawGain()). Warns if this may happen near the steepest part of the law, or however short the
-/// time step is.
+/// (lawGain()). Warns if they may be unstable near the steepest part of the law, or would be
+/// unstable with sufficiently short time steps.
 void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks);
 
 }  // namespace squeal::regime

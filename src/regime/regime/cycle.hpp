@@ -20,7 +20,8 @@ struct PeriodicMotion {
   bool converged = false;
   double change = 0;  ///< relative change over a period after Newton's method
   cycles::Measures measures;
-  /// The multipliers with a modulus of at least 0.1, by descending modulus; empty unless converged.
+  /// Floquet multipliers with a modulus of at least 0.1, by descending modulus; empty unless
+  /// converged.
   cycles::Multipliers multipliers;
   Complex trivialMultiplier() const { return multipliers.values[multipliers.trivial]; }
   /// Returns the largest multiplier except the trivial one; 0 if there is none.
@@ -38,7 +39,7 @@ struct Cycles {
   std::string failure;
 };
 
-/// Stores the passes of a time integration through a section, window by window.
+/// Stores the passes of a time integration through a Poincaré section, window by window.
 class SectionRecord {
  public:
   /// Borrows the model.
@@ -56,7 +57,7 @@ class SectionRecord {
 
 /// The data from which shooting starts.
 struct CycleStart {
-  double friction = 0;           ///< friction at which the model was made
+  double friction = 0;           ///< swept coefficient of friction of the model
   const cycles::Passes& passes;  ///< passes of a time integration; borrowed
   double step = 0;               ///< its time step, s
 };

@@ -17,11 +17,11 @@ namespace squeal::regime {
 /// The kind of the motion at the end of a time integration.
 enum class Kind {
   unmeasured,  ///< the time integration ended before its first window
-  growing,     ///< linear growth: no node has separated or stuck
-  steady,      ///< the motion has decayed
-  periodic,    ///< the peaks of all cycles are equal
-  modulated,   ///< the peaks of the cycles differ, and their differences repeat
-  irregular    ///< the peaks differ without repetition
+  growing,     ///< the last window is linear, and the motion has grown since the first one
+  steady,      ///< the last window is linear, and the motion has decayed
+  periodic,    ///< the standard deviation of the peaks is below 1 % of their mean
+  modulated,   ///< the peaks vary from cycle to cycle, and their variation repeats
+  irregular    ///< the peaks vary without repetition
 };
 const char* text(Kind kind);
 
@@ -34,10 +34,10 @@ struct Regime {
   double carrier = 0;          ///< strongest frequency, Hz
   double modulation = 0;       ///< frequency of the modulation, Hz; 0: none
   double growth = 0;           ///< growth rate in the linear range, 1/s; NaN: too few cycles
-  double peakDeviation = 0;    ///< standard deviation of the cycles' peaks / their mean
+  double peakDeviation = 0;    ///< standard deviation of the peaks of the cycles / their mean
   double largestKinetic = 0;   ///< J
   double largestVelocity = 0;  ///< of a slip, relative to steady sliding, m/s
-  double largestJump = 0;      ///< change of a gap, m
+  double largestJump = 0;      ///< of a gap, relative to steady sliding, m
   double largestDefect = 0;    ///< Scheme::lastDefect() of any step / mean normal force
   double imbalance = 0;        ///< error of the energy balance / MechanicalWork::moved
   Means means;                 ///< over the last two thirds of the nonlinear motion
@@ -59,8 +59,8 @@ class CyclePeaks {
   void add(double kinetic);
   void endCycle();
   const std::vector<double>& values() const { return values_; }
-  /// Returns the growth rate over the first cycles, up to the first one that reaches `level`, J;
-  /// NaN for fewer than four cycles.
+  /// Returns the growth rate over the cycles before the first one that reaches `level`, J; NaN if
+  /// these are fewer than four.
   double growthBelow(double level) const;
 
  private:
@@ -80,8 +80,8 @@ class Recorder {
   /// Returns true if the means no longer change, or if the motion has decayed.
   bool settled() const;
   int cycles() const { return std::ssize(peaks_.values()); }
-  /// Returns the number of latest windows that are averaged: two thirds of the windows after the
-  /// last linear one, or one if the last window is linear.
+  /// Returns the number of latest windows to average: two thirds of those after the last linear
+  /// window, or one if the last window is linear.
   std::size_t windowsUsed() const;
   /// Returns the result so far. Throws Interrupted, only on this rank, once stopRequested() is
   /// true.

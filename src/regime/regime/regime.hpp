@@ -23,11 +23,11 @@ namespace squeal::regime {
 struct Run {
   std::string start;          ///< the number of the unstable mode, or "all"
   Complex s;                  ///< eigenvalue of the mode; for "all" that of the fastest growing one
-  std::string failure;        ///< why nothing was measured; empty: no failure
+  std::string failure;        ///< why there are no results; empty: no failure
   Onset onset;                ///< first separation, stick or slip of a contact node
   Point onsetPosition{};      ///< m
-  double onsetKinetic = NAN;  ///< largest kinetic energy over a cycle there, J; NaN: not known
-  double step = NAN;          ///< s; NaN: not known
+  double onsetKinetic = NAN;  ///< largest kinetic energy of a cycle at the onset, J; NaN: unknown
+  double step = NAN;          ///< time step, s; NaN: unknown
   Regime regime;
   Cycles cycles;  ///< periodic motions (`-regime_cycle`)
   sound::VisibleSurface surface;
@@ -38,7 +38,7 @@ struct Study {
   sweep::Parameters at;
   int unstable = 0;         ///< number of unstable modes there
   int modes = 0, rows = 0;  ///< numbers of modes and contact rows of the reduced model; 0: no model
-  double modelError = NAN;  ///< largest |δs|/|s| of its eigenvalues from the certified ones
+  double modelError = NAN;  ///< largest relative error of the unstable eigenvalues of the model
   double stableStep = 0;    ///< stable time step with all contact nodes held, s
   double steadyPower = NAN;  ///< friction power of steady sliding, W
   std::vector<Node> nodes;

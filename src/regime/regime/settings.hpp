@@ -29,7 +29,7 @@ struct CycleSettings {
   bool wanted = false;
   int steps = 256;          ///< time steps per period
   double tolerance = 1e-6;  ///< largest relative change over a period
-  /// The range of frictions in which the branch is followed; none: the branch is not computed.
+  /// Range of friction in which the branch of periodic motions is followed; none: no branch.
   std::optional<std::array<double, 2>> range = {};
   int motions = 20;  ///< largest number of periodic motions on the branch in each direction
 };

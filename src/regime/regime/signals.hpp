@@ -25,12 +25,12 @@ class ModalSignals {
   void add(const std::vector<double>& velocities);
   /// Returns the time between samples, s.
   double sampleTime() const { return stride_ * step_; }
-  /// Returns the number of stored samples within the latest `time`, s; 0 if they are too few for a
-  /// spectrum.
+  /// Returns the number of stored samples within the last `time` seconds; 0 if they are too few for
+  /// a spectrum.
   std::size_t count(double time) const;
   /// Returns the latest `count` samples, samples × modes.
   DenseMatrix latest(std::size_t count) const;
-  /// Returns the spectrum of the latest `count` samples, with the squares of all modes added.
+  /// Returns the spectrum of the latest `count` samples. The squares of all modes are added.
   std::vector<SpectralLine> spectrum(std::size_t count) const;
   /// Returns the frequency of the largest line of the spectrum, Hz.
   double carrier(std::size_t count) const;

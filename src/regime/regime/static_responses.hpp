@@ -17,9 +17,9 @@ class StaticResponses {
  public:
   /// Collective. Borrows the model; `own` are the contact nodes of this rank.
   StaticResponses(const FullModel& full, const std::vector<Node>& own);
-  /// Collective. Returns the static responses as nodal displacements, for the nodes in the given
-  /// order. Each node has the response to a unit gap and, for each tangent, that to a unit force
-  /// along it or, if the node is held, to a unit slip.
+  /// Collective. Returns the static responses as nodal displacements. First come the responses to a
+  /// unit gap at each node; then, tangent by tangent, those to a unit force along the tangent or,
+  /// at nodes of sticking interfaces, to a unit slip. `order` is Order::own().
   linalg::Block all(const std::vector<PetscInt>& order) const;
 
  private:

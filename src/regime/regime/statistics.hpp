@@ -10,7 +10,7 @@ namespace squeal::regime {
 double mean(std::span<const double> x);
 /// Returns the standard deviation; 0 for no values.
 double deviation(std::span<const double> x);
-/// Returns the place of the maximum at or after the index `first`, interpolated by a parabola
+/// Returns the position of the maximum at or after the index `first`, interpolated by a parabola
 /// through the logarithms of the largest entry and its two neighbours.
 double peakPlace(std::span<const double> power, std::size_t first);
 

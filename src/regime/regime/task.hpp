@@ -31,7 +31,7 @@ struct NumberedMode {
   LinearMode mode;
 };
 
-/// Throws Error if both step and time are given and their ratio exceeds the largest number of
+/// Throws Error if both time and step are given and time / step exceeds the largest number of
 /// steps.
 void checkSteps(const MarchSettings& settings);
 
@@ -42,7 +42,8 @@ std::vector<std::string> startsOn(std::span<const std::size_t> numbers, Starts s
 /// Not collective. Returns the time integrations that start on these modes, which must be ordered
 /// with the fastest growing one first. `stableStep` is the stable step of the model with all nodes
 /// held, s. Sets Task::failure if the mode does not oscillate, if it makes no node separate, stick
-/// or slide, or if step or time violate a bound.
+/// or slide, if a sticking node is already at its friction limit, or if the step or the time
+/// violates a bound.
 std::vector<Task> tasksOn(const ReducedModel& model, const MarchSettings& settings,
                           std::span<const NumberedMode> modes, double stableStep);
 

@@ -25,10 +25,10 @@ struct Trajectory {
 /// Returns the rank that computes the task with this index.
 int rankOf(MPI_Comm comm, std::size_t task);
 
-/// Collective. Computes the time integrations of those tasks that have no failure. Returns the
-/// results on all ranks, [task], empty for failed tasks; only Trajectory::trace stays on the rank
-/// that computed it. Sets Task::failure if a time integration ends with an Error or before its
-/// first window.
+/// Collective. Computes the time integrations of the tasks without a failure. Returns the results
+/// on all ranks, [task], unmeasured for failed tasks; only Trajectory::trace stays on the rank that
+/// computed it. Sets Task::failure if a time integration ends with an Error or before the end of
+/// its first window.
 std::vector<Trajectory> trajectories(MPI_Comm comm, const ReducedModel& model,
                                      const Settings& settings, std::vector<Task>& tasks,
                                      Stage& stage);

@@ -16,10 +16,10 @@ struct Means {
   double from = 0, to = 0;         ///< begin and end, s
   double kinetic = 0;              ///< mean kinetic energy, J
   double peakKinetic = 0;          ///< mean of the largest kinetic energies of the cycles, J
-  double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N of all sliding interfaces
+  double frictionCoefficient = 0;  ///< −Σ R_T·τ of steadily sliding nodes / Σ R_N of all nodes
   double frictionPower = 0;        ///< −Σ R_T·w, W
   double open = 0, sticking = 0;   ///< mean numbers of open and sticking nodes
-  bool linear = true;  ///< each node stays open, sticking or sliding as in steady sliding
+  bool linear = true;              ///< no node leaves its steady state: open, sticking or sliding
 };
 
 /// Averages of one node over the same span.
@@ -35,7 +35,7 @@ struct Window {
   Means means;
   std::vector<NodeMeans> nodes;
   double largestVelocity = 0;  ///< of a slip, relative to steady sliding, m/s
-  double largestJump = 0;      ///< change of a gap, m
+  double largestJump = 0;      ///< of a gap, relative to steady sliding, m
 };
 
 /// Accumulates the averages of a time integration, window by window.

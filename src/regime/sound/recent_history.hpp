@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The recent history of a time integration, from which the displacements of the latest cycles
-/// follow.
+/// The recent history of a time integration, from which the displacements of the latest cycles are
+/// computed.
 #include <deque>
 #include <vector>
 
@@ -40,8 +40,8 @@ class RecentHistory {
   /// `period` is the period of the mode, s, and `step` the time step, s. Borrows the model.
   RecentHistory(const ReducedModel& model, const Settings& settings, double period, double step);
   void inspect(const Scheme& scheme);
-  /// Returns the samples in the order of time. They span a whole number of periods, to within a
-  /// time step, and fewer periods if the time integration was too short.
+  /// Returns the samples in chronological order. They span a whole number of periods to within a
+  /// time step. There are fewer periods if the time integration was too short.
   std::vector<Sample> samples() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The settings of the results outside the contact: the latest periods and the sound.
+/// The settings of the results outside the contact: displacements of the latest periods, and sound.
 #include <vector>
 
 #include "base/options/option_types.hpp"

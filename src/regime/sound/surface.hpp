@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The visible surface, which radiates sound: the boundary faces of all bodies, except faces in
-/// contact, tied faces, cuts of a periodic model, and faces whose normal velocity supports hold at
-/// zero.
+/// contact, tied faces, cuts of a periodic model, and faces whose supports prevent normal motion.
 #include "base/petsc/owned.hpp"
 #include "model/contact/contact.hpp"
 #include "model/mesh/mesh.hpp"

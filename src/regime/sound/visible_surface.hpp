@@ -36,8 +36,8 @@ struct SpectrumPoint {
   std::vector<Amplitudes> amplitude = {};  ///< [line], with the frequencies of amplitudes()
 };
 
-/// The motion of the latest cycles, relative to steady sliding except for the total gap and
-/// pressure.
+/// The motion of the latest cycles relative to steady sliding. Gap and pressure include their
+/// steady values.
 struct Frames {
   std::vector<double> time;                   ///< [frame] s
   linalg::Block displacement;                 ///< V q + Ψ z, [frame], this rank's rows, m
@@ -65,12 +65,12 @@ class Observer {
  public:
   /// Borrows the contact.
   Observer(const contact::Contact& contact, const Shapes& shapes, const Settings& settings);
-  /// Returns the results for the time integration that the rank `root` computed. `trace` is its
-  /// history, which is used only on that rank.
+  /// Returns the results for the time integration that the rank `root` computed. `trace` is the
+  /// history of this time integration; it is used only on `root`.
   VisibleSurface of(int root, const Trace& trace) const;
 
  private:
-  /// A node of the surface. The candidate with the smallest `measure` on all ranks is chosen.
+  /// A node of the surface. The candidate with the smallest `measure` over all ranks is chosen.
   struct Candidate {
     double measure;
     Point position{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady states of a sweep in the unknowns of the contact.
+/// Solves for the steady states of a sweep in the unknowns of the contact.
 #include <optional>
 #include <vector>
 
@@ -11,20 +11,21 @@
 
 namespace squeal::analysis {
 
-/// Solves the steady points in batches with the factorisation of the closed contact, and follows
-/// the changes of contact between neighbouring points. All members are collective.
+/// Solves for the steady states in batches with the factorisation of the closed contact, and
+/// follows the changes of contact between neighbouring points. All members are collective.
 class CondensedSweep {
  public:
   /// Collective. Borrows all arguments during the lifetime of the object. During this time, do not
   /// request another active set from `current`. `states` contains the states of the leading points
   /// that are already known.
   CondensedSweep(const SteadyInput& input, CurrentSystem& current, SteadyStates& states);
-  /// Adds the missing states and the path between them, and writes both to the log.
+  /// Adds the missing states and, without convective terms, the path between them. Writes both to
+  /// the log.
   void solve(StateLog& log);
 
  private:
-  /// A pair of neighbouring steady points, by their indices. The path leads from the first to the
-  /// second.
+  /// A pair of neighbouring points, as indices into SteadyStates::solutions. The path leads from
+  /// the first to the second.
   struct Step {
     std::size_t from, to;
   };

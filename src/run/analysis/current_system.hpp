@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The associated systems of active sets.
+/// The systems of equations of active sets.
 #include <memory>
 #include <optional>
 

@@ -19,7 +19,7 @@ struct Flutter {
   /// First separation, stick or slip of each stored unstable mode as it grows.
   std::vector<regime::ModeOnset> onsets = {};
   std::vector<regime::Study> regimes = {};  ///< motions after flutter
-  /// [body] The elastic modes of each body by itself, if wanted.
+  /// [body] The elastic modes of each body by itself, if requested.
   std::vector<std::vector<energies::NamedMode>> ownModes = {};
   /// The messages of failures, which have already been printed. Each names the point of the sweep
   /// and the remedy. All other results are valid.

@@ -13,7 +13,7 @@ namespace squeal::analysis {
 
 using Fact = std::variant<std::string, double, std::vector<double>>;
 
-/// A support, load or joint with its properties. The name of a number ends with its unit.
+/// A support, load or joint with its properties. The names of quantities end with their units.
 struct Item {
   std::string name;
   std::vector<std::pair<std::string, Fact>> facts;

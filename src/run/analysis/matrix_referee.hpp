@@ -17,12 +17,12 @@ struct JudgedList {
   referee::Judgement judgement;
 };
 
-/// Collective. Reads the list of `-referee_list`, and prints its size and its units and signs.
+/// Collective. Reads the list of `-referee_list`, and prints its size, units and sign conventions.
 /// Throws Error as eigenlist::read() does, and if the sweep has more than one point.
 eigenlist::List readList(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep);
 
-/// Collective. Judges the list at the only point of the sweep. The eigenvalues that are proved are
-/// returned in `flutter`, as the result of this stage.
+/// Collective. Judges the list at the only point of the sweep. Sets `flutter` to the eigenvalues
+/// that are proved.
 JudgedList judgeList(MPI_Comm comm, const Settings& settings, const sweep::Sweep& sweep,
                      Flutter& flutter);
 

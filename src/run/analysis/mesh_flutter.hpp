@@ -10,8 +10,8 @@ namespace squeal::analysis {
 
 /// Collective. Returns the eigenvalues at all points of the sweep that have a steady state, the
 /// onsets of their unstable modes, and the motions after flutter. The points are treated in groups
-/// (mesh_sweep.hpp). A group that fails does not affect the others. Throws Error if no group has a
-/// result.
+/// (mesh_sweep.hpp). A group that fails does not affect the others. Throws Error if all groups
+/// fail.
 Flutter meshFlutter(const SlidingBrake& brake, const sweep_solver::Request& request,
                     checkpoint::Checkpoint& checkpoint, CurrentSystem& current);
 

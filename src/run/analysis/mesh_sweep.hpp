@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The eigenvalue problems of groups of steady points. Points whose active sets differ little share
+/// The eigenvalue problems of groups of sweep points. Points whose active sets differ little share
 /// one factorisation and one basis. The factorisation and the free modes in the basis are those
-/// of the union of the active sets: a node is closed (or held) if it is so at any point of the
-/// group.
+/// of the union of the active sets: a node is closed (or held) if it is closed (or held) at any
+/// point of the group.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,14 +17,14 @@
 
 namespace squeal::analysis {
 
-/// Collective. Returns the steady points that have a solution, in groups that share a basis. The
-/// active sets in a group differ in at most `-flutter_released` nodes. If a setting needs the
-/// matrices of each active set, all points of a group have the same set.
+/// Collective. Returns the points with a steady solution, in groups that share a basis. The
+/// active sets in a group differ in at most MeshSettings::released nodes. With modal damping and
+/// prestress, each point is a group of its own, since prestress changes the free modes.
 std::vector<PointGroup> groupsOf(const SlidingBrake& brake);
 
 /// Divides the unknowns of `all`, which is borrowed, into two parts. The interior consists of the
-/// unknowns that `interior` has too. The boundary consists of the unknowns that only `all` has:
-/// gaps, and tangential displacements of sticking nodes.
+/// unknowns that `interior` also has. The boundary consists of those that only `all` has: gaps, and
+/// tangential displacements of nodes of sticking interfaces.
 subspace::Substructure substructureOf(const contact::CoupledSystem& all,
                                       const contact::CoupledSystem& interior);
 

@@ -14,7 +14,7 @@ namespace squeal::analysis {
 void addParticipations(const factor::AssociatedSystem& system, sweep_solver::ModalSegment& segment);
 
 /// Collective. Adds to each stored complex mode its MAC, body by body, with the free modes that
-/// have the most energy in it: at most three, with a share of at least 0.05. `trial` is T.
+/// have the largest shares of its energy: at most three, each at least 0.05. `trial` is T.
 void addCorrelations(const energies::BodyMac& mac, Mat trial, sweep_solver::ModalSegment& segment);
 
 /// Collective. Adds the shares of the components to the free modes of the segment, up to the top of

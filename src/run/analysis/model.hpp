@@ -31,8 +31,8 @@ struct Model {
 /// contact. Does not tighten the bolts. Throws Error under the conditions that the stages document.
 Model buildModel(MPI_Comm comm, const ModelSettings& settings);
 
-/// Collective. Throws Error if a body is loose (the message refers to the audit), and if no
-/// interface slides or sticks.
+/// Collective. Throws Error if a body is under-constrained (the message refers to the audit), or if
+/// no interface slides or sticks.
 void requireSupports(const Model& model);
 
 /// Collective. Audits a model, and prints a line with the number of findings. `place` is added to

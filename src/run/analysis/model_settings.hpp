@@ -23,8 +23,8 @@ struct ModelSettings {
   contact::Settings contact;
   std::vector<std::string> idleFrames;  ///< names of frames that no option uses
 
-  /// Returns the settings that the options give. Throws Error under the conditions that these
-  /// folders document.
+  /// Returns the settings that the options give. Throws Error under the conditions that the
+  /// settings of each folder document.
   static ModelSettings given();
 };
 

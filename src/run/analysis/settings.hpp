@@ -22,7 +22,7 @@ namespace squeal::analysis {
 struct SteadySettings {
   bool full = false;  ///< `-steady_full`: solve in all unknowns
   int path = 20;      ///< `-steady_path`: the path between two points is followed if at most this
-                      ///< number of nodes differ; 0: no path
+                      ///< number of nodes change; 0: no path
 };
 
 /// Settings of a problem given by a mesh.
@@ -32,10 +32,10 @@ struct MeshSettings {
   uniqueness::Settings uniqueness;
   terms::Settings terms;
   /// `-flutter_released`: largest number of contact nodes in which active sets that share a basis
-  /// may differ.
+  /// may differ; 0 if another setting needs the matrices of each active set.
   int released = 150;
   bool audit = true;  ///< `-audit`: audit the model before the solution
-  int ownModes = 0;   ///< `-report_component_modes`: number per body by itself
+  int ownModes = 0;   ///< `-report_component_modes`: number of modes of each body by itself
 };
 
 /// Settings of the judgement of a list of eigenvalues.

@@ -17,7 +17,7 @@ struct SlidingBrake {
   const MeshSettings& mesh() const { return *settings.mesh; }
 };
 
-/// The steady points [first, last).
+/// The points [first, last) of SteadyStates::solutions.
 struct PointGroup {
   std::size_t first = 0, last = 0;
 };

@@ -16,8 +16,8 @@ struct SpeedUniqueness {
 
 /// Results of `-steady_uniqueness`.
 struct UniquenessStudy {
-  /// One entry per speed, or one for all speeds if the result is the same; empty without contact
-  /// and without the option.
+  /// One entry per speed, or a single one if the result is the same at all speeds; empty without
+  /// contact or without the option.
   std::vector<SpeedUniqueness> speeds;
   bool complete = true;  ///< false if a request to stop ended the computation
 };

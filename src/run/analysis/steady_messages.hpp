@@ -11,9 +11,9 @@ namespace squeal::analysis {
 /// Returns a line with the result of the solver.
 std::string resultText(const steady::Solution& solution, const contact::Contact& contact);
 
-/// Collective. Warns of a point without a solution, and of sticking nodes beyond their limit of
-/// friction. Prints the number of nodes that slide after being released. Throws Error if a
-/// displacement is not finite.
+/// Collective. Warns of a point without a solution, and of sticking nodes beyond their friction
+/// limit. Prints the numbers of nodes of sticking interfaces that slide or are left free, and the
+/// tensions of bolts. Throws Error if a displacement is not finite.
 void reportState(const steady::Solution& solution, const Model& model);
 
 }  // namespace squeal::analysis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Steady sliding at all steady points of a sweep, and the changes of the contact between them.
+/// Steady sliding at all points of a sweep, and the changes of the contact between them.
 #include <vector>
 
 #include "base/checkpoint/checkpoint.hpp"
@@ -14,7 +14,7 @@ namespace squeal::analysis {
 
 /// The steady states of a sweep.
 struct SteadyStates {
-  /// [steady point of the sweep]. If not `complete`, only those of the leading points.
+  /// [point of Sweep::steadyPoints()]; only those of the leading points if not `complete`.
   std::vector<steady::Solution> solutions;
   /// The changes of contact nodes of this rank between the points, in the order in which they
   /// occur.

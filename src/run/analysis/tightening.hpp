@@ -11,8 +11,9 @@ namespace squeal::analysis {
 
 /// Collective. Solves a first load step with the forces of the bolts and the loads that no sweep
 /// scales, and then fixes the lengths of the bolts. In this step the swept friction is 0, and so is
-/// the pressure unless Settings::boltsUnderPressure is set. Does nothing if no bolt has a force.
-/// Throws Error if the step has no solution.
+/// the pressure unless Settings::boltsUnderPressure is set. Without a bolt force, no step is
+/// solved. Warns of bolts whose length changes by too much for small strains. Throws Error if the
+/// step has no solution.
 void tightenBolts(Model& model, const constraints::Settings& settings);
 
 /// Collective. Returns the tension of each bolt in a steady state, N, [section of the mesh].

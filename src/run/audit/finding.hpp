@@ -9,7 +9,7 @@ namespace squeal::audit {
 
 enum class Kind {
   units,            ///< values that do not belong to one system of units
-  rotation,         ///< an axis of rotation that is too far from its bodies
+  rotation,         ///< an axis off the centre of mass, or a rigid tilt of negative stiffness
   nearFaces,        ///< faces that face each other without a common interface
   unmergedNodes,    ///< nodes at the same place that are not joined
   cells,            ///< distorted cells

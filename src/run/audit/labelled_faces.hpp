@@ -10,13 +10,13 @@
 namespace squeal::audit {
 
 /// The body and the interfaces of a face. A face belongs to an interface if it is in the group of
-/// one of its sides, or if all its nodes touch or are tied there. Couplings are treated as further
-/// interfaces.
+/// either side of the interface, or if all nodes of the face touch or are tied there. Couplings are
+/// treated as further interfaces.
 struct FaceLabel {
   int body = 0;
-  std::vector<int> interfaces;  ///< index into Interfaces::options, for a coupling options.size() +
-                                ///< its index; ascending
-  std::vector<int> groups;      ///< index into LabelledFaces::groups; ascending
+  std::vector<int> interfaces;  ///< indices into Interfaces::options; a coupling has its index plus
+                                ///< options.size(); ascending
+  std::vector<int> groups;      ///< indices into LabelledFaces::groups; ascending
   auto operator<=>(const FaceLabel&) const = default;
 };
 

@@ -7,9 +7,9 @@
 
 namespace squeal::audit {
 
-/// Not collective. Returns findings on axes of rotation that do not pass through the centre of mass
-/// of their bodies, and on rotating bodies held by couplings, if convective terms act on their
-/// rigid tilt like a spring of negative stiffness.
+/// Not collective. Returns findings on axes of rotation that lie slightly off the centre of mass of
+/// their bodies, or far from it. Also returns findings on rotating bodies held by couplings, if
+/// convective terms act on the rigid tilt of these bodies like a spring of negative stiffness.
 Findings rotationFindings(const Subject& model, const std::vector<BodyMass>& masses);
 
 }  // namespace squeal::audit

@@ -13,8 +13,8 @@ namespace squeal::audit {
 /// A support of a part.
 struct Support {
   std::string by;  ///< such as "support 'mounting'" or "interface 'pad'"
-  /// Number of nodes. If meshes do not match, nodes of the slave are counted for both sides: for
-  /// the part of the master, those that touch it.
+  /// Number of supported nodes. At an interface, slave nodes are counted on both sides: the part of
+  /// the master counts the slave nodes that touch it.
   PetscInt nodes = 0;
 };
 

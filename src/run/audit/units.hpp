@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Plausibility of the units of a model. Any consistent units are accepted, also those of
+/// Plausibility of the units of a model. Any consistent units are accepted, including those of
 /// dimensionless models. Only known mixtures of units are findings.
 #include "run/audit/finding.hpp"
 #include "run/audit/masses.hpp"

@@ -19,11 +19,11 @@ struct Field {
 
 /// Collective. Writes `stem`.pvtu and, in the subfolder `stem`, the pieces …_PIECE.vtu. There is
 /// one piece per rank, but at most `mostPieces`: neighbouring ranks then share a piece. The pieces
-/// are compressed and binary, with coordinates in double and fields in single precision. In
-/// addition to the fields they contain node_tag and part of the nodes, body (an index) and rank of
-/// the cells and, if any body consists of sections, the material (an index) of the cells. Throws
-/// Error on all ranks, naming `option` (given with its dash), if a file cannot be written, if VTK
-/// does not have a cell type, and if a field has a wrong size.
+/// are compressed and binary, with coordinates in double and fields in single precision. They also
+/// contain the point fields `node_tag` and `part`, the cell fields `body` (an index) and `rank`
+/// and, if any body consists of sections, the cell field `material` (an index). Throws Error on all
+/// ranks, naming `option` (given with its dash), if a file cannot be written, if VTK does not have
+/// a cell type, or if a field has a wrong size.
 void writeVtu(const mesh::Mesh& mesh, const std::filesystem::path& stem,
               const std::vector<Field>& pointFields, const std::string& option, int mostPieces = 8,
               const std::vector<Field>& cellFields = {});

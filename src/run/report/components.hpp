@@ -27,8 +27,8 @@ inline constexpr std::array growthColumns{
 std::string componentTable(const analysis::Analysis& analysis);
 /// Returns mode_components.csv: the shares of each component in the free modes of the band.
 std::string modeComponentTable(const analysis::Analysis& analysis);
-/// Returns participation_bodies.csv. For the free modes that have the most energy in a stored
-/// complex mode, it lists their MAC with this mode, body by body.
+/// Returns participation_bodies.csv. For each stored complex mode, it lists the MAC with the free
+/// modes that have the largest shares of its energy, body by body.
 std::string bodyMacTable(const analysis::Analysis& analysis);
 /// Returns component_modes.csv: the elastic modes of each body by itself.
 std::string ownModeTable(const analysis::Analysis& analysis);
@@ -37,8 +37,8 @@ std::string ownModeTable(const analysis::Analysis& analysis);
 /// `0` for the rest.
 std::string participationTable(const analysis::Analysis& analysis);
 
-/// Returns a table cell with the name of a mode, which may contain commas; an empty cell for an
-/// empty name.
+/// Returns a table cell with the name of a mode in quotes, since it may contain commas; an empty
+/// cell for an empty name.
 std::string nameCell(const std::string& name);
 
 }  // namespace squeal::report

@@ -11,7 +11,7 @@ namespace squeal::report {
 
 /// Returns true if a proof was requested at any point. Not collective.
 bool hasProofs(const analysis::Analysis& analysis);
-/// Returns the text of proof.csv, with a row for each point that has been solved. Not collective.
+/// Returns the text of proof.csv, with a row for each solved point. Not collective.
 std::string proofTable(const analysis::Analysis& analysis);
 /// Returns the entry on the proof of a point in summary.json. Not collective.
 nlohmann::json proofEntry(const pencil::ComplexModes& point);

@@ -8,8 +8,8 @@
 namespace squeal::report {
 
 /// Collective. Writes options.txt into `folder`. It contains the given options, and the defaults of
-/// the other options as comments. Call it once all settings have been read. Throws Error as
-/// writeText() does.
+/// the other options as comments. It omits -report_dir, -resume, -progress and -log_json. Call it
+/// once all settings have been read. Throws Error as writeText() does.
 void writeRecipe(MPI_Comm comm, const std::filesystem::path& folder);
 
 }  // namespace squeal::report

@@ -8,7 +8,8 @@
 namespace squeal::report {
 
 /// Collective. Writes onset.csv if the onsets of unstable modes are known. Writes the tables
-/// regime*.csv, periodic*.csv and floquet.csv if the motion after flutter was computed.
+/// regime*.csv if the motion after flutter was computed, and periodic*.csv and floquet.csv if
+/// periodic motions were requested too.
 void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 
 }  // namespace squeal::report

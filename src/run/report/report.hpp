@@ -30,8 +30,9 @@ class Directory : public output::Folder {
 
 /// Collective. Writes all reports, which then replace those of an earlier run, and prints the
 /// stability table. If the run was interrupted and has eigenvalues, its reports are written to
-/// interrupted() instead, and the results of an earlier run remain. Throws Error, naming
-/// -report_dir, if a file of a complete run cannot be written; the earlier results then remain.
+/// interrupted() instead, and the results of an earlier run remain. An interrupted run without
+/// eigenvalues only prints a warning. Throws Error, naming -report_dir, if a file of a complete run
+/// cannot be written; the earlier results then remain.
 void write(const analysis::Analysis& analysis, const Settings& settings, Directory& directory);
 
 /// Collective. Removes the results of an interrupted run from interrupted(), except its checkpoint.

@@ -8,7 +8,7 @@
 namespace squeal::report {
 
 /// Returns the first cells of a table row on a stored complex mode: the parameters of the point,
-/// and number, growth rate and frequency of the mode.
+/// and the number, growth rate and frequency of the mode.
 std::string modeHead(const pencil::ComplexModes& point, const pencil::Shape& shape);
 
 /// Returns sensitivities.csv: the derivatives of the eigenvalues of the stored complex modes, one

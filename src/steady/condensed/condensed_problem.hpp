@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Solution of steady sliding in the unknowns of the contact; all other equations are linear or
+/// Solves for steady sliding in the unknowns of the contact; all other equations are linear or
 /// nearly so [3.10–3.13, M.59].
 #include <functional>
 #include <memory>
@@ -44,11 +44,11 @@ class CondensedProblem {
   CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed);
   ~CondensedProblem();
   /// Passes on a function that returns TᵀKT with all contact open and no sticking node held;
-  /// Impedance::offer() says when it is used.
+  /// Impedance::offer() describes when it is used.
   void offer(std::function<Mat()> openStiffness);
   /// Collective. Solves at all points as Problem::solve() does, starting from the gaps and holds of
-  /// the last solution of the last call. During the call, the memory contains several vectors of
-  /// all unknowns for each point.
+  /// the last solution of the previous call. The call needs memory for several vectors of all
+  /// unknowns per point.
   std::vector<Solution> solveTogether(const std::vector<sweep::Parameters>& points) {
     return solveTogether(points, false);
   }
@@ -67,7 +67,8 @@ class CondensedProblem {
   impedance::ContactSolution onSet(const ChosenSet& set) {
     return std::move(solveOnSets({set}).front());
   }
-  /// Makes the next solve() start from these holds and gaps: [contact node] gap unknown h, m.
+  /// Makes the next solve() start from these holds and gaps. `gaps` are the gap unknowns h,
+  /// [contact node], m.
   void startFrom(std::vector<double> gaps, Sticking sticking) {
     gaps_ = std::move(gaps);
     sticking_ = std::move(sticking);

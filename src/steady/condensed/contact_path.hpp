@@ -59,13 +59,13 @@ void precomputeContact(CondensedProblem& problem, const std::vector<ContactInter
 
 /// Collective. Follows the steady state from the solution `from` on the straight line to the
 /// parameters `to`, which differ in friction, pressure or speed. On each active set the state is a
-/// smooth function of these parameters, and the next change is at the first zero of a normal force
-/// or gap, found to 1e-11 of the line. A node of a sticking interface that opens is freed along the
-/// surface, and held again when it closes. If this makes it change again at once, it stays closed
-/// and unheld. A node that opens loses its tangential force, so the state jumps there. The path
-/// ends if the equations of an active set are singular (a pole of forces and gaps), or if no active
-/// set is consistent after a change. Two zeros of one node between consecutive events may be
-/// missed.
+/// smooth function of these parameters. The next change is at the first zero of a normal force or
+/// gap, located to 1e-11 of the length of the line. A node of a sticking interface that opens is
+/// freed along the surface, and held again when it closes. If the held node would change again at
+/// once, it stays closed and unheld. A node that opens loses its tangential force, so the state
+/// jumps there. The path ends if the equations of an active set are singular (a pole of forces and
+/// gaps), or if no active set is consistent after a change. Two zeros of one node between
+/// consecutive events may be missed.
 ContactPath traceContact(CondensedProblem& problem, const Solution& from,
                          const sweep::Parameters& to);
 

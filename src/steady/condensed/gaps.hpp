@@ -21,10 +21,10 @@ struct GapTask {
 
 /// Collective. Solves
 ///   0 ≤ g ⟂ F(g) ≥ 0,   g = 0 at nodes that do not separate,
-/// starting from `gaps`, [contact node of this rank], m, which become the solution. F are the
+/// starting from `gaps`, [contact node of this rank], m, which become the last iterate. F are the
 /// forces of the contact case at these gaps, with balanced friction. Sets the reason and the
-/// tolerance of `solution`, and adds to its iterations. If SNES finds no solution, returns false,
-/// and the reason names the nodes that alternate between open and closed. At least one rank must
+/// tolerance of `solution`, and adds to its iterations. If SNES finds no solution, returns false;
+/// the reason then names any nodes that alternate between open and closed. At least one rank must
 /// have a contact node.
 bool solveGaps(const GapTask& task, std::vector<double>& gaps, steady::Solution& solution);
 

@@ -9,14 +9,14 @@
 
 namespace squeal::condensed {
 
-/// The state at a point is a sum of three: the state at p = v = 0, p times the contribution of
-/// p = 1, and v² times the contribution of v = 1.
+/// The state at a point with the pressure factor p and the speed factor v is the sum of three: the
+/// state at p = v = 0, p times the contribution of p = 1, and v² times the contribution of v = 1.
 class Loads {
  public:
   /// Collective. Computes the three states, each by one solve for its residual. `open` is the
   /// problem in which no sticking node is held, borrowed during the lifetime of the object.
   Loads(const steady::Problem& open, const impedance::Impedance& impedance);
-  /// Returns (R, F) at a point.
+  /// Returns the forces (R, F) of Impedance at a point.
   impedance::ContactVector forces(const sweep::Parameters& at) const;
   /// Collective. Returns the unknowns of the open contact at a point.
   OwnedVec unknowns(const sweep::Parameters& at) const;

@@ -8,21 +8,22 @@
 
 namespace squeal::impedance {
 
-/// The inverse of a symmetric matrix A. Its unknowns are those of a factorised matrix B, without
-/// some that are held at zero, and with some added ones. With W = (coupling, unit vectors of the
-/// held unknowns), the unknowns (x, p) follow from the bordered system
-///   B x + W y = b,   Wᵀ x + D y = (c, 0),   y = (p, forces that hold),
+/// The inverse of a symmetric matrix A. The unknowns of A are those of a factorised matrix B,
+/// except some that are held at zero, plus some added ones. With W = (coupling, unit vectors of the
+/// held unknowns), the unknowns x of B and the added unknowns p follow from the bordered system
+///   B x + W y = b,   Wᵀ x + D y = (c, 0),   y = (p, holding forces),
 /// where D contains the stiffness of the added unknowns.
 class BorderedInverse {
  public:
-  BorderedInverse() = default;  ///< of B itself
-  /// Takes the inverse of B and its diagonal, `coupling`, [unknown of B]×[added unknown], the
-  /// stiffness of the added unknowns, and the indices of the held unknowns in B.
+  BorderedInverse() = default;  ///< the inverse of B itself
+  /// `base` is the inverse of B, `diagonal` the diagonal of B, `coupling` [unknown of B]×[added
+  /// unknown], `added` the stiffness of the added unknowns, and `held` the indices of the held
+  /// unknowns in B.
   BorderedInverse(const SymmetricInverse& base, const std::vector<double>& diagonal,
                   linalg::DenseMatrix coupling, const linalg::DenseMatrix& added,
                   const std::vector<PetscInt>& held);
-  /// Returns true if A is positive definite by a margin that leaves half of the digits, as B must
-  /// be. Otherwise complete() must not be called.
+  /// Returns true if A and B are positive definite by a margin that leaves half of the digits.
+  /// Otherwise complete() must not be called.
   bool isRegular() const { return isRegular_; }
   /// Replaces x = B⁻¹ b by the x of the bordered system, zero for held unknowns, and c by p. Each
   /// has one column per right-hand side.

@@ -12,8 +12,7 @@ namespace squeal::impedance {
 
 /// The free unknowns and the friction of a condensed problem.
 struct ContactConditions {
-  /// [released unknown] 1 if F = 0, as for open gaps and for nodes that are not held; for the
-  /// others w = 0
+  /// [released unknown] 1 if F = 0, as for open gaps and for nodes that are not held; 0 if w = 0
   std::vector<unsigned char> free;
   std::vector<double> coefficient;  ///< [contact node] c
   /// The direct effect of friction magnitudes t on F, released unknowns × contact nodes: the
@@ -25,8 +24,8 @@ struct ContactConditions {
 struct ContactCase {
   ContactConditions conditions;
   ContactVector given;  ///< (R, F)0
-  /// Friction to which the accuracy is relative, N, unless that due to the given forces is larger:
-  /// a correction needs fewer digits than the quantity that it corrects.
+  /// Reference of the accuracy, N, unless the friction due to the given forces is larger. For a
+  /// correction, set it to the friction to be corrected: a correction needs fewer digits.
   double frictionUnit = 0;
 };
 
@@ -62,8 +61,8 @@ class ContactSolver {
   /// other gaps closed; 0 if the gap has never been open.
   double gapStiffness(std::size_t node) const;
 
-  /// An accuracy of the friction equivalent to round-off. It is finer than that of the residual of
-  /// all equations, which refinement reduces if necessary.
+  /// An accuracy of the friction equivalent to round-off. The residual of all equations may be
+  /// larger; refinement reduces it if necessary.
   static constexpr double balanced = 1e-12;
 
  private:

@@ -12,8 +12,8 @@
 
 namespace squeal::impedance {
 
-/// The known columns Z (0, e) of an Impedance, and the blocks of free unknowns in use. The ranks
-/// own the blocks with a stiffness of their own in turn.
+/// The known columns Z (0, e) of an Impedance, and the blocks of free unknowns in use. Blocks with
+/// a stiffness of their own are assigned to the ranks in turn.
 class FreeUnknowns {
  public:
   /// Collective. Borrows the impedance during the lifetime of the object.
@@ -23,21 +23,21 @@ class FreeUnknowns {
   void compute(std::span<const unsigned char> free);
   /// Returns Z (0, e), [n + m]×[known column].
   const linalg::DenseMatrix& columns() const { return columns_; }
-  /// Returns the column of a released unknown of this rank; −1 if it is not known.
+  /// Returns the index of the column of a released unknown of this rank; −1 if it is not known.
   PetscInt placeOf(PetscInt unknown) const;
-  /// Collective. Returns the block of these free unknowns, whose columns must be known; it is then
-  /// the newest. A new one is not ready: makeReady() must follow. `direct` may be null.
+  /// Collective. Returns the block of these free unknowns, whose columns must be known, and makes
+  /// it the newest. A new block is not ready until makeReady() is called. `direct` may be null.
   std::shared_ptr<FreeBlock> blockOf(const std::vector<unsigned char>& free, Mat direct);
-  /// Collective. Computes the inverses of the new ones among these blocks.
+  /// Collective. Computes the inverses of those blocks that are not ready.
   void makeReady(const std::vector<std::shared_ptr<FreeBlock>>& blocks);
   /// Returns the blocks in use, the newest first.
   const std::vector<std::shared_ptr<FreeBlock>>& blocks() const { return blocks_; }
-  /// Collective. Returns the values of the free unknowns, [known column], that make F = 0 there;
-  /// each rank has all of them.
+  /// Collective. Returns the values of the free unknowns, [known column], that make F = 0 in their
+  /// rows; each rank has all of them.
   linalg::DenseMatrix released(const FreeBlock& block, const linalg::DenseView& effects) const;
   /// Collective. Does the same for the columns [first, last) of `effects`, which has one column per
   /// friction magnitude, without direct effects. Its columns must never change once they have been
-  /// used: what blocks with the same base share is computed once.
+  /// used, because blocks with the same base share results.
   linalg::DenseMatrix released(FreeBlock& block, const linalg::DenseView& effects, PetscInt first,
                                PetscInt last) const;
   /// The largest number of bytes on all ranks for inverses, unless a single one needs more.

@@ -5,11 +5,11 @@
 ///
 /// The unknowns x of the model with all contact open consist of y, which remain unknowns if all
 /// contact is closed and held, and of the released unknowns w: the gaps, and the tangential
-/// displacements of sticking nodes.
-/// The slip rows S and the rows N of the normal forces are those of [M.10]. Let t = f R be
-/// the magnitudes of the friction forces and q the loads. The first of the following equations is
-/// the equilibrium in the rows of y. The others give the normal forces R and the forces F in the
-/// rows of w; their constant terms, due to the loads, are omitted:
+/// displacements of nodes of sticking interfaces. The slip rows S and the rows N of the normal
+/// forces are those of [M.10]. Let t = f R be the magnitudes of the friction forces and q the
+/// loads. The first of the following equations is the equilibrium in the rows of y. The others give
+/// the normal forces R and the forces F in the rows of w; their constant terms, due to the loads,
+/// are omitted:
 ///   K0 y + K_yw w + S_yᵀ t = q,   R = N K T (y, w),   F = K_wy y + K_ww w + S_wᵀ t.
 /// One solve with K0 therefore gives the responses (R, F) at the contact to causes (t, w). This map
 /// depends neither on the coefficients of friction nor on which nodes are open or held.
@@ -68,12 +68,12 @@ class Impedance {
   /// Collective. Returns the responses to the unit vectors of these entries of w, which are
   /// numbered over all ranks.
   linalg::DenseMatrix responsesToUnits(const std::vector<PetscInt>& released) const;
-  /// Collective. For each column (t, w) of `causes`, adds w to the entries w of the x with the same
-  /// index, and the y that (t, w) causes to the entries y of this x.
+  /// Collective. Adds to each x the unknowns due to the column (t, w) of `causes` with the same
+  /// index: w itself to the entries w of x, and the response y to the entries y.
   void addUnknowns(const linalg::DenseView& causes, const std::vector<Vec>& x) const;
   /// Collective. Each residual r has the same rows as x, and thus consists of r_y and r_w. Balances
-  /// r_y by adding y = −K0⁻¹ r_y to the x of the same index. Returns one column per residual, with
-  /// N K T_y y in the rows of the contact nodes and r_w + K_wy y in those of w.
+  /// r_y by adding y = −K0⁻¹ r_y to the x with the same index. Returns one column per residual,
+  /// with N K T_y y in the rows of the contact nodes and r_w + K_wy y in those of w.
   linalg::DenseMatrix relax(const std::vector<Vec>& residuals, const std::vector<Vec>& x) const;
   /// Collective. Returns S_wᵀ, released unknowns × contact nodes: the friction that acts
   /// directly in the rows of w, at nodes of sticking interfaces that slide

@@ -7,9 +7,9 @@
 
 namespace squeal::impedance {
 
-/// The inverse of a symmetric matrix that should be positive definite. If it is not positive
-/// definite, the inverse of its positive part is used. Eigenvectors with less than 1e-12 of the
-/// largest eigenvalue are then omitted, such as rigid-body modes of open parts.
+/// The inverse of a symmetric matrix that should be positive definite. If it is not, the inverse of
+/// its positive part is used: eigenvectors whose eigenvalue is at most 1e-12 of the largest one,
+/// such as rigid-body modes of open parts, are omitted.
 class SymmetricInverse {
  public:
   SymmetricInverse() = default;  ///< of order 0

@@ -21,16 +21,16 @@ Accuracy accuracyNear(const Problem& problem, const sweep::Parameters& at, Vec x
 /// rows of gaps g ≤ 0: there it is min(R_N, 0), or 0 at nodes that do not separate.
 double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec x);
 
-/// Collective. Returns SNES VI with bounds g ≥ 0 (prefix -steady_), for forces and gaps in units of
-/// about 1. The caller must set its function, Jacobian and KSP before solveSnes().
+/// Collective. Returns SNES VI (prefix -steady_) with the tolerance `target`, for forces and gaps
+/// scaled to about 1. The caller must set function, Jacobian, bounds and KSP before solveSnes().
 OwnedSNES newSnes(MPI_Comm comm, double target);
 /// Collective. Applies the options and solves from x, which becomes the solution. Sets the reason
 /// and the tolerance of `solution` and adds to its iterations. Returns true if SNES reports
 /// convergence.
 bool solveSnes(SNES snes, Vec x, Solution& solution);
 /// Sets `residual` and `converged` of `solution` from `left`, the 2-norm of its natural residual,
-/// N. Only this residual decides on success, since SNES also stops if steps have no effect. If SNES
-/// has not diverged but the residual is too large, the reason contains the residual and the
+/// N. Only this residual determines success, since SNES also stops if steps have no effect. If SNES
+/// has not diverged but the residual is too large, the reason contains the residual and the largest
 /// accepted value.
 void accept(Solution& solution, double left, const Accuracy& accuracy);
 

@@ -30,8 +30,8 @@ class Reactions {
             const contact::Contact& contact);
   /// Collective. Returns the reactions of a converged solution, the same on all ranks. The last one
   /// is the sum of all external forces: supports, equations, springs and bushings to the ground,
-  /// obstacles and loads. The sum includes the moments of internal forces whose points of action
-  /// are apart: those of periodicity, and of interfaces whose surfaces do not coincide.
+  /// obstacles and loads. The sum includes the moments of pairs of internal forces that act at
+  /// different points: those of periodicity, and of interfaces whose surfaces do not coincide.
   std::vector<Reaction> of(const Solution& solution) const;
 
  private:

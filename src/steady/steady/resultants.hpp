@@ -9,9 +9,9 @@
 namespace squeal::steady {
 
 /// Collective. Returns the tangential forces on the pads at the contact nodes, [contact node], N:
-/// friction by the law, and the reactions on sticking nodes. The reactions balance the nodal forces
-/// r (N entries, in newtons) and the friction in those tangential rows of Aᵀ that have no unknown
-/// in T. `slip` includes the slip of released nodes.
+/// friction by the law, and the reactions on sticking nodes. In the tangential rows of Aᵀ without
+/// an unknown in T, the reactions balance the nodal forces r (`nodalForces`, N entries, in newtons)
+/// and the friction. `slip` includes the slip of released nodes.
 std::vector<Point> tangentialForces(const contact::Contact& contact, const Solution& solution,
                                     const std::vector<contact::Slip>& slip, Vec nodalForces);
 

@@ -55,8 +55,8 @@ struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< why SNES, PETSc's nonlinear solver, stopped, or why no solution exists
-  /// The parameters at which a path of solutions, followed from another point of the sweep, ends
-  /// before it reaches this point. Set only if no solution exists here.
+  /// The parameters at which a path of solutions, followed from other parameters, ends before it
+  /// reaches this point. Set only if no solution was found here.
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES
   int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
@@ -92,8 +92,7 @@ contact::ActiveSet activeSet(const Solution& solution);
 /// The matrix T maps the unknowns x to displacements, and N extracts normal forces from nodal
 /// forces. S contains the coefficients of friction: it is the f S of contact.hpp. The factors v and
 /// p scale speed and pressure. The loads are b_p, which scale with p, the constant loads b_0 and
-/// the centrifugal forces b_c. u_g closes the initial gaps [M.54] and
-/// shortens tightened bolts.
+/// the centrifugal forces b_c. u_g closes the initial gaps [M.54] and shortens tightened bolts.
 ///
 /// Convective terms arise because moving matter carries its displacement along. Without them
 /// (-motion_convective off, approximation A of Moirot and Nguyen) the problem is linear except for

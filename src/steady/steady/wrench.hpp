@@ -31,7 +31,7 @@ struct Wrench {
     moment = mesh::plus(moment, dimension == 3 ? value : Point{0, 0, value[0]}, factor);
   }
   /// Adds the force given by the components of an owned node. If this node is the rotation of a
-  /// reference node, it is a moment.
+  /// reference node, the components are a moment.
   void addNode(const mesh::Mesh& mesh, PetscInt node, const Point& value, double factor = 1) {
     if (mesh.isRotation(mesh.firstNode + node))
       addMoment(value, mesh.dimension, factor);

@@ -23,8 +23,8 @@ struct Uniqueness {
 /// Collective. Examines the problem at the speed factor v, with K + v² K^R and the slip of
 /// w = −v V, at all `frictions`. A is formed for up to -steady_uniqueness_dense contact nodes. With
 /// more nodes, SLEPc finds `lostAt` by solves with the stiffness of the open and of the closed
-/// contact, and the eigenvalues of sym(A) remain unknown. If A does not exist or the tests do not
-/// decide, the verdict is "not decided", with the reason. Throws Error for an unknown
+/// contact, and the eigenvalues of sym(A) remain unknown. If A does not exist or the tests are
+/// inconclusive, the verdict is "not decided", with the reason. Throws Error for an unknown
 /// -steady_uniqueness_* option, and if LAPACK fails.
 Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& contact, double speed,
                    const std::vector<double>& frictions, const Settings& settings);
