@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """The proof that lists of eigenvalues are complete: test_proof.py PROGRAM MPIEXEC."""
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -39,6 +40,15 @@ BRAKE = [
     "-flutter_track",
     "off",
     "-flutter_proof",
+]
+DAMPED = [
+    "-flutter_friction",
+    "0.6",
+    "-flutter_friction_damping",
+    "-material_disc_rayleigh_stiffness",
+    "1e-7",
+    "-material_lining_rayleigh_mass",
+    "20",
 ]
 BLOCK = [*pressed_block("nx=8,ny=8", modes=20, frictions="0:0.5:0.1"), "-flutter_proof"]
 
@@ -124,12 +134,70 @@ class Proof(unittest.TestCase):
         row = pd.read_csv(folder / "proof.csv").iloc[0]
         self.assertEqual((row.complete, row.count_proved), (0, 0))
 
+    def test_damped(self):
+        """Damped materials and friction damping, against all eigenvalues by LAPACK."""
+        matrices = self.place / "damped_matrices"
+        export = ["-report_matrices", matrices, "-report_matrices_format", "matrix_market"]
+        folder, _ = self.run_program("damped", [*BRAKE, *DAMPED, *export], 2)
+        sums = {}
+        for file in matrices.glob("*.mtx"):
+            role = file.stem.split("_")[0]
+            power = re.search(r"_friction(\d)", file.stem)
+            factor = 0.6 ** int(power[1]) if power else 1
+            sums[role] = sums.get(role, 0) + factor * scipy.io.mmread(file).toarray()
+        k, c, m = sums["stiffness"], sums["damping"], sums["mass"]
+        self.assertGreater(np.linalg.norm(c - c.T), 0)
+        # z = 1/s: K x + z⁻¹ C x + z⁻² M x = 0, so that massless unknowns give z = 0
+        n = len(k)
+        companion = np.block([[-np.linalg.solve(k, c), -np.linalg.solve(k, m)], [np.eye(n), 0 * k]])
+        z = scipy.linalg.eigvals(companion)
+        s = 1 / z[np.abs(z) > 1e-8 * np.abs(z).max()]
+        proof = pd.read_csv(folder / "proof.csv").iloc[0]
+        self.assertEqual(proof.complete, 1)
+        self.assertGreater(proof.left_1_per_s, 0)
+        inside = (np.abs(s) < 2 * np.pi * proof.top_hz) & (s.real > -proof.left_1_per_s)
+        self.assertEqual(proof.eigenvalues, inside.sum() // 2)
+        listed = pd.read_csv(folder / "eigenvalues.csv")
+        self.assertGreater(listed.unstable.sum(), 0)
+        judged = listed[listed.growth_rate_1_per_s > -proof.left_1_per_s]
+        self.assertGreater(len(judged), 20)
+        self.assertTrue(np.isfinite(judged.radius_1_per_s).all())
+        for row in judged.itertuples():
+            centre = complex(row.growth_rate_1_per_s, row.angular_frequency_rad_per_s)
+            # LAPACK's errors are 1e-10 of the largest |s| that counts here.
+            near = np.abs(s - centre) <= row.radius_1_per_s + 1e-5
+            self.assertEqual(near.sum(), 1)
+
+    def test_damped_ranks(self):
+        """The same verdicts and counts on any number of ranks."""
+        tables = []
+        for ranks in (1, 3):
+            words = [*BRAKE, *DAMPED, "-flutter_friction", "0.3,0.6"]
+            folder, output = self.run_program(f"damped{ranks}", words, ranks)
+            self.assertIn("Proof: the list is complete at 2 of 2 points", output)
+            self.assertIn(" and Re s > -", output)
+            tables.append(pd.read_csv(folder / "proof.csv"))
+        # The region ends in gaps between eigenvalues that are not listed, to 1e-3.
+        self.assertEqual(tables[0].eigenvalues.tolist(), tables[1].eigenvalues.tolist())
+        np.testing.assert_allclose(tables[1].top_hz, tables[0].top_hz, rtol=1e-3)
+        np.testing.assert_allclose(tables[1].left_1_per_s, tables[0].left_1_per_s, rtol=1e-3)
+
+    def test_damped_opening_contact(self):
+        """Each active set has unknowns of its own."""
+        for ranks in (1, 2):
+            words = [*BLOCK, "-material_layer_rayleigh_stiffness", "1e-8"]
+            folder, _ = self.run_program(f"damped_block{ranks}", words, ranks)
+            summary = json.loads((folder / "summary.json").read_text())
+            self.assertGreater(len(summary["active_sets"]), 1)
+            proof = pd.read_csv(folder / "proof.csv")
+            self.assertTrue((proof.complete == 1).all())
+            self.assertTrue((proof.left_1_per_s > 0).all())
+
     def test_reasons(self):
         """What is not covered is named."""
         words = [*BRAKE, "-flutter_friction", "0.6"]
         for name, more, reason in (
-            ("damped", ["-flutter_friction_damping"], "depends on the steady state"),
-            ("material", ["-material_disc_rayleigh_stiffness", "1e-7"], "has damping"),
+            ("modes_damped", ["-flutter_modal_damping", "0.01"], "modal damping is not a sparse"),
             ("modal", ["-flutter_basis", "modal"], "only with -flutter_basis corrected"),
             ("uncounted", ["-modes_sturm", "off"], "free modes is not confirmed"),
         ):

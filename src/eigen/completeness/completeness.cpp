@@ -11,11 +11,12 @@
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/stream.hpp"
-#include "base/system/text.hpp"
+#include "eigen/completeness/list_judgement.hpp"
 #include "eigen/completeness/point_bounds.hpp"
 #include "eigen/pencil/serialization.hpp"
 #include "eigen/proof/count.hpp"
 #include "eigen/proof/enclosure.hpp"
+#include "eigen/proof/reason.hpp"
 #include "eigen/reduction/free_modes.hpp"
 
 namespace squeal::completeness {
@@ -61,7 +62,7 @@ linalg::Block columnsOf(Mat rows) {
 
 /// Collective. Returns FᵀK0⁻¹F of the interior rows of F.
 DenseMatrix flexibility(reduction::ReducedProblem& reduced, const linalg::Block& forces) {
-  return linalg::transposedProduct(reduced.basis().comm(), reduced.responses(forces), forces);
+  return linalg::symmetricProduct(reduced.basis().comm(), reduced.responses(forces), forces);
 }
 
 /// Collective. Returns Vᵀ M K0⁻¹ M V with K0⁻¹ of the interior. The modes d need no solves, as K0⁻¹
@@ -135,59 +136,9 @@ double errorOfModes(reduction::ReducedProblem& reduced, const modes::Modes& mode
   return 2 * std::sqrt(sum / combinations);
 }
 
-/// Returns why the list of a point cannot be proved; empty if it can.
-std::string obstacle(const reduction::PointProblem& problem) {
-  const auto& terms = problem.pencil.terms();
-  for (std::size_t t = 0; t < terms.size(); ++t) {
-    const auto& term = terms[t];
-    if (term.coefficient(problem.at) == 0 || term.isAssociated()) continue;
-    if (t >= problem.pencil.affineCount())
-      return "the friction depends on the steady state, as friction damping does";
-    if (term.power == 1) return "the problem has damping or gyroscopic terms";
-    if (term.speedExponent != 0 || !term.containsFriction())
-      return "the problem has terms that depend on the speed";
-  }
-  return {};
-}
-
-/// Returns the reason of a verdict, with the remedy.
-std::string reasonOf(const proof::CountProof& count) {
-  const double hertz = std::abs(count.place) / (2 * M_PI);
-  switch (count.verdict) {
-    case proof::Verdict::proved:
-      return {};
-    case proof::Verdict::indefinite:
-      return "too few free modes above the band; a larger -modes_count helps";
-    case proof::Verdict::irregular:
-      return "the reduced problem is singular at the top of the band";
-    case proof::Verdict::edge:
-      return formatted("an eigenvalue lies on the boundary at %.6g Hz; another -flutter_band helps",
-                       hertz);
-    case proof::Verdict::ratio:
-      return formatted("ratio %.3g at %.6g Hz; a larger -modes_count helps", count.ratio, hertz);
-    case proof::Verdict::tooManyDiscs:
-      return formatted("ratio %.3g; the boundary needs more than -flutter_proof_discs",
-                       count.ratio);
-  }
-  return {};
-}
-
-/// Sets what a list lacks, and the radii of its entries.
-void judgeList(const std::vector<proof::Enclosure>& discs, const proof::Region& region,
-               pencil::ComplexModes& point) {
-  std::vector<Complex> list;
-  for (const auto& e : point.eigenvalues) list.push_back(e.s);
-  const auto judged = proof::judge(list, discs, region, point.tolerance * region.top);
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (judged.entries[i].radius > 0) point.eigenvalues[i].radius = judged.entries[i].radius;
-  for (const auto& disc : judged.missing)
-    if (std::abs(disc.s) + disc.inner < point.bandTop)
-      point.completeness->missing.push_back({disc.s, disc.inner});
-}
-
 /// Proves the list of a point, if the bounds suffice.
 void proveList(const SetBounds& set, PointMatrices matrices, const Settings& settings,
-               pencil::ComplexModes& point) {
+               const pencil::WatchedBand& band, pencil::ComplexModes& point) {
   auto& found = *point.completeness;
   const double wanted = (1 + above / 2) * point.bandTop;
   const auto bounds = pointBounds(set, std::move(matrices));
@@ -195,14 +146,17 @@ void proveList(const SetBounds& set, PointMatrices matrices, const Settings& set
   const proof::Region region{proof::placedTop(form.eigenvalues(), wanted, above / (2 + above))};
   const auto count = proof::proveCount(form, bounds.leftOut, region, settings.discs);
   found.proved = count.verdict == proof::Verdict::proved;
-  found.count = static_cast<int>(count.count / 2);
+  found.count = static_cast<int>(count.count);
   found.top = region.top;
   found.definiteness = count.definiteness;
   found.ratio = count.ratio;
   found.place = count.place;
   found.discs = static_cast<int>(count.discs);
-  found.reason = reasonOf(count);
-  judgeList(proof::enclose(form, bounds.leftOut, region, count), region, point);
+  found.reason = proof::reason(count, {.modes = "-modes_count",
+                                       .top = "-flutter_band",
+                                       .left = "",
+                                       .discs = "-flutter_proof_discs"});
+  judgeList(proof::enclose(form, bounds.leftOut, region, count), region, band, point);
 }
 
 /// The factors of friction with the vectors of the basis.
@@ -292,25 +246,14 @@ void proveSet(reduction::ReducedProblem& reduced, const FrictionFactors& factors
   for (const auto& problem : set.problems) problems.push_back(reduced.project(problem));
   linalg::onOwners(reduced.basis().comm(), set.points.size(), [&](std::size_t i) {
     auto& point = *set.points[i];
-    if (!point.completeness->reason.empty()) return;
     PointMatrices matrices{std::move(problems[i]), {}, 0};
     for (std::size_t a = 0; a < projection.slip.size(); ++a) {
       const double factor = std::pow(point.at.friction, factors.slip[a].frictionExponent);
       linalg::addScaled(matrices.slip, factor, projection.slip[a]);
       matrices.slipError += factor * projection.slipErrors[a];
     }
-    proveList(bounds, std::move(matrices), settings, point);
+    proveList(bounds, std::move(matrices), settings, reduced.band(), point);
   });
-}
-
-/// Collective. Copies what a rank has found about its points to all ranks.
-void share(MPI_Comm comm, const std::vector<pencil::ComplexModes*>& points) {
-  const int ranks = mpi::size(comm);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const int owner = static_cast<int>(i % ranks);
-    broadcast(comm, *points[i]->completeness, owner);
-    mpi::broadcast(comm, points[i]->eigenvalues, owner);
-  }
 }
 
 /// Collective. Returns θ below which all modes are known, if that is confirmed.
@@ -327,20 +270,39 @@ std::optional<double> completeTo(const factor::AssociatedSystem& system, const m
 
 }  // namespace
 
+bool covers(const reduction::PointProblem& problem, const FrictionFactors& factors) {
+  const auto& terms = problem.pencil.terms();
+  if (!factors.missing.empty()) return false;
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const auto& term = terms[t];
+    if (term.coefficient(problem.at) == 0 || term.isAssociated()) continue;
+    if (t >= problem.pencil.affineCount() || term.power == 1 || term.speedExponent != 0 ||
+        !term.containsFriction())
+      return false;
+  }
+  return true;
+}
+
+void share(MPI_Comm comm, const std::vector<pencil::ComplexModes*>& points) {
+  const int ranks = mpi::size(comm);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int owner = static_cast<int>(i % ranks);
+    broadcast(comm, *points[i]->completeness, owner);
+    mpi::broadcast(comm, points[i]->eigenvalues, owner);
+  }
+}
+
 void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
            const modes::Modes& modes, const FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings) {
+  if (sets.empty()) return;
   const auto theta = completeTo(system, modes, reduced.band().top);
-  bool any = false;
   for (const auto& set : sets)
-    for (std::size_t i = 0; i < set.points.size(); ++i) {
-      auto& found = set.points[i]->completeness.emplace();
-      found.reason = !factors.missing.empty() ? factors.missing
-                     : !theta                 ? "the number of free modes is not confirmed"
-                                              : obstacle(set.problems[i]);
-      any = any || found.reason.empty();
+    for (auto* point : set.points) {
+      point->completeness.emplace();
+      if (!theta) point->completeness->reason = "the number of free modes is not confirmed";
     }
-  if (!any) return;
+  if (!theta) return;
   const auto associated = reduction::associatedTerms(sets.front().problems.front().pencil);
   const KnownModes known{reduced.basis().boundarySize(), PetscInt(std::ssize(modes.lambda)), *theta,
                          errorOfModes(reduced, modes, associated)};

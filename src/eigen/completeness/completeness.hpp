@@ -18,14 +18,22 @@ struct ProvedSet {
   std::vector<pencil::ComplexModes*> points;      ///< [problem] its solution, borrowed
 };
 
+/// Returns true if prove() covers the problem of a point: apart from the terms of K0 and M0, it has
+/// only friction terms that are the same at all points, and no terms in s.
+bool covers(const reduction::PointProblem& problem, const FrictionFactors& factors);
+
 /// Collective. Extends the basis by K0⁻¹ Sᵀ, the static responses to forces along the slip rows S
-/// of `factors`. Sets ComplexModes::completeness of each point and Eigenvalue::radius of each
-/// eigenvalue for which a disc is proved. `modes` are the free modes of `system`, which has only
-/// the interior unknowns (subspace::Substructure). The proof needs the number of these modes up to
-/// well above the band. If their number is confirmed only up to slightly above the band, they are
-/// counted again at a higher frequency.
+/// of `factors`. All problems must be covered. Sets ComplexModes::completeness of each point and
+/// Eigenvalue::radius of each eigenvalue for which a disc is proved. `modes` are the free modes of
+/// `system`, which has only the interior unknowns (subspace::Substructure). The proof needs the
+/// number of these modes up to well above the band. If their number is confirmed only up to
+/// slightly above the band, they are counted again at a higher frequency.
 void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
            const modes::Modes& modes, const FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings);
+
+/// Collective. Copies to all ranks what the owners (linalg::onOwners()) have found about these
+/// points: ComplexModes::completeness and the eigenvalues.
+void share(MPI_Comm comm, const std::vector<pencil::ComplexModes*>& points);
 
 }  // namespace squeal::completeness

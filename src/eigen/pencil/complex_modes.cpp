@@ -49,13 +49,14 @@ int ComplexModes::modesWithoutEigenvalue() const {
 }
 
 int ComplexModes::withoutDisc() const {
-  return static_cast<int>(
-      std::ranges::count_if(eigenvalues, [](const auto& e) { return std::isnan(e.radius); }));
+  const double left = completeness ? completeness->left : INFINITY;
+  return static_cast<int>(std::ranges::count_if(
+      eigenvalues, [=](const auto& e) { return std::isnan(e.radius) && e.s.real() > -left; }));
 }
 
 bool ComplexModes::listIsProved() const {
   return completeness && completeness->proved && completeness->missing.empty() &&
-         withoutDisc() == 0;
+         completeness->spurious.empty() && completeness->undecided.empty() && withoutDisc() == 0;
 }
 
 int ComplexModes::unstableCount() const {

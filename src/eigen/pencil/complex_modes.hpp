@@ -168,15 +168,20 @@ struct MissingEigenvalue {
 /// The result of the proof for the list of a point (docs/method.md, section 13).
 struct Completeness {
   bool proved = false;  ///< the number of eigenvalues of the full problem with |s| < top is proved
-  /// Half the number of these eigenvalues, with multiplicities: a conjugate pair counts once.
-  int count = 0;
-  double top = 0;           ///< radius of the region of the proof, rad/s
+  int count = 0;        ///< number of these eigenvalues, with multiplicities and conjugates
+  double top = 0;       ///< radius of the region of the proof, rad/s
+  /// If this is finite, the region ends on the left at Re s = −left, 1/s.
+  double left = std::numeric_limits<double>::infinity();
   double definiteness = 0;  ///< δ of section 13
   double ratio = 0;         ///< largest φ found on the boundary of the region; below 1 if proved
   Complex place = 0;        ///< where `ratio` is reached, or where the proof fails, 1/s
   int discs = 0;            ///< number of discs that cover the upper half of the boundary
   std::string reason;       ///< why the count is not proved; empty if it is
   std::vector<MissingEigenvalue> missing;  ///< eigenvalues that the list should contain
+  std::vector<Complex> spurious;  ///< listed values that are proved not to be eigenvalues, 1/s
+  /// Eigenvalues of the reduced problem that the list does not contain, 1/s, without a proof that
+  /// the eigenvalues of the full problem there lie outside the band.
+  std::vector<Complex> undecided;
 };
 
 /// The results of one point of the sweep.
@@ -202,7 +207,8 @@ struct ComplexModes {
   /// eigenvalues, but at least 0; otherwise returns 0. The missing eigenvalues are damped too
   /// strongly to be listed, or lie beyond the top.
   int modesWithoutEigenvalue() const;
-  /// Returns the number of listed eigenvalues without a proved disc (Eigenvalue::radius).
+  /// Returns the number of listed eigenvalues in the region of the proof without a proved disc
+  /// (Eigenvalue::radius).
   int withoutDisc() const;
   /// Returns true if the full problem is proved to have exactly the listed eigenvalues in the band,
   /// each in its own proved disc.

@@ -39,8 +39,10 @@ void fields(Stream& stream, CriticalMode& found) {
 }
 
 void fields(Stream& stream, Completeness& found) {
-  auto& [proved, count, top, definiteness, ratio, place, discs, reason, missing] = found;
-  stream(proved, count, top, definiteness, ratio, place, discs, reason, missing);
+  auto& [proved, count, top, left, definiteness, ratio, place, discs, reason, missing, spurious,
+         undecided] = found;
+  stream(proved, count, top, left, definiteness, ratio, place, discs, reason, missing, spurious,
+         undecided);
 }
 
 void serialise(checkpoint::Archive& archive, ComplexModes& point) {

@@ -194,6 +194,7 @@ JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& en
     agreement = inside ? Agreement::wrong : Agreement::outside;
     if (!disc) continue;
     if (disc->isolation != Isolation::single) {
+      closest.try_emplace(disc, i);
       if (inside) agreement = Agreement::unproved;
       continue;
     }
@@ -204,12 +205,12 @@ JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& en
     const auto [other, first] = closest.try_emplace(disc, i);
     if (first) continue;
     const bool closer = apart < std::abs(list[other->second] - disc->s);
-    judged.entries[closer ? other->second : i].agreement = Agreement::repeated;
+    judged.entries[closer ? other->second : i] = {Agreement::repeated, 0};
     if (closer) other->second = i;
   }
   for (const auto& disc : enclosures)
-    if (upper(disc) && disc.isolation == Isolation::single && !closest.contains(&disc))
-      judged.missing.push_back(disc);
+    if (upper(disc) && !closest.contains(&disc))
+      (disc.isolation == Isolation::single ? judged.missing : judged.unresolved).push_back(disc);
   return judged;
 }
 

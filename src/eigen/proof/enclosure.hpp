@@ -53,6 +53,8 @@ struct JudgedEntry {
 struct JudgedList {
   std::vector<JudgedEntry> entries;
   std::vector<Enclosure> missing;  ///< single enclosures without an entry
+  /// Enclosures that are not single and not the nearest ones of any entry.
+  std::vector<Enclosure> unresolved;
 };
 
 /// Not collective. Judges a list of eigenvalues with Im s ≥ 0 by the enclosures of the region. The

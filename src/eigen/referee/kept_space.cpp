@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "algebra/linalg/spread.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/error.hpp"
 #include "eigen/reduction/responses.hpp"
@@ -22,7 +24,7 @@ double squaredNorm(const linalg::DenseMatrix& a, PetscInt firstRow, PetscInt las
 }  // namespace
 
 KeptSpace::KeptSpace(const SplitProblem& problem, const ShiftedSystem& shifted,
-                     const modes::Modes& modes)
+                     const modes::Modes& modes, const linalg::DenseView& more)
     : problem_(problem),
       shifted_(shifted),
       basis_(modes, shifted.system),
@@ -39,6 +41,11 @@ KeptSpace::KeptSpace(const SplitProblem& problem, const ShiftedSystem& shifted,
     frequencies.push_back(std::sqrt(std::abs(lambda - shifted.shift)));
   if (!others.terms().empty() && !isWhole())
     basis_.add(reduction::forcesOnModes(basis_, others, {}, frequencies, resolution));
+  if (more.columns() > 0 && !isWhole()) {
+    linalg::Block forces(basis_.localRows());
+    linalg::appendProduct(shifted.system.k0(), more, forces);
+    basis_.add(std::move(forces));
+  }
   measure();
 }
 
@@ -78,8 +85,28 @@ linalg::DenseMatrix KeptSpace::sum(int power) const {
 }
 
 std::vector<linalg::DensePair> KeptSpace::pairs(const linalg::EigenvalueFilter& wanted) const {
-  return linalg::solveQuadratic({.mass = sum(2), .damping = sum(1), .stiffness = sum(0)},
-                                linalg::Vectors::both, wanted);
+  // On one rank: round-off must not make the ranks disagree on the pairs.
+  return std::move(
+      linalg::spread(shifted_.system.comm(), 1, linalg::Vectors::both, [&](std::size_t) {
+        return linalg::solveQuadratic({.mass = sum(2), .damping = sum(1), .stiffness = sum(0)},
+                                      linalg::Vectors::both, wanted);
+      }).front());
+}
+
+/// Collective. Appends the residuals `parts`, real and imaginary parts by turns, that are large
+/// enough to matter.
+void KeptSpace::appendLarge(const linalg::Block& parts, linalg::Block& residuals) const {
+  constexpr double accurate = 1e-3;  // of the largest residual: the pair needs no correction
+  constexpr double roundOff = 1e-6;  // of the other part: the imaginary part of a real vector
+  std::vector<double> squares;
+  for (PetscInt j = 0; j < parts.columns(); ++j)
+    squares.push_back(linalg::squaredLength(parts.column(j)));
+  mpi::sumAlike(shifted_.system.comm(), squares);
+  const double largest = squares.empty() ? 0 : *std::ranges::max_element(squares);
+  for (PetscInt j = 0; j < parts.columns(); ++j)
+    if (squares[j] > accurate * accurate * largest &&
+        squares[j] > roundOff * roundOff * squares[j ^ 1])
+      residuals.append(parts.column(j));
 }
 
 void KeptSpace::correct(const std::vector<linalg::DensePair>& pairs) {
@@ -104,15 +131,7 @@ void KeptSpace::correct(const std::vector<linalg::DensePair>& pairs) {
       addProducts(part.products, part.power, part.skew && left ? -1 : 1);
       if (part.power == 2 && !part.skew) addProducts(part.products, 0, -shifted_.shift);
     }
-    // Residuals are orthogonal to V except for round-off, which the imaginary parts of real vectors
-    // consist of.
-    const MPI_Comm comm = shifted_.system.comm();
-    for (PetscInt j = 0; j < count; ++j) {
-      const double real = linalg::length(comm, sides.column(2 * j)),
-                   imaginary = linalg::length(comm, sides.column(2 * j + 1));
-      if (real > 1e-6 * imaginary) all.append(sides.column(2 * j));
-      if (imaginary > 1e-6 * real) all.append(sides.column(2 * j + 1));
-    }
+    appendLarge(sides, all);
   }
   basis_.add(linalg::unitColumns(shifted_.system.comm(), all));
   measure();
@@ -120,55 +139,83 @@ void KeptSpace::correct(const std::vector<linalg::DensePair>& pairs) {
 
 /// Returns the Gram matrix of the coefficients of s⁰, s¹ and s² that the problem has, from that of
 /// the parts: C_k = Σ ± A.
-linalg::DenseMatrix KeptSpace::couplingGram(const linalg::DenseMatrix& gram,
-                                            bool transposed) const {
-  const PetscInt n = size(), count = std::ssize(parts_);
-  const bool damped = problem_.damped();
-  linalg::DenseMatrix combination(count * n, (damped ? 3 : 2) * n);
-  for (PetscInt p = 0; p < count; ++p) {
-    const auto& part = parts_[p];
-    const PetscInt place = part.power == 2 && !damped ? 1 : part.power;
-    const double sign = transposed && part.skew ? -1 : 1;
-    for (PetscInt i = 0; i < n; ++i) {
-      combination(p * n + i, place * n + i) += sign;
-      if (part.power == 2 && !part.skew) combination(p * n + i, i) -= shifted_.shift;
-    }
-  }
-  return linalg::symmetricPart(linalg::congruent(gram, combination));
+linalg::DenseMatrix ProjectedProblem::couplingGram(bool transposed) const {
+  const PetscInt n = matrices[0].rows(), count = std::ssize(parts);
+  // The blocks to which a part contributes, with its factors.
+  const auto places = [&](const Part& part) {
+    const PetscInt own = part.power == 2 && !damped ? 1 : part.power;
+    std::vector<std::pair<PetscInt, double>> result{{own, transposed && part.skew ? -1 : 1}};
+    if (part.power == 2 && !part.skew && shift != 0) result.emplace_back(0, -shift);
+    return result;
+  };
+  const PetscInt size = (damped ? 3 : 2) * n;
+  linalg::DenseMatrix result(size, size);
+  for (PetscInt q = 0; q < count; ++q)
+    for (const auto& [column, right] : places(parts[q]))
+      for (PetscInt p = 0; p < count; ++p)
+        for (const auto& [row, left] : places(parts[p]))
+          for (PetscInt j = 0; j < n; ++j)
+            for (PetscInt i = 0; i < n; ++i)
+              result(row * n + i, column * n + j) += left * right * gram(p * n + i, q * n + j);
+  return linalg::symmetricPart(result);
 }
 
-proof::KeptProblem KeptSpace::problem(double top) {
+proof::KeptProblem ProjectedProblem::kept(double top) const {
+  proof::KeptProblem kept;
+  kept.matrices = matrices;
+  if (gram.empty()) return kept;
+  const std::vector<int> powers = damped ? std::vector{0, 1, 2} : std::vector{0, 2};
+  kept.toLeftOut = {proof::couplingFromGram(couplingGram(false), powers, top)};
+  kept.fromLeftOut = {proof::transposed(proof::couplingFromGram(couplingGram(true), powers, top))};
+  return kept;
+}
+
+ProjectedProblem KeptSpace::problem() {
   const MPI_Comm comm = shifted_.system.comm();
   const PetscInt n = size();
-  proof::KeptProblem kept;
-  kept.matrices = {sum(0), sum(1), sum(2)};
+  ProjectedProblem result;
+  result.matrices = {sum(0), sum(1), sum(2)};
+  result.shift = shifted_.shift;
+  result.damped = problem_.damped();
+  for (const auto& part : parts_) result.parts.push_back({part.power, part.skew});
   leak_ = 0;
-  if (isWhole()) return kept;
+  if (isWhole()) return result;
   linalg::Block outside(v_.rows());  // A V less its part in K0 V
-  for (const auto& part : parts_) {
-    linalg::Block rest = part.products;
+  for (auto& part : parts_) {
+    linalg::Block rest = std::exchange(part.products, linalg::Block());
     // Twice: the first time leaves the round-off of a product that is nearly in V.
     linalg::multiplyAdd(forces_, part.onV, rest, -1);
     linalg::multiplyAdd(forces_, linalg::transposedProduct(comm, v_, rest), rest, -1);
     outside.append(rest);
   }
-  const linalg::Block responses = basis_.responses(outside);
-  const linalg::DenseMatrix gram =
-      linalg::symmetricPart(linalg::transposedProduct(comm, responses, outside));
+  result.gram = flexibility(outside);
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     if (parts_[p].power != 2 || parts_[p].skew) continue;
     double sum = squaredNorm(parts_[p].onV, modes_, n, modes_);
     for (PetscInt j = 0; j < modes_; ++j) {
       const PetscInt place = static_cast<PetscInt>(p) * n + j;
-      sum += std::max(gram(place, place), 0.0);
+      sum += std::max(result.gram(place, place), 0.0);
     }
     leak_ = std::sqrt(sum);
   }
-  const std::vector<int> powers = problem_.damped() ? std::vector{0, 1, 2} : std::vector{0, 2};
-  kept.toLeftOut = {proof::couplingFromGram(couplingGram(gram, false), powers, top)};
-  kept.fromLeftOut = {
-      proof::transposed(proof::couplingFromGram(couplingGram(gram, true), powers, top))};
-  return kept;
+  return result;
+}
+
+/// Collective. Returns FᵀK0⁻¹F, of which it computes one half.
+linalg::DenseMatrix KeptSpace::flexibility(const linalg::Block& forces) {
+  constexpr PetscInt atOnce = 256;  // limits the memory
+  const PetscInt size = forces.columns();
+  linalg::DenseMatrix result(size, size);
+  for (PetscInt first = 0; first < size; first += atOnce) {
+    const PetscInt last = std::min(first + atOnce, size);
+    const linalg::Block responses =
+        basis_.responses(linalg::Block(forces.columnRange(first, last)));
+    const linalg::DenseMatrix part =
+        linalg::transposedProduct(shifted_.system.comm(), forces.columnRange(0, last), responses);
+    for (PetscInt j = first; j < last; ++j)
+      for (PetscInt i = 0; i <= j; ++i) result(i, j) = result(j, i) = part(i, j - first);
+  }
+  return result;
 }
 
 proof::LeftOut KeptSpace::leftOut(PetscInt count, double last, double below) const {

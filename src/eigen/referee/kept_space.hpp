@@ -10,24 +10,48 @@
 
 namespace squeal::referee {
 
+/// The problem on V and the products of its couplings, the same on all ranks.
+struct ProjectedProblem {
+  /// A symmetric or antisymmetric matrix of the problem.
+  struct Part {
+    int power;  ///< of s
+    bool skew;
+  };
+  proof::Coefficients matrices;  ///< of P_VV
+  std::vector<Part> parts;
+  /// A_CVᵀ A'_CV of all parts A and A', parts · N × parts · N; empty if V is the whole space.
+  linalg::DenseMatrix gram;
+  double shift = 0;  ///< σ, rad²/s²
+  bool damped = false;
+
+  /// Not collective. Returns the problem with its couplings for regions up to `top`, rad/s.
+  proof::KeptProblem kept(double top) const;
+
+ private:
+  linalg::DenseMatrix couplingGram(bool transposed) const;
+};
+
 /// Borrows the arguments of the constructor except the modes. All functions with arguments are
 /// collective.
 class KeptSpace {
  public:
-  /// Starts with the modes and the static responses to the forces that the terms
-  /// SplitProblem::perturbations() exert on them.
-  KeptSpace(const SplitProblem& problem, const ShiftedSystem& shifted, const modes::Modes& modes);
+  /// Starts with the modes, the static responses to the forces that the terms
+  /// SplitProblem::perturbations() exert on them, and `more`, columns with this rank's rows.
+  KeptSpace(const SplitProblem& problem, const ShiftedSystem& shifted, const modes::Modes& modes,
+            const linalg::DenseView& more);
   PetscInt size() const { return basis_.size(); }
   bool isWhole() const { return basis_.size() == shifted_.system.size(); }
   long solves() const { return basis_.solves(); }
 
   /// Returns the eigenpairs of the problem on V with the wanted eigenvalues.
   std::vector<linalg::DensePair> pairs(const linalg::EigenvalueFilter& wanted) const;
-  /// Adds the corrections of these pairs: K0⁻¹ P(s) x and K0⁻¹ P(s)ᴴ y.
+  /// Adds the corrections K0⁻¹ P(s) x and K0⁻¹ P(s)ᴴ y of these pairs, except those that are much
+  /// smaller than others.
   void correct(const std::vector<linalg::DensePair>& pairs);
 
-  /// Returns the problem on V and its couplings to C, for regions up to `top`, rad/s.
-  proof::KeptProblem problem(double top);
+  /// Returns the problem on V and its couplings to C. Releases the products, so that pairs() and
+  /// correct() must not be called afterwards.
+  ProjectedProblem problem();
   /// Returns the bounds on C; call it after problem(). The pencil (K0, M) has `count` eigenvalues
   /// below θ = `below`: those of the first `count` modes. The largest of them is `last`.
   proof::LeftOut leftOut(PetscInt count, double last, double below) const;
@@ -42,8 +66,9 @@ class KeptSpace {
     linalg::DenseMatrix onV;  // Vᵀ A V
   };
   void measure();
+  linalg::DenseMatrix flexibility(const linalg::Block& forces);
+  void appendLarge(const linalg::Block& parts, linalg::Block& residuals) const;
   linalg::DenseMatrix sum(int power) const;
-  linalg::DenseMatrix couplingGram(const linalg::DenseMatrix& gram, bool transposed) const;
 
   const SplitProblem& problem_;
   const ShiftedSystem& shifted_;

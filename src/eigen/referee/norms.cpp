@@ -50,15 +50,16 @@ bool isBoundedSkew(Mat skew, Mat energy, double g) {
   return factor::inertia(whole).negative == 0;
 }
 
-/// Returns a g ≥ start that is confirmed, less than 1.2 times the smallest one.
+/// Returns a g ≥ start that is confirmed. Unless g · weight is negligible, it is less than 1.2
+/// times the smallest one.
 template <class Confirmed>
-double smallest(double start, const Confirmed& confirmed) {
-  constexpr int halvings = 2;  // of the ratio of the g confirmed to the last g that was not
-  double g = start, ratio = 2;
+double smallest(double start, double weight, const Confirmed& confirmed) {
+  constexpr double negligible = 5e-3, close = 1.2;
+  double g = start, ratio = start * weight < negligible ? 4 : 2;
   for (int i = 0; !confirmed(g); ++i, g *= ratio)
     if (i == mostTrials)
       throw Error("a damping or gyroscopic matrix has no bound in the energy of the stiffness");
-  for (int i = 0; i < halvings && g > start; ++i) {
+  while (ratio > close && g > start && g * weight > negligible) {
     ratio = std::sqrt(ratio);
     if (confirmed(g / ratio)) g /= ratio;
   }
@@ -67,27 +68,27 @@ double smallest(double start, const Confirmed& confirmed) {
 
 }  // namespace
 
-void boundOthers(const SplitProblem& problem, const factor::AssociatedSystem& system,
-                 proof::LeftOut& bounds) {
+void boundOthers(const SplitProblem& problem, const factor::AssociatedSystem& system, double top,
+                 double left, proof::LeftOut& bounds) {
   if (bounds.mass == 0) return;  // nothing is left out
   OwnedMat energy;               // H
   check(MatDuplicate(system.k0(), MAT_COPY_VALUES, energy.out()));
   check(MatAXPY(energy, 1 / bounds.mass, system.m0(), DIFFERENT_NONZERO_PATTERN));
-  const auto skewBound = [&](Mat matrix) {
+  const auto skewBound = [&](Mat matrix, double weight) {
     if (!matrix) return 0.0;
-    return 2 * smallest(lowerBound(matrix, energy),
+    return 2 * smallest(lowerBound(matrix, energy), 2 * weight,
                         [&](double g) { return isBoundedSkew(matrix, energy, g); });
   };
-  bounds.skewMass = skewBound(problem.skew(2));
-  bounds.gyroscopic = skewBound(problem.skew(1));
+  bounds.skewMass = skewBound(problem.skew(2), top * top);
+  bounds.gyroscopic = skewBound(problem.skew(1), top);
   const Mat damping = problem.symmetric(1);
   if (!damping) return;
   const double start = lowerBound(damping, energy);
   const double above =
-      2 * smallest(start, [&](double g) { return isBounded(damping, energy, g, -1); });
+      2 * smallest(start, 2 * left, [&](double g) { return isBounded(damping, energy, g, -1); });
   // Round-off of a semi-definite C, or a C that feeds motions: C + κ H ≥ 0.
-  const double below =
-      2 * smallest(1e-9 * start, [&](double g) { return isBounded(damping, energy, g, 1); });
+  const double below = 2 * smallest(1e-9 * start, 2 * top,
+                                    [&](double g) { return isBounded(damping, energy, g, 1); });
   bounds.damping = above + below;  // of C + κ H
   bounds.rest[1] += below;
 }

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double reach = 1.7;    // of the free modes, relative to the top
 constexpr double nearby = 1.12;  // of eigenvalues that get corrections: the top may move
+constexpr double guard = 1.3;    // the same of a damped problem: it makes the ratio smaller
 constexpr double leastLeft = 0.02, mostLeft = 0.2;
-constexpr int rounds = 2;
 
 double largest(std::span<const Complex> list) {
   double size = 0;
@@ -51,7 +51,8 @@ bool agrees(const std::vector<double>& lambda, PetscInt counted, double shift) {
 
 /// Collective. Returns the free modes that the proof needs: as many as are given, or all up to the
 /// reach and some more.
-FreeModes freeModes(const ShiftedSystem& shifted, double top, const modes::Settings& given) {
+FreeModes freeModes(const ShiftedSystem& shifted, double top, const modes::Settings& given,
+                    const std::string& purpose) {
   const auto& system = shifted.system;
   modes::Settings settings = given;
   settings.sturm = true;
@@ -65,8 +66,7 @@ FreeModes freeModes(const ShiftedSystem& shifted, double top, const modes::Setti
     const PetscInt most = system.size() - factor::zeroRows(system.m0());
     settings = settings.withCount(static_cast<int>(std::min(found.counted + beyond, most)));
   }
-  found.modes =
-      modes::compute(system, settings, {.stage = "modes", .subject = "for the referee: "});
+  found.modes = modes::compute(system, settings, {.stage = "modes", .subject = purpose});
   if (given.countGiven) {
     found.below = found.modes.inertiaShift;
     found.counted = found.modes.inertiaCount;
@@ -91,42 +91,12 @@ double topAbove(std::span<const Complex> list, std::span<const Complex> values, 
   return (inside + outside) / 2;
 }
 
-/// Returns why the count is not proved; empty if it is.
-std::string reasonOf(const proof::CountProof& count) {
-  const std::string place = formatted("s = %.6g %+.6gi", count.place.real(), count.place.imag());
-  switch (count.verdict) {
-    case proof::Verdict::proved:
-      return "";
-    case proof::Verdict::indefinite:
-      return formatted(
-          "the part left out is not bounded (delta %.2g); more free modes (-modes_count), or a "
-          "smaller -referee_left of a strongly damped problem, would help",
-          count.definiteness);
-    case proof::Verdict::edge:
-      return "an eigenvalue lies on the boundary at " + place + "; another -referee_top would help";
-    case proof::Verdict::ratio:
-      return formatted("the ratio is %.3g at ", count.ratio) + place +
-             "; more free modes (-modes_count) or another -referee_top would help";
-    case proof::Verdict::tooManyDiscs:
-      return formatted("%" PetscInt_FMT " expansions do not suffice at ", count.evaluations) +
-             place + "; another -referee_top, or more -referee_discs, would help";
-    default:
-      return "the reduced problem is singular at the top, or nearly so";
-  }
-}
-
-/// Everything that the proof needs.
-struct Prepared {
-  proof::KeptProblem kept;
-  proof::LeftOut bounds;
-};
-
 /// Proves the count, with the reach to the left that the settings or the list ask for; if that
 /// fails, with the smallest one.
 void proveIn(const proof::DiagonalForm& form, const proof::LeftOut& bounds,
              std::span<const Complex> list, const Settings& settings, Judgement& judgement) {
   const double top = judgement.region.top;
-  if (!judgement.damped) {
+  if (!judgement.sizes.damped) {
     judgement.count = proof::proveCount(form, bounds, judgement.region, settings.discs);
     return;
   }
@@ -141,54 +111,67 @@ void proveIn(const proof::DiagonalForm& form, const proof::LeftOut& bounds,
   }
 }
 
-/// Collective. Builds V and its couplings.
-Prepared prepare(const SplitProblem& problem, const ShiftedSystem& shifted, const FreeModes& free,
-                 double wanted, Judgement& judgement) {
-  KeptSpace space(problem, shifted, free.modes);
-  const double left = problem.damped() ? 1.5 * mostLeft * wanted : INFINITY;
-  for (int round = 0; round < rounds && !space.isWhole(); ++round)
-    space.correct(
-        space.pairs([&](Complex s) { return std::abs(s) < nearby * wanted && s.real() > -left; }));
-  Prepared prepared;
-  prepared.kept = space.problem(wanted);
-  const PetscInt counted = free.confirmed ? free.counted : 0;
-  prepared.bounds =
-      space.leftOut(counted, counted > 0 ? free.modes.lambda[counted - 1] : 0, free.below);
-  boundOthers(problem, shifted.system, prepared.bounds);
-  judgement.basis = space.size();
-  judgement.solves = space.solves();
-  return prepared;
-}
-
 }  // namespace
 
-Judgement judge(const Problem& at, std::span<const Complex> list, const Settings& settings,
-                const modes::Settings& modeSettings) {
-  const double wanted = settings.top > 0 ? settings.top : 1.04 * largest(list);
-  if (!(wanted > 0)) throw Error("the list has only zeros; give -referee_top");
-  Judgement judgement;
+BoundedProblem bounded(const Problem& at, double top, const modes::Settings& settings,
+                       const Log& log) {
+  BoundedProblem result;
+  result.wanted = top;
   const SplitProblem problem(at.pencil, at.at);
-  const ShiftedSystem shifted = shiftedSystem(problem, wanted);
-  judgement.unknowns = shifted.system.size();
-  judgement.shift = shifted.shift;
-  judgement.asymmetry = problem.asymmetry();
-  judgement.damped = problem.damped();
-  const FreeModes free = freeModes(shifted, wanted, modeSettings);
-  judgement.modes = std::ssize(free.modes.lambda);
-  Stage stage(shifted.system.comm(), "referee");
-  const Prepared prepared = prepare(problem, shifted, free, wanted, judgement);
-  const proof::DiagonalForm form(prepared.kept, wanted);
+  const ShiftedSystem shifted = shiftedSystem(problem, top);
+  const FreeModes free = freeModes(shifted, top, settings, log.subject);
+  Stage stage(shifted.system.comm(), log.stage);
+  KeptSpace space(problem, shifted, free.modes, at.vectors);
+  const double left = problem.damped() ? 1.5 * mostLeft * top : INFINITY,
+               reached = (problem.damped() ? guard : nearby) * top;
+  const int rounds = at.vectors.columns() > 0 ? 1 : 2;
+  for (int round = 0; round < rounds && !space.isWhole(); ++round)
+    space.correct(
+        space.pairs([&](Complex s) { return std::abs(s) < reached && s.real() > -left; }));
+  result.projected = space.problem();
+  result.confirmed = free.confirmed || space.isWhole();
+  const PetscInt counted = free.confirmed ? free.counted : 0;
+  result.leftOut =
+      space.leftOut(counted, counted > 0 ? free.modes.lambda[counted - 1] : 0, free.below);
+  boundOthers(problem, shifted.system, top, std::min(left, top), result.leftOut);
+  result.sizes = {.unknowns = shifted.system.size(),
+                  .modes = static_cast<PetscInt>(std::ssize(free.modes.lambda)),
+                  .basis = space.size(),
+                  .shift = shifted.shift,
+                  .asymmetry = problem.asymmetry(),
+                  .damped = problem.damped(),
+                  .solves = space.solves()};
+  stage.finish(log.subject + formatted("basis of %" PetscInt_FMT ", %ld solves", result.sizes.basis,
+                                       result.sizes.solves));
+  return result;
+}
+
+Judgement judge(const BoundedProblem& problem, std::span<const Complex> list,
+                const Settings& settings) {
+  Judgement judgement;
+  judgement.sizes = problem.sizes;
+  const proof::DiagonalForm form(problem.projected.kept(problem.wanted), problem.wanted);
   const auto values = form.eigenvalues();
-  judgement.region.top =
-      settings.top > 0 ? proof::placedTop(values, wanted) : topAbove(list, values, nearby * wanted);
-  proveIn(form, prepared.bounds, list, settings, judgement);
-  judgement.why = reasonOf(judgement.count);
-  if (!free.confirmed && judgement.basis < judgement.unknowns)
-    judgement.why = "the inertia does not confirm the number of free modes";
-  const auto discs = judgement.proved() || free.confirmed
-                         ? proof::enclose(form, prepared.bounds, judgement.region, judgement.count)
+  judgement.region.top = settings.top > 0
+                             ? proof::placedTop(values, problem.wanted, settings.within)
+                             : topAbove(list, values, nearby * problem.wanted);
+  proveIn(form, problem.leftOut, list, settings, judgement);
+  judgement.why = problem.confirmed ? proof::reason(judgement.count, settings.remedies)
+                                    : "the inertia does not confirm the number of free modes";
+  const auto discs = problem.confirmed
+                         ? proof::enclose(form, problem.leftOut, judgement.region, judgement.count)
                          : std::vector<proof::Enclosure>();
   setRows(list, discs, settings.tolerance, judgement);
+  return judgement;
+}
+
+Judgement judge(const Problem& problem, std::span<const Complex> list, const Settings& settings,
+                const modes::Settings& modes) {
+  const double wanted = settings.top > 0 ? settings.top : 1.04 * largest(list);
+  if (!(wanted > 0)) throw Error("the list has only zeros; give -referee_top");
+  const BoundedProblem reduced = bounded(problem, wanted, modes, Log());
+  Stage stage(problem.pencil.comm(), "referee");
+  const Judgement judgement = judge(reduced, list, settings);
   stage.finish(judgement.sentence());
   return judgement;
 }

@@ -28,10 +28,12 @@ const IntegerOption discsOption(
 }  // namespace
 
 Settings Settings::given() {
-  return {.top = 2 * M_PI * topOption.get(),
-          .left = leftOption.get(),
-          .tolerance = toleranceOption.get(),
-          .discs = discsOption.get()};
+  return {
+      .top = 2 * M_PI * topOption.get(),
+      .left = leftOption.get(),
+      .tolerance = toleranceOption.get(),
+      .discs = discsOption.get(),
+      .remedies = {"-modes_count", topOption.dashed(), leftOption.dashed(), discsOption.dashed()}};
 }
 
 void rejectWithout(const std::string& needed) {

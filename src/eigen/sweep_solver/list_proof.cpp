@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/session/events.hpp"
@@ -10,6 +11,7 @@
 #include "base/system/text.hpp"
 #include "eigen/completeness/completeness.hpp"
 #include "eigen/sweep_solver/point_text.hpp"
+#include "eigen/sweep_solver/single_proofs.hpp"
 
 namespace squeal::sweep_solver {
 namespace {
@@ -25,35 +27,57 @@ std::string whyNothing(const reduction::ReducedProblem& reduced) {
 
 std::vector<std::string> proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
                                     const modes::Modes& modes, std::vector<ListedPoint> points,
-                                    const completeness::Settings& settings) {
+                                    const completeness::Settings& settings,
+                                    const modes::Settings& modeSettings) {
   const MPI_Comm comm = reduced.basis().comm();
   if (const std::string why = whyNothing(reduced); !why.empty()) {
     printLine(comm, "proof: nothing to prove (" + why + ")");
     return {};
   }
-  Stage stage(comm, "proof");
   const auto factors = problem.frictionFactors();
   std::map<std::size_t, completeness::ProvedSet> byRange;
-  for (auto& [range, ofPoint, list] : points) {
-    auto& set = byRange[range];
-    if (factors.missing.empty()) set.rows = factors.rowsOf[range];
-    set.problems.push_back(std::move(ofPoint));
-    set.points.push_back(list);
+  std::vector<ListedPoint*> others;
+  for (auto& point : points) {
+    if (!completeness::covers(point.problem, factors)) {
+      others.push_back(&point);
+      continue;
+    }
+    auto& set = byRange[point.range];
+    set.rows = factors.rowsOf[point.range];
+    set.problems.push_back({point.problem.at, point.problem.pencil.with({}), point.problem.set});
+    set.points.push_back(point.list);
   }
   std::vector<completeness::ProvedSet> sets;
   for (auto& [range, set] : byRange) sets.push_back(std::move(set));
-  completeness::prove(reduced, *problem.system, modes, factors, sets, settings);
+  proveSingly(problem, reduced, others, settings.discs, modeSettings);
+  std::optional<Stage> stage;
+  if (!sets.empty()) {
+    stage.emplace(comm, "proof");
+    completeness::prove(reduced, *problem.system, modes, factors, sets, settings);
+    for (const auto& set : sets)
+      for (const auto* list : set.points) stage->printLine(completenessText(*list));
+  }
   std::size_t proved = 0;
   std::vector<std::string> failures;
   for (const auto& point : points) {
-    stage.printLine(completenessText(*point.list));
     proved += point.list->listIsProved();
-    if (const auto count = point.list->completeness->missing.size(); count > 0)
-      failures.push_back(formatted("%s: the list lacks %zu eigenvalues of the full problem",
-                                   sweep::parameterText(point.list->at).c_str(), count));
+    const auto& found = *point.list->completeness;
+    const std::string at = sweep::parameterText(point.list->at);
+    if (const auto count = found.missing.size(); count > 0)
+      failures.push_back(
+          formatted("%s: the list lacks %zu eigenvalues of the full problem", at.c_str(), count));
+    if (const auto count = found.spurious.size(); count > 0)
+      failures.push_back(
+          formatted("%s: %zu values of the list are not eigenvalues of the full "
+                    "problem",
+                    at.c_str(), count));
   }
-  stage.finish(formatted("%zu of %zu lists proved to be complete, basis of %" PetscInt_FMT, proved,
-                         points.size(), reduced.basisSize()));
+  const std::string text =
+      formatted("%zu of %zu lists proved to be complete", proved, points.size());
+  if (stage)
+    stage->finish(text + formatted(", basis of %" PetscInt_FMT, reduced.basisSize()));
+  else
+    printLine(comm, "proof: " + text);
   return failures;
 }
 

@@ -6,25 +6,19 @@
 
 #include "eigen/completeness/settings.hpp"
 #include "eigen/modes/modes.hpp"
-#include "eigen/pencil/complex_modes.hpp"
 #include "eigen/reduction/reduced.hpp"
+#include "eigen/sweep_solver/listed_point.hpp"
 #include "eigen/sweep_solver/sweep_problem.hpp"
 
 namespace squeal::sweep_solver {
 
-/// A solved point.
-struct ListedPoint {
-  std::size_t range;                ///< index in SweepProblem::ranges
-  reduction::PointProblem problem;  ///< with all terms
-  pencil::ComplexModes* list;       ///< borrowed
-};
-
 /// Collective. Sets ComplexModes::completeness of the points, and extends the basis for this
 /// purpose. `modes` are the free modes of the interior unknowns. Returns a line of text for each
-/// list that lacks an eigenvalue. Does nothing without a basis of `-flutter_basis corrected`, or if
-/// this basis spans the whole space.
+/// list that lacks an eigenvalue or has a wrong one. Does nothing without a basis of
+/// `-flutter_basis corrected`, or if this basis spans the whole space.
 std::vector<std::string> proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
                                     const modes::Modes& modes, std::vector<ListedPoint> points,
-                                    const completeness::Settings& settings);
+                                    const completeness::Settings& settings,
+                                    const modes::Settings& modeSettings);
 
 }  // namespace squeal::sweep_solver

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/sweep_solver/point_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/system/error.hpp"
@@ -27,13 +28,22 @@ std::string completenessText(const pencil::ComplexModes& point) {
   const auto& found = *point.completeness;
   std::string text = sweep::parameterText(point.at) + ": ";
   if (!found.proved) return text + "not proved: " + found.reason;
-  text += formatted("%d eigenvalues below %.6g Hz proved, ratio %.2g, %d discs", found.count,
-                    found.top / (2 * M_PI), found.ratio, found.discs);
-  text += formatted(", %zu of %zu listed in discs of their own",
-                    point.eigenvalues.size() - point.withoutDisc(), point.eigenvalues.size());
+  text += formatted("%g eigenvalues below %.6g Hz", found.count / 2.0, found.top / (2 * M_PI));
+  if (std::isfinite(found.left)) text += formatted(" with Re s > %.4g/s", -found.left);
+  text += formatted(" proved, ratio %.2g, %d discs", found.ratio, found.discs);
+  const auto left = std::ranges::count_if(point.eigenvalues,
+                                          [&](const auto& e) { return e.s.real() <= -found.left; });
+  const auto judged = static_cast<int>(point.eigenvalues.size() - left);
+  text +=
+      formatted(", %d of %d listed in discs of their own", judged - point.withoutDisc(), judged);
+  if (left > 0) text += formatted(", %td listed farther left", left);
   for (const auto& one : found.missing)
     text += formatted(", missing within %.2g of %.9g%+.9gi", one.radius, one.centre.real(),
                       one.centre.imag());
+  for (const auto s : found.spurious)
+    text += formatted(", %.9g%+.9gi is not an eigenvalue", s.real(), s.imag());
+  for (const auto s : found.undecided)
+    text += formatted(", undecided near %.9g%+.9gi", s.real(), s.imag());
   return text;
 }
 

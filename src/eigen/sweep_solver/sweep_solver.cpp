@@ -298,8 +298,8 @@ class SweepSolver {
     for (std::size_t i = 0; i < plan_.points.size(); ++i)
       if (isSolved(pointAt(i)))
         points.push_back({plan_.places[i].range, problemOf(i), &pointAt(i)});
-    auto failures =
-        proveLists(problem_, *reduced_, freeModes(), std::move(points), request_.settings.proof);
+    auto failures = proveLists(problem_, *reduced_, freeModes(), std::move(points),
+                               request_.settings.proof, *request_.settings.modes);
     std::ranges::move(failures, std::back_inserter(state_.failures));
   }
 

@@ -12,7 +12,7 @@ namespace {
 pencil::ComplexModes provedModes(const referee::Judgement& judgement, const sweep::Parameters& at) {
   pencil::ComplexModes point;
   point.at = at;
-  point.damped = judgement.damped;
+  point.damped = judgement.sizes.damped;
   for (const auto& disc : judgement.eigenvalues) {
     if (disc.isolation != proof::Isolation::single) continue;
     pencil::Eigenvalue e;
@@ -62,12 +62,12 @@ JudgedList judgeList(MPI_Comm comm, const Settings& settings, const sweep::Sweep
   const auto at = sweep.points().front();
   result.judgement = referee::judge({pencil, at}, result.list.values, settings.referee->proof,
                                     settings.solver.modes.value_or(modes::Settings()));
-  if (!result.judgement.damped && settings.referee->proof.left > 0)
+  if (!result.judgement.sizes.damped && settings.referee->proof.left > 0)
     printLine(comm,
               "option -referee_left was not used: without terms in s the region is a whole disc");
   flutter.segments.resize(1);
-  flutter.segments[0].unknowns = result.judgement.unknowns;
-  flutter.segments[0].solves = result.judgement.solves;
+  flutter.segments[0].unknowns = result.judgement.sizes.unknowns;
+  flutter.segments[0].solves = result.judgement.sizes.solves;
   flutter.segments[0].points.push_back(provedModes(result.judgement, at));
   flutter.complete = true;
   return result;

@@ -70,9 +70,9 @@ nlohmann::ordered_json refereeEntry(const analysis::JudgedList& judged) {
   entry["largest_ratio"] = found.count.ratio;
   entry["definiteness"] = found.count.definiteness;
   entry["discs"] = found.count.discs;
-  entry["free_modes"] = found.modes;
-  entry["basis"] = found.basis;
-  entry["shift_rad2_per_s2"] = found.shift;
+  entry["free_modes"] = found.sizes.modes;
+  entry["basis"] = found.sizes.basis;
+  entry["shift_rad2_per_s2"] = found.sizes.shift;
   entry["layout"] = judged.list.layout;
   entry["faults"] = nlohmann::ordered_json::array();
   for (const auto& row : found.rows)

@@ -26,18 +26,20 @@ std::vector<const pencil::ComplexModes*> examined(const analysis::Analysis& anal
 bool hasProofs(const analysis::Analysis& analysis) { return !examined(analysis).empty(); }
 
 std::string proofTable(const analysis::Analysis& analysis) {
-  std::string table =
-      sweep::parameterColumns() +
-      ",complete,count_proved,eigenvalues,top_hz,ratio,definiteness,discs,without_disc,missing,"
-      "reason\n";
+  std::string table = sweep::parameterColumns() +
+                      ",complete,count_proved,eigenvalues,top_hz,left_1_per_s,ratio,definiteness,"
+                      "discs,without_disc,missing,"
+                      "spurious,undecided,reason\n";
   for (const auto* point : examined(analysis)) {
     const auto& found = *point->completeness;
-    table +=
-        sweep::parameterValues(point->at) +
-        formatted(",%d,%d,%d,%.15e,%.6e,%.6e,%d,%d,%zu,", point->listIsProved() ? 1 : 0,
-                  found.proved ? 1 : 0, found.count, found.top / (2 * M_PI), found.ratio,
-                  found.definiteness, found.discs, point->withoutDisc(), found.missing.size()) +
-        nameCell(found.reason) + "\n";
+    table += sweep::parameterValues(point->at) +
+             formatted(",%d,%d,%g,%.15e,", point->listIsProved() ? 1 : 0, found.proved ? 1 : 0,
+                       found.count / 2.0, found.top / (2 * M_PI)) +
+             (std::isfinite(found.left) ? formatted("%.15e", found.left) : "") +
+             formatted(",%.6e,%.6e,%d,%d,%zu,%zu,%zu,", found.ratio, found.definiteness,
+                       found.discs, point->withoutDisc(), found.missing.size(),
+                       found.spurious.size(), found.undecided.size()) +
+             nameCell(found.reason) + "\n";
   }
   return table;
 }
@@ -46,26 +48,35 @@ nlohmann::json proofEntry(const pencil::ComplexModes& point) {
   const auto& found = *point.completeness;
   nlohmann::json entry = {{"complete", point.listIsProved()},
                           {"count_proved", found.proved},
-                          {"eigenvalues", found.count},
+                          {"eigenvalues", found.count / 2.0},
                           {"top_hz", found.top / (2 * M_PI)},
+                          {"left_1_per_s", nullptr},
                           {"ratio", found.ratio},
                           {"definiteness", found.definiteness},
                           {"discs", found.discs},
                           {"without_disc", point.withoutDisc()},
                           {"reason", found.reason},
-                          {"missing", nlohmann::json::array()}};
+                          {"missing", nlohmann::json::array()},
+                          {"spurious", nlohmann::json::array()},
+                          {"undecided", nlohmann::json::array()}};
+  if (std::isfinite(found.left)) entry["left_1_per_s"] = found.left;
   for (const auto& one : found.missing)
     entry["missing"].push_back({{"growth_rate_1_per_s", one.centre.real()},
                                 {"angular_frequency_rad_per_s", one.centre.imag()},
                                 {"radius_1_per_s", one.radius}});
+  for (const auto& [name, list] :
+       {std::pair("spurious", &found.spurious), std::pair("undecided", &found.undecided)})
+    for (const auto s : *list)
+      entry[name].push_back(
+          {{"growth_rate_1_per_s", s.real()}, {"angular_frequency_rad_per_s", s.imag()}});
   return entry;
 }
 
 std::string proofText(const analysis::Analysis& analysis) {
   const auto points = examined(analysis);
   if (points.empty()) return {};
-  double ratio = 0, radius = 0, top = INFINITY;
-  std::size_t complete = 0;
+  double ratio = 0, radius = 0, top = INFINITY, left = INFINITY;
+  std::size_t complete = 0, beyond = 0;
   std::string others;
   for (const auto* point : points) {
     const auto& found = *point->completeness;
@@ -75,9 +86,16 @@ std::string proofText(const analysis::Analysis& analysis) {
           "\nMissing in the list at %s: one eigenvalue within %.2g 1/s of "
           "%.9g%+.9gi 1/s.",
           at.c_str(), one.radius, one.centre.real(), one.centre.imag());
+    for (const auto s : found.spurious)
+      others += formatted("\nWrong in the list at %s: %.9g%+.9gi 1/s is not an eigenvalue.",
+                          at.c_str(), s.real(), s.imag());
+    for (const auto s : found.undecided)
+      others +=
+          formatted("\nUndecided at %s: an eigenvalue near %.9g%+.9gi 1/s that is not in the list.",
+                    at.c_str(), s.real(), s.imag());
     if (!found.proved)
       others += "\nNot proved at " + at + ": " + found.reason + ".";
-    else if (found.missing.empty() && !point->listIsProved())
+    else if (point->withoutDisc() > 0)
       others += formatted(
           "\nAt %s the number of eigenvalues is proved; %d of them have no disc of "
           "their own.",
@@ -86,16 +104,22 @@ std::string proofText(const analysis::Analysis& analysis) {
     ++complete;
     ratio = std::max(ratio, found.ratio);
     top = std::min(top, point->bandTop / (2 * M_PI));
-    for (const auto& e : point->eigenvalues) radius = std::max(radius, e.radius);
+    left = std::min(left, found.left);
+    for (const auto& e : point->eigenvalues) {
+      if (e.s.real() > -found.left)
+        radius = std::max(radius, e.radius);
+      else
+        ++beyond;
+    }
   }
   std::string text =
       formatted("\nProof: the list is complete at %zu of %zu points", complete, points.size());
   if (complete > 0)
-    text += formatted(
-        ": the full problem has no other eigenvalue with |s|/2π up to %.6g Hz, and "
-        "exactly one within %.1e 1/s of each (largest ratio %.2g; round-off is not "
-        "bounded)",
-        top, radius, ratio);
+    text += formatted(": the full problem has no other eigenvalue with |s|/2π up to %.6g Hz", top) +
+            (std::isfinite(left) ? formatted(" and Re s > %.4g/s in the band", -left) : "") +
+            formatted(", and exactly one within %.1e 1/s of each", radius) +
+            (beyond > 0 ? formatted(" except %zu that decay faster", beyond) : "") +
+            formatted(" (largest ratio %.2g; round-off is not bounded)", ratio);
   return text + "." + others;
 }
 

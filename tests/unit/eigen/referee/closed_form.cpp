@@ -99,8 +99,8 @@ TEST(Referee, CompleteListIsRight) {
     if (alpha > 0) settings.left = 0.3;
     const auto found = judged(list, alpha, settings);
     EXPECT_TRUE(found.isComplete()) << found.sentence();
-    EXPECT_GT(found.shift, 0);
-    EXPECT_LT(found.basis, size);  // something is left out
+    EXPECT_GT(found.sizes.shift, 0);
+    EXPECT_LT(found.sizes.basis, size);  // something is left out
     EXPECT_EQ(found.count.count, 10);
     EXPECT_EQ(found.number(Verdict::right), 6);
     for (const auto& row : found.rows) {
@@ -171,7 +171,7 @@ TEST(Referee, BoundsOfOtherTermsHold) {
   EXPECT_EQ(shifted.shift, 0);
   proof::LeftOut bounds;
   bounds.mass = 1 / theta;
-  boundOthers(problem, shifted.system, bounds);
+  boundOthers(problem, shifted.system, top, top, bounds);
   // 2 max α / (j² + θ) is at j = 1; the bound is less than 1.2 times as large.
   EXPECT_GE(bounds.damping, 2 * alpha / (1 + theta) * (1 - 1e-12));
   EXPECT_LE(bounds.damping, 2.4 * alpha / (1 + theta));
@@ -179,7 +179,7 @@ TEST(Referee, BoundsOfOtherTermsHold) {
   EXPECT_LE(bounds.gyroscopic, 2.4 * 2 * g / (1 + theta));
   EXPECT_LE(bounds.rest[1], 1e-8 * bounds.damping);
   bounds = {};
-  boundOthers(problem, shifted.system, bounds);
+  boundOthers(problem, shifted.system, top, top, bounds);
   EXPECT_EQ(bounds.damping, 0);  // nothing is left out
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "eigen/completeness/list_judgement.hpp"
+
+#include <algorithm>
+
+namespace squeal::completeness {
+namespace {
+
+/// Returns true if all points of the disc are in the band.
+bool inBand(const pencil::WatchedBand& band, Complex s, double radius) {
+  const double size = std::abs(s);
+  return size + radius <= band.top && -s.real() + radius <= band.damping * (size - radius);
+}
+
+/// Returns true if no point of the disc is in the band.
+bool outsideBand(const pencil::WatchedBand& band, Complex s, double radius) {
+  const double size = std::abs(s);
+  return size - radius > band.top || -s.real() - radius > band.damping * (size + radius);
+}
+
+}  // namespace
+
+void judgeList(const std::vector<proof::Enclosure>& discs, const proof::Region& region,
+               pencil::WatchedBand band, pencil::ComplexModes& point) {
+  auto& found = *point.completeness;
+  band.top = point.bandTop;
+  std::vector<Complex> list;
+  for (const auto& e : point.eigenvalues) list.push_back(e.s);
+  const auto judged = proof::judge(list, discs, region, point.tolerance * region.top);
+  const bool allKnown = found.proved && std::ranges::all_of(discs, [](const auto& disc) {
+                          return disc.isolation == proof::Isolation::single;
+                        });
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto& [agreement, radius] = judged.entries[i];
+    if (radius > 0) point.eigenvalues[i].radius = radius;
+    if (allKnown &&
+        (agreement == proof::Agreement::wrong || agreement == proof::Agreement::repeated))
+      found.spurious.push_back(list[i]);
+  }
+  for (const auto& disc : judged.missing) {
+    if (inBand(band, disc.s, disc.inner))
+      found.missing.push_back({disc.s, disc.inner});
+    else if (!outsideBand(band, disc.s, disc.inner))
+      found.undecided.push_back(disc.s);
+  }
+  // Nothing is known about the place of such an eigenvalue of the full problem.
+  for (const auto& disc : judged.unresolved) found.undecided.push_back(disc.s);
+}
+
+}  // namespace squeal::completeness

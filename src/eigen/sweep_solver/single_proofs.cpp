@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "eigen/sweep_solver/single_proofs.hpp"
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "algebra/linalg/rows.hpp"
+#include "algebra/linalg/spread.hpp"
+#include "base/petsc/object.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/concatenation.hpp"
+#include "base/system/termination.hpp"
+#include "eigen/completeness/completeness.hpp"
+#include "eigen/completeness/list_judgement.hpp"
+#include "eigen/referee/referee.hpp"
+#include "eigen/sweep/parameters.hpp"
+#include "eigen/sweep_solver/point_text.hpp"
+
+namespace squeal::sweep_solver {
+namespace {
+
+/// Collective. Returns the unknowns of a point among the `rows` unknowns of this rank: all except
+/// the boundary unknowns of other points.
+std::vector<PetscInt> unknownsOf(const SweepProblem& problem, const PointRange& range,
+                                 PetscInt rows) {
+  const auto& boundary = problem.substructure.boundary;
+  const Concatenation all(problem.pencil->comm(), boundary.size());
+  std::vector<unsigned char> has(rows, 1);
+  for (std::size_t i = 0; i < boundary.size(); ++i)
+    has[boundary[i]] = range.has[all.ownBegin() + i];
+  std::vector<PetscInt> unknowns;
+  for (PetscInt i = 0; i < rows; ++i)
+    if (has[i]) unknowns.push_back(i);
+  return unknowns;
+}
+
+/// Returns the terms of a point whose coefficient is not zero.
+pencil::Pencil activeTerms(const ListedPoint& point) {
+  std::vector<pencil::Term> terms;
+  for (const auto& term : point.problem.pencil.terms())
+    if (term.coefficient(point.list->at) != 0) terms.push_back(term.share());
+  return pencil::Pencil(std::move(terms));
+}
+
+/// Collective. Returns the sum of the terms with each power of s, in the unknowns of the point.
+pencil::Pencil sumsOf(const pencil::Pencil& terms, const sweep::Parameters& at,
+                      const std::vector<PetscInt>& unknowns) {
+  std::vector<pencil::Term> sums;
+  for (const int power : {0, 1, 2}) {
+    const OwnedMat sum = terms.assembled(power, at);
+    if (!sum) continue;
+    PetscInt first = 0;
+    check(MatGetOwnershipRange(sum, &first, nullptr));
+    std::vector<PetscInt> rows = unknowns;
+    for (PetscInt& row : rows) row += first;
+    OwnedIS set;
+    check(ISCreateGeneral(commOf(sum), rows.size(), rows.data(), PETSC_COPY_VALUES, set.out()));
+    pencil::Term& term = sums.emplace_back();
+    check(MatCreateSubMatrix(sum, set, set, MAT_INITIAL_MATRIX, term.matrix.out()));
+    term.power = power;
+    term.ofFriction = true;
+  }
+  return pencil::Pencil(std::move(sums));
+}
+
+/// Collective. Returns the real and imaginary parts of the right and left vectors of the solved
+/// watched pairs, in the unknowns of the point; no columns if the pairs are not stored.
+linalg::Block vectorsOf(const reduction::ReducedProblem& reduced,
+                        const reduction::PointProblem& problem,
+                        const std::vector<PetscInt>& unknowns) {
+  constexpr double nothing = 1e-6;  // of one part, relative to the other
+  const auto pairs = reduced.watchedPairs(problem.at, problem.set);
+  linalg::DenseMatrix coordinates(reduced.basisSize());
+  for (const auto& pair : pairs.value_or(std::vector<linalg::DensePair>())) {
+    for (const auto& vector : {pair.q, pair.left}) {
+      const auto q = reduced.lifted(problem.set, vector);
+      std::array<std::vector<double>, 2> parts;
+      for (auto& part : parts) part.resize(reduced.basisSize());
+      for (std::size_t i = 0; i < q.size(); ++i)
+        parts[0][i] = q[i].real(), parts[1][i] = q[i].imag();
+      const std::array lengths{linalg::squaredLength(parts[0]), linalg::squaredLength(parts[1])};
+      for (const int k : {0, 1})
+        if (lengths[k] > nothing * nothing * lengths[1 - k]) coordinates.append(parts[k]);
+    }
+  }
+  return linalg::rowsOf(unknowns, linalg::product(reduced.basis().columns(), coordinates));
+}
+
+/// Returns true if a term is not a sparse matrix.
+bool hasDenseTerm(const pencil::Pencil& pencil) {
+  for (const auto& term : pencil.terms()) {
+    PetscBool sparse = PETSC_FALSE;
+    check(PetscObjectTypeCompareAny(object(term.matrix), &sparse, MATSEQAIJ, MATMPIAIJ, ""));
+    if (!sparse) return true;
+  }
+  return false;
+}
+
+/// The top of the region lies in a gap of the eigenvalues up to this part above the band.
+constexpr double above = 0.08;
+
+/// Collective. Returns the problem of a point on its own basis; none, with the reason, if that
+/// fails.
+std::optional<referee::BoundedProblem> boundedProblem(const SweepProblem& problem,
+                                                      const reduction::ReducedProblem& reduced,
+                                                      const modes::Settings& modes,
+                                                      ListedPoint& point) {
+  auto& found = point.list->completeness.emplace();
+  const auto& at = point.list->at;
+  const auto terms = activeTerms(point);
+  if (hasDenseTerm(terms)) {
+    found.reason = "modal damping is not a sparse matrix";
+    return {};
+  }
+  try {
+    const auto unknowns =
+        unknownsOf(problem, problem.ranges[point.range], reduced.basis().localRows());
+    const auto pencil = sumsOf(terms, at, unknowns);
+    return referee::bounded({pencil, at, vectorsOf(reduced, point.problem, unknowns)},
+                            (1 + above / 2) * point.list->bandTop, modes,
+                            {"proof", sweep::parameterText(at) + ": "});
+  } catch (const Error& error) {
+    found.reason = error.what();
+    return {};
+  }
+}
+
+/// Sets what is proved about the list of a point.
+void judgeList(const referee::BoundedProblem& problem, const pencil::WatchedBand& band, int discs,
+               pencil::ComplexModes& point) {
+  auto& found = *point.completeness;
+  std::vector<Complex> list;
+  for (const auto& e : point.eigenvalues) list.push_back(e.s);
+  try {
+    const auto judged = referee::judge(
+        problem, list,
+        {.top = problem.wanted,
+         .within = above / (2 + above),
+         .tolerance = point.tolerance,
+         .discs = discs,
+         .remedies = {
+             .modes = "", .top = "-flutter_band", .left = "", .discs = "-flutter_proof_discs"}});
+    found.proved = judged.proved();
+    found.count = static_cast<int>(judged.count.count);
+    found.top = judged.region.top;
+    found.left = judged.region.left;
+    found.definiteness = judged.count.definiteness;
+    found.ratio = judged.count.ratio;
+    found.place = judged.count.place;
+    found.discs = static_cast<int>(judged.count.discs);
+    found.reason = judged.why;
+    completeness::judgeList(judged.eigenvalues, judged.region, band, point);
+  } catch (const Error& error) {
+    found = {};
+    found.reason = error.what();
+  }
+}
+
+}  // namespace
+
+void proveSingly(const SweepProblem& problem, const reduction::ReducedProblem& reduced,
+                 const std::vector<ListedPoint*>& points, int discs, modes::Settings modes) {
+  const MPI_Comm comm = reduced.basis().comm();
+  const std::size_t ranks = mpi::size(comm);
+  modes.countGiven = false;
+  // The dense work of as many points as there are ranks is done at the same time.
+  for (std::size_t first = 0; first < points.size(); first += ranks) {
+    stopIfRequested(comm);
+    std::vector<pencil::ComplexModes*> lists;
+    std::optional<referee::BoundedProblem> own;  // of the point that this rank owns
+    for (std::size_t i = first; i < std::min(first + ranks, points.size()); ++i) {
+      lists.push_back(points[i]->list);
+      auto bounded = boundedProblem(problem, reduced, modes, *points[i]);
+      if (static_cast<int>(i - first) == mpi::rank(comm)) own = std::move(bounded);
+    }
+    Stage stage(comm, "proof");
+    linalg::onOwners(comm, lists.size(), [&](std::size_t i) {
+      if (own) judgeList(*own, reduced.band(), discs, *lists[i]);
+    });
+    completeness::share(comm, lists);
+    for (const auto* list : lists) stage.finish(completenessText(*list));
+  }
+}
+
+}  // namespace squeal::sweep_solver
