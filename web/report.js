@@ -9,6 +9,7 @@ function setScheme(dark) {
   drawCharts();
   drawRegime();
   drawStability();
+  drawJudged();
   colourBars();
   drawMaps();
   if (view.bodies) outlines();
@@ -31,6 +32,7 @@ async function begin() {
   makeLines();
   makeTable();
   makeRegime();
+  makeJudged();
   makeSections();
   element("scheme").addEventListener("click", () => {
     setScheme(!document.documentElement.classList.contains("dark"));

@@ -153,6 +153,7 @@ function makeSections() {
   makeComponentModes();
   makePoints();
   makeCritical();
+  makeProofs();
   makeInfluences();
   makeForces();
   makeCosts();

@@ -52,6 +52,7 @@ OWN_SCRIPTS = (
     "bodies",
     "fields",
     "regime",
+    "judged",
     "sections",
     "print",
     "report",
@@ -149,6 +150,8 @@ def _data(results, with_shapes):
         "components": columns(results.table("components"), REPEATED),
         "participation": columns(results.table("participation"), REPEATED),
         "componentModes": columns(results.component_modes),
+        "proof": columns(results.table("proof")),
+        "judged": columns(results.table("referee")),
         "steady": _steady_forces(summary),
         "regimes": regime.diagrams(results),
         "stages": {

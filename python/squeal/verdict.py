@@ -68,7 +68,7 @@ def _verdict_of_merge(results):
     )
     return (
         f"{begins}; above it, up to {most} unstable mode{'s' if most > 1 else ''} at once. The"
-        f" fastest grows at {worst['frequency_hz']:.6g} Hz with"
+        f" fastest has {worst['frequency_hz']:.6g} Hz and a growth rate of"
         f" {worst['growth_rate_1_per_s']:.4g} 1/s (damping {100 * worst['damping_ratio']:.3g} %) at"
         f" friction {worst['friction']:g}{others}."
     )
@@ -95,6 +95,7 @@ def certificate(results):
         for followed in active.get("followed", [])
         if followed.get("statement")
     ][:3]
+    lines += _proof(results.table("proof"))
     failed = [
         point
         for point in summary.get("frictions", [])
@@ -107,6 +108,17 @@ def certificate(results):
             + "."
         )
     return lines
+
+
+def _proof(table):
+    """Returns a sentence on the proofs of the lists, if there are any."""
+    if table is None or table.empty:
+        return []
+    complete = table[table["complete"] == 1]
+    words = f"The list is proved to be complete at {len(complete)} of {len(table)} points"
+    if len(complete):
+        words += f" (largest ratio {complete['ratio'].max():.2g}; round-off is not bounded)"
+    return [words + "."]
 
 
 def _judgement(referee, count):

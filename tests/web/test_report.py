@@ -13,6 +13,7 @@ from unittest import mock
 
 import h5py
 import numpy as np
+import pandas as pd
 from PIL import Image
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -23,6 +24,7 @@ import report_picture
 import squeal
 from squeal import blobs as packing
 from squeal import report
+from squeal.keys import PARAMETERS
 
 
 def shown(value, digits):
@@ -33,6 +35,7 @@ def shown(value, digits):
 class Report(Pages):
     OPEN_PAGES = {
         "test_asks_the_network_for_nothing_and_logs_no_error",
+        "test_judged_list_and_proofs",
         "test_names_are_text_not_markup",
         "test_picture",
         "test_without_the_libraries_the_pictures_stand_in",
@@ -62,6 +65,65 @@ class Report(Pages):
             (self.folder / "report.html").read_text(),
             r'<(script|link|img)[^>]*(src|href)="(?!data:)',
         )
+
+    def test_judged_list_and_proofs(self):
+        other = Path(self.temporary.name) / "judged"
+        shutil.copytree(self.folder, other, ignore=shutil.ignore_patterns("vtk", "report.html"))
+        run = squeal.open(other)
+        turn = 2 * np.pi
+        head = (
+            "entry growth_rate_1_per_s angular_frequency_rad_per_s verdict"
+            " proved_growth_rate_1_per_s proved_angular_frequency_rad_per_s radius_rad_per_s"
+            " distance_rad_per_s"
+        ).split()
+        nothing = float("nan")
+        judged = pd.DataFrame(
+            [
+                [1, -2.0, 1000 * turn, "right", -2.0, 1000 * turn, 1e-3, 1e-5],
+                [2, 5.0, 2000 * turn, "inexact", 8.0, 2000 * turn, 1e-3, 3.0],
+                [nothing, nothing, nothing, "missing", 4.0, 1500 * turn, 1e-3, nothing],
+            ],
+            columns=head,
+        )
+        points = run.stability_map[list(PARAMETERS)].head(2).reset_index(drop=True)
+        proof = points.assign(
+            complete=[1, 0],
+            count_proved=[1, 0],
+            eigenvalues=[23.5, 0.0],
+            top_hz=[7000.0, 7001.0],
+            left_1_per_s=[850.0, nothing],
+            ratio=[0.25, 1.5],
+            reason=["", "ratio 1.5 <b>"],
+        )
+        tables = {**run._tables, "referee": judged, "proof": proof}
+        with mock.patch.object(run, "_tables", tables):
+            (other / "report.html").write_text(report.build(run))
+        self.open_page(other / "report.html")
+        self.assertTrue(self.element("judged").is_displayed())
+        table = self.element("judgedtable")
+        lines = [
+            [cell.text for cell in row.find_elements(By.TAG_NAME, "td")]
+            for row in table.find_elements(By.CSS_SELECTOR, "tbody tr")
+        ]
+        # The faults, the worst kind first; growth rates and frequencies with the proved ones.
+        self.assertEqual(lines[0][:6], ["missing", "", "", "", "1500", "4"])
+        self.assertEqual(lines[1][:6], ["inexact", "2", "2000", "5", "2000", "8"])
+        self.assertEqual(len(lines), 2)
+        self.assertEqual(self.element("judgedcount").text, "2 of 3 rows")
+        sets = self.run_script(
+            "return judged.chart.data.datasets.map((s) => [s.label, s.data[0].x, s.data[0].y])"
+        )
+        self.assertEqual([name for name, *_ in sets], ["missing", "inexact", "right"])
+        np.testing.assert_allclose(
+            [place for _, *place in sets], [[1500, 4], [2000, 5], [1000, -2]]
+        )
+        text = self.run_script("return element('more').textContent")
+        for words in ("complete", "23.5", "-850", "not proved", "ratio 1.5 <b>"):
+            self.assertIn(words, text)
+        grounds = self.run_script("return element('certificate').textContent")
+        self.assertIn("The list is proved to be complete at 1 of 2 points", grounds)
+        self.assertIn("(largest ratio 0.25; round-off is not bounded).", grounds)
+        self.assertEqual(self.driver.get_log("browser"), [])
 
     def test_a_large_file_leaves_out_shapes_and_fields(self):
         def blobs(text):

@@ -24,7 +24,7 @@ struct Coupling {
 };
 
 /// The blocks of P(s) on V and between V and C. C is orthogonal to V in the energy K0, and its
-/// coordinates are orthonormal in this energy. The coordinates of V are arbitrary; the remainders
+/// basis is orthonormal in this energy. The coordinates of V are arbitrary; the remainders
 /// of couplings refer to them. Each part of a coupling has its own W.
 struct KeptProblem {
   Coefficients matrices;              ///< of P_VV, N × N
@@ -34,14 +34,14 @@ struct KeptProblem {
 };
 
 /// Bounds of the block of P on the space C, in coordinates that are orthonormal in the energy K0:
-///   P_CC(s) = 1 + (s² − σ) M + s² M_a + s (C + G) + rest,
-/// where M and C are the symmetric parts of mass and damping, and M_a and G the antisymmetric ones.
+///   P_CC(s) = 1 + (s² − σ) M + s² M_a + s (D + G) + rest,
+/// where M and D are the symmetric parts of mass and damping, and M_a and G the antisymmetric ones.
 struct LeftOut {
   /// Upper bound of M ≥ 0, s²: 1/θ if V contains all modes of K0 d = λ M d with λ < θ.
   double mass = 0;
   double shift = 0;       ///< σ ≥ 0 of K0 = K + σ M, rad²/s²
   double skewMass = 0;    ///< ‖M_a‖, s²
-  double damping = 0;     ///< upper bound of the damping matrix C ≥ 0, s
+  double damping = 0;     ///< upper bound of the damping matrix D ≥ 0, s
   double gyroscopic = 0;  ///< ‖G‖, s
   /// The norm of the sum of all other terms is at most Σ |s|ᵏ rest[k].
   std::array<double, 3> rest = {};

@@ -28,7 +28,7 @@ struct LinePiece {
 
 /// The points of one speed, pressure and damping.
 struct Line {
-  sweep::Parameters at;           ///< the parameters; its friction has no meaning
+  sweep::Parameters at;           ///< the parameters; `friction` has no meaning
   std::vector<double> swept;      ///< frictions of the sweep, ascending
   std::vector<LinePiece> pieces;  ///< ascending
   /// Friction of the preceding point, if the active set changes between it and the first point and
@@ -39,18 +39,18 @@ struct Line {
 
 /// The result for all frictions of one speed, pressure and damping that share a basis.
 struct TrackedLine {
-  sweep::Parameters line;           ///< the parameters; its friction has no meaning
+  sweep::Parameters line;           ///< the parameters; `friction` has no meaning
   std::vector<int> activeSet;       ///< [piece of the path] its number in the results
   double from = 0;                  ///< friction below which another active set applies; 0: none
   Branches branches;                ///< numbered from 1 by renumber()
   std::vector<Critical> criticals;  ///< critical frictions of the branches, ascending
   std::vector<pencil::CriticalMode> criticalModes;  ///< [critical]
-  bool countExact = false;  ///< a Sturm count confirms the number at friction 0, the first one
+  bool countExact = false;  ///< a Sturm count confirms the number at friction 0, the start
   bool wholeSpace = false;  ///< the basis spans the whole space of the full problem
 
   /// Returns true if no eigenvalue of the band is missing at any friction.
   bool complete() const;
-  /// Returns a statement on the number of eigenvalues: which part is proven, and the assumptions.
+  /// Returns a statement on the number of eigenvalues: what is proven, and under which assumptions.
   std::string statement() const;
 };
 
@@ -63,8 +63,8 @@ std::string whyNotTracked(const reduction::ReducedProblem& reduced, const std::v
 
 /// Collective. Tracks the eigenvalues of the lines from friction 0 on, in the current basis. If the
 /// settings request critical frictions, solves for them; this may extend the basis. Eigenvalues
-/// jump at a change of the active set and are joined across it. A line whose first friction is not
-/// 0 starts at friction 0 with its first active set.
+/// jump at a change of the active set and are joined across it. If the first friction of a line is
+/// not 0, tracking still starts at friction 0, with the first active set of the line.
 std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
                                     const std::vector<Line>& lines, const Settings& settings,
                                     MPI_Comm comm,

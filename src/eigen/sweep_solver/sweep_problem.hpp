@@ -25,7 +25,7 @@ struct PointRange {
   PetscInt openNodes = 0;           ///< contact nodes that are not active, over all ranks
   /// [boundary unknown, over all ranks] 1 if it is an unknown of these points
   std::vector<unsigned char> has = {};
-  std::vector<pencil::Term> terms = {};  ///< of these points, in addition to those of all points
+  std::vector<pencil::Term> terms = {};  ///< of these points only; `pencil` has the others
 };
 
 /// An interval of friction with one active set; the other parameters are fixed.

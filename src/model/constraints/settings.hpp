@@ -72,7 +72,7 @@ struct Settings {
   std::vector<BoltSettings> bolts;                     ///< sorted by name
   /// True if the loads that the sweep scales already act in the first step.
   bool boltsUnderPressure = false;
-  std::map<std::string, std::string> imageOf;  ///< [group] the group whose image it is
+  std::map<std::string, std::string> imageOf;  ///< [image group] the group that it repeats
 
   /// Reads the options. Throws Error if an option is given without another one that it requires,
   /// for a reference node that nothing uses or that does not exist, for weights that do not fit the

@@ -48,7 +48,7 @@ struct Bodies {
 
 /// Collective. Assembles the matrices and loads of all bodies. Throws Error for materials and
 /// motions that do not suit the mesh, for an inverted element (the message names body and cell),
-/// for convective terms on a body whose place changes as its matter moves, and for reduced
+/// for convective terms on a body that does not keep its place as its matter moves, and for reduced
 /// integration of cells other than hex20. The couplings connect point masses with the bodies that
 /// carry them.
 Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
@@ -67,9 +67,9 @@ bool locks(double poisson);
 std::vector<PetscInt> linearCells(const mesh::Mesh& mesh, const Settings& settings);
 
 /// The contribution of one material group (a body, or a section of a body) to Bodies, on all nodal
-/// displacements. It consists of derivatives: of K, and of the part of C that is proportional to K,
-/// with respect to a factor on the moduli of the group; of all others with respect to a factor on
-/// its density.
+/// displacements. The members are derivatives. K, and the part of C that is proportional to K, are
+/// differentiated with respect to a factor on the moduli of the group, all other quantities with
+/// respect to a factor on its density.
 struct MaterialPart {
   OwnedMat stiffness, mass;  ///< without grounded springs
   OwnedMat gyroscopic,

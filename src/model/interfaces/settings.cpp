@@ -54,10 +54,11 @@ const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveName
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance at which the program pairs two faces if the two "
                               "meshes do not match; 0 = automatic (half the size of each face)");
-const FlagOption separationOption("contact", "contact_<interface>_separation", true,
-                                  "whether the two sides can separate; off: they stay together "
-                                  "even under tension; where a node with friction is under "
-                                  "tension, the point of the sweep fails");
+const FlagOption separationOption(
+    "contact", "contact_<interface>_separation", true,
+    "whether the two sides can separate; off: they stay together "
+    "even under tension, but a point of the sweep fails if a node with "
+    "friction comes under tension");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");

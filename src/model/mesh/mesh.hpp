@@ -223,8 +223,8 @@ struct InterfaceRequest {
   GroupRequest pad, disc;  ///< an empty name of the disc means a rigid obstacle
   bool discIsSlave =
       false;  ///< the gaps are those of the nodes of the disc, even if the meshes match
-  /// If the interface has a compliant layer: the surfaces whose nodes get layer nodes. They are
-  /// those that may become its slave side, whose nodes have the gaps.
+  /// If the interface has a compliant layer: the surfaces that may become its slave side, the side
+  /// of the gaps. Their nodes get layer nodes.
   std::vector<std::string> layered = {};
 };
 

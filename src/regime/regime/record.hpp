@@ -71,8 +71,8 @@ class CyclePeaks {
 /// Records a time integration, step by step.
 class Recorder {
  public:
-  /// The motion starts on a mode u e^{st}, whose period defines the cycles. The first event of this
-  /// mode occurs at the kinetic energy `linearTo`, J.
+  /// The motion starts on a mode u e^{st}, whose period defines the cycles. A node first separates,
+  /// sticks or slides (march/onset.hpp) at the kinetic energy `linearTo`, J.
   Recorder(const ReducedModel& model, Complex s, double step, double linearTo);
   void inspect(const Scheme& scheme);
   /// Returns true if a window has ended since the last call.

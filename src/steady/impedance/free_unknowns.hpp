@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The responses to released unknowns, and the inverses of the stiffness of those that are free.
+/// Responses to unit values of the released unknowns, and inverses of the stiffness of free ones.
 #include <memory>
 #include <span>
 #include <unordered_map>
@@ -18,29 +18,30 @@ class FreeUnknowns {
  public:
   /// Collective. Borrows the impedance during the lifetime of the object.
   explicit FreeUnknowns(const Impedance& impedance);
-  /// Collective. Computes the columns of these unknowns, [released unknown], that are not yet
-  /// known.
+  /// Collective. Computes the columns of the unknowns flagged in `free`, [released unknown], unless
+  /// they are known.
   void compute(std::span<const unsigned char> free);
   /// Returns Z (0, e), [n + m]×[known column].
   const linalg::DenseMatrix& columns() const { return columns_; }
   /// Returns the index of the column of a released unknown of this rank; −1 if it is not known.
   PetscInt placeOf(PetscInt unknown) const;
   /// Collective. Returns the block of these free unknowns, whose columns must be known, and makes
-  /// it the newest. A new block is not ready until makeReady() is called. `direct` may be null.
+  /// it the newest. A new block is not ready until makeReady() is called. `direct` is the
+  /// matrix of Impedance::directFriction(), or null.
   std::shared_ptr<FreeBlock> blockOf(const std::vector<unsigned char>& free, Mat direct);
   /// Collective. Computes the inverses of those blocks that are not ready.
   void makeReady(const std::vector<std::shared_ptr<FreeBlock>>& blocks);
   /// Returns the blocks in use, the newest first.
   const std::vector<std::shared_ptr<FreeBlock>>& blocks() const { return blocks_; }
-  /// Collective. Returns the values of the free unknowns, [known column], that make F = 0 in their
-  /// rows; each rank has all of them.
+  /// Collective. Returns, on all ranks, the values of the free unknowns, [known column], for which
+  /// the forces in their rows vanish.
   linalg::DenseMatrix released(const FreeBlock& block, const linalg::DenseView& effects) const;
   /// Collective. Does the same for the columns [first, last) of `effects`, which has one column per
-  /// friction magnitude, without direct effects. Its columns must never change once they have been
-  /// used, because blocks with the same base share results.
+  /// friction magnitude, without the forces of Impedance::directFriction(). A column must not
+  /// change once it has been used, because blocks with the same base share results.
   linalg::DenseMatrix released(FreeBlock& block, const linalg::DenseView& effects, PetscInt first,
                                PetscInt last) const;
-  /// The largest number of bytes on all ranks for inverses, unless a single one needs more.
+  /// Limit on the memory of all inverses, bytes, summed over the ranks; a single one may exceed it.
   static double mostBytes(MPI_Comm comm);
 
  private:
