@@ -24,9 +24,6 @@ namespace {
 
 using linalg::DenseMatrix;
 
-/// The top of the region lies in a gap of the eigenvalues up to this part above the top of the
-/// band.
-constexpr double above = 0.08;
 /// The bounds hold for |s| up to this multiple of the top of the band. The circles of enclose()
 /// have radii of up to 0.9 in the plane of z = (s / 1.04 top)², and |s| reaches 1.47 on them.
 constexpr double reach = 1.5;

@@ -10,6 +10,10 @@
 
 namespace squeal::completeness {
 
+/// The top of the region of a proof lies in a gap of the eigenvalues between the top of the band
+/// and (1 + above) times this top: placedTop(…, (1 + above / 2) · top, above / (2 + above)).
+inline constexpr double above = 0.08;
+
 /// Not collective. Sets the radii of the listed eigenvalues, and in ComplexModes::completeness
 /// what is missing, spurious or undecided. Completeness::proved must be set. `discs` are the
 /// enclosures of all eigenvalues of the reduced problem in the region. `band` has the largest

@@ -97,9 +97,6 @@ bool hasDenseTerm(const pencil::Pencil& pencil) {
   return false;
 }
 
-/// The top of the region lies in a gap of the eigenvalues up to this part above the band.
-constexpr double above = 0.08;
-
 /// Collective. Returns the problem of a point on its own basis; none, with the reason, if that
 /// fails.
 std::optional<referee::BoundedProblem> boundedProblem(const SweepProblem& problem,
@@ -118,7 +115,7 @@ std::optional<referee::BoundedProblem> boundedProblem(const SweepProblem& proble
         unknownsOf(problem, problem.ranges[point.range], reduced.basis().localRows());
     const auto pencil = sumsOf(terms, at, unknowns);
     return referee::bounded({pencil, at, vectorsOf(reduced, point.problem, unknowns)},
-                            (1 + above / 2) * point.list->bandTop, modes,
+                            (1 + completeness::above / 2) * point.list->bandTop, modes,
                             {"proof", sweep::parameterText(at) + ": "});
   } catch (const Error& error) {
     found.reason = error.what();
@@ -136,7 +133,7 @@ void judgeList(const referee::BoundedProblem& problem, const pencil::WatchedBand
     const auto judged = referee::judge(
         problem, list,
         {.top = problem.wanted,
-         .within = above / (2 + above),
+         .within = completeness::above / (2 + completeness::above),
          .tolerance = point.tolerance,
          .discs = discs,
          .remedies = {
@@ -179,7 +176,9 @@ void proveSingly(const SweepProblem& problem, const reduction::ReducedProblem& r
       if (own) judgeList(*own, reduced.band(), discs, *lists[i]);
     });
     completeness::share(comm, lists);
-    for (const auto* list : lists) stage.finish(completenessText(*list));
+    for (const auto* list : lists)
+      if (list != lists.back()) stage.printLine(completenessText(*list));
+    stage.finish(completenessText(*lists.back()));
   }
 }
 
