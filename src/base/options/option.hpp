@@ -23,7 +23,7 @@ std::size_t stageRank(const std::string& stage);
 class Option {
  public:
   const std::string stage, name, defaultText, unit, meaning, rule;
-  const bool required;  ///< there is no default: reading the option throws Error unless it is given
+  const bool required;  ///< without a default: reading the option throws Error unless it is given
 
   /// Returns the full name, without dash, with `subject` in place of the placeholder.
   std::string fullName(const std::string& subject = {}) const;

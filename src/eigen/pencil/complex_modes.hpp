@@ -22,7 +22,7 @@ enum class Verdict {
   stable,      ///< the excess is negative, beyond the error
   undecided,   ///< the magnitude of the excess is within the error
   neutral,     ///< by a symmetry of the problem, the eigenvalue lies on the imaginary axis
-  uncertified  ///< there is no error estimate
+  uncertified  ///< its error is not estimated
 };
 /// All verdicts in the order of the enumeration.
 inline constexpr std::array allVerdicts{Verdict::unstable, Verdict::stable, Verdict::undecided,

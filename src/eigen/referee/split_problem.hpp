@@ -14,7 +14,7 @@ namespace squeal::referee {
 /// and K_a. The handle of a zero matrix is null.
 class SplitProblem {
  public:
-  /// Collective. Splits the matrices of the point. Throws Error if there is no mass or stiffness,
+  /// Collective. Splits the matrices of the point. Throws Error without a mass or a stiffness,
   /// or if the symmetric part of the mass, without its rows of zeros, is not positive definite.
   SplitProblem(const pencil::Pencil& pencil, const sweep::Parameters& at);
   Mat symmetric(int power) const { return parts_[power][0]; }
