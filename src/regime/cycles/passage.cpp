@@ -34,8 +34,7 @@ class Meter {
       if (rests) rested_[node] = 1;
       if (open == at.pressed() || (!open && at.hasFriction() && rests != at.sticks()))
         measures_.linear = false;
-      normal_ += state.force[row];
-      if (!at.sticks()) along_ -= state.force[row + 1];
+      if (at.slides()) normal_ += state.force[row], along_ -= state.force[row + 1];
     }
     measures_.largestKinetic = std::max(measures_.largestKinetic, state.kinetic);
     if (++steps_ == 1 || sticking < fewest_) fewest_ = sticking, quietest_ = steps_;

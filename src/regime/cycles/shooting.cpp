@@ -64,6 +64,7 @@ std::vector<double> Linearisation::phase(const Period& period, const Orbit& at) 
   for (PetscInt i = 0; i < k; ++i) phase.push_back((next.q[i] - at.start.q[i]) * scale_[i]);
   for (PetscInt i = 0; i < k; ++i) phase.push_back(next.v[i] - at.start.v[i]);
   const double length = std::sqrt(march::dot(phase, phase));
+  if (!(length > 0)) throw Error("the motion is at rest at the start of a period");
   for (double& entry : phase) entry /= length;
   phase.resize(scale_.size(), 0.0);
   return phase;

@@ -43,6 +43,7 @@ struct Node {
   bool pressed() const { return normalForce > 0; }
   bool hasFriction() const { return friction > 0 || lawCoefficient > 0; }
   bool sticks() const { return velocity[0] == 0 && velocity[1] == 0; }
+  bool slides() const { return hasFriction() && !sticks(); }
 };
 
 struct ReducedModel {

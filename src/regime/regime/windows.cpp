@@ -49,8 +49,7 @@ void WindowRecorder::inspectNode(std::size_t i, const Scheme& scheme) {
   means.largestGap = std::max(means.largestGap, node.gap + state.jump[row]);
   means.power += heat;
   all.frictionPower += heat;
-  normalSum_ += normal;
-  if (!node.sticks()) alongSum_ -= state.force[row + 1];
+  if (node.slides()) normalSum_ += normal, alongSum_ -= state.force[row + 1];
   window_.largestJump = std::max(window_.largestJump, std::abs(state.jump[row]));
   window_.largestVelocity = std::max(window_.largestVelocity, std::sqrt(change));
 }

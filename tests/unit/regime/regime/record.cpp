@@ -29,15 +29,14 @@ march::ReducedModel oneNode() {
   return model;
 }
 
-/// A motion whose velocity has a given amplitude, and whose node is open for a quarter of each
+/// A motion whose velocity has a given amplitude, and whose nodes are open for a quarter of each
 /// period where the kinetic energy passes that of the onset.
 class ByHand : public march::Scheme {
  public:
   ByHand(const march::ReducedModel& model, std::function<double(double)> amplitude)
-      : Scheme(model), amplitude_(std::move(amplitude)) {
-    stiffness_ = {1};
-    increments_ = {0, 0};
-    state_.jump = {0, 0};
+      : Scheme(model), nodes_(model.nodes.size()), amplitude_(std::move(amplitude)) {
+    stiffness_.assign(nodes_, 1);
+    increments_ = state_.jump = ofEach(0, 0);
     state_.v = {0};
   }
   void step() override {
@@ -46,17 +45,23 @@ class ByHand : public march::Scheme {
     state_.v[0] = a * std::cos(phase);
     state_.kinetic = state_.v[0] * state_.v[0] / 2;
     const bool open = a * a / 2 > onset && std::sin(phase) > std::sqrt(0.5);
-    state_.force = open ? std::vector<double>{0, 0} : std::vector<double>{2, -1};
-    increments_ = open ? std::vector<double>{1, 1} : std::vector<double>{0, 1};
+    state_.force = open ? ofEach(0, 0) : ofEach(2, -1);
+    increments_ = open ? ofEach(1, 1) : ofEach(0, 1);
   }
   double energy() const override { return 0; }
 
  private:
+  std::vector<double> ofEach(double normal, double tangential) const {
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < nodes_; ++i) rows.insert(rows.end(), {normal, tangential});
+    return rows;
+  }
+  std::size_t nodes_;
   std::function<double(double)> amplitude_;
 };
 
-regime::Regime recorded(const std::function<double(double)>& amplitude, double time) {
-  const auto model = oneNode();
+regime::Regime recorded(const std::function<double(double)>& amplitude, double time,
+                        march::ReducedModel model = oneNode()) {
   ByHand motion(model, amplitude);
   regime::Recorder recorder(model, mode, timeStep, onset);
   while (motion.state().time < time) {
@@ -102,6 +107,16 @@ TEST(Recorder, EqualCyclesArePeriodic) {
   EXPECT_NEAR(regime.means.frictionPower, 0.75, 0.02);
   EXPECT_NEAR(regime.means.frictionCoefficient, 0.5, 1e-12);
   EXPECT_NEAR(regime.largestKinetic, 2, 0.01);
+}
+
+// A second node, of an interface that sticks, carries the same forces.
+TEST(Recorder, OnlySlidingNodesHaveACoefficient) {
+  auto model = oneNode();
+  model.nodes.push_back(model.nodes[0]);
+  model.nodes[1].velocity = {0, 0};
+  model.moves = {1, 1, 1, 1};
+  const auto regime = recorded([](double) { return 2.0; }, 1, model);
+  EXPECT_NEAR(regime.means.frictionCoefficient, 0.5, 1e-12);
 }
 
 TEST(Recorder, BeatsAreModulated) {
