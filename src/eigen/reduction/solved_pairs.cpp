@@ -11,8 +11,9 @@ void SolvedPairs::store(const std::vector<PointState>& states, PetscInt basisSiz
   const int rank = mpi::rank(comm_), ranks = mpi::size(comm_);
   for (const auto& state : states) {
     const auto& [band, guard, improved] = state.solution.spectrum;
-    bytes_ += 2.0 * sizeof(Complex) * basisSize * (band.size() + guard.size());
-    if (bytes_ > most) return;
+    const double bytes = 2.0 * sizeof(Complex) * basisSize * (band.size() + guard.size());
+    if (bytes_ + bytes > most) continue;
+    bytes_ += bytes;
     Entry& entry = entries_.emplace_back(Entry{.at = state.point->at,
                                                .set = state.point->set,
                                                .owner = int(entries_.size()) % ranks,

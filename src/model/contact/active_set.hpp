@@ -14,12 +14,12 @@ using Mask = std::vector<unsigned char>;
 /// The closed contact nodes, and the sticking nodes that are released and may slide.
 struct ActiveSet {
   Mask closed;
-  Mask released;  ///< empty: none
+  Mask released;
 
   /// Returns the set with all nodes closed and none released.
   static ActiveSet bonded(std::size_t nodes) { return {Mask(nodes, 1), Mask(nodes, 0)}; }
   /// Returns the set with all gaps open and none released.
-  static ActiveSet open(std::size_t nodes) { return {Mask(nodes, 0), {}}; }
+  static ActiveSet open(std::size_t nodes) { return {Mask(nodes, 0), Mask(nodes, 0)}; }
 
   bool operator==(const ActiveSet&) const = default;
 };

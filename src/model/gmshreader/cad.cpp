@@ -110,7 +110,8 @@ void cut(std::vector<Entity>& solids, std::vector<Entity>& faces, const Warn& wa
 }
 
 /// Makes the physical groups.
-void makeGroups(const std::vector<Entity>& solids, const std::vector<Entity>& faces) {
+void makeGroups(const std::string& file, const std::vector<Entity>& solids,
+                const std::vector<Entity>& faces) {
   std::set<std::string> taken;  // a group of solids hides one of faces
   for (const auto* entities : {&solids, &faces}) {
     std::map<std::string, int> count;
@@ -122,8 +123,13 @@ void makeGroups(const std::vector<Entity>& solids, const std::vector<Entity>& fa
         groups[name].insert(entity.pieces.begin(), entity.pieces.end());
       };
       if (labelled) add(entity.label);
-      if (!labelled || count[entity.label] > 1)
-        add((entity.dimension == 3 ? "solid_" : "face_") + std::to_string(entity.number));
+      if (labelled && count[entity.label] == 1) continue;
+      const auto own = (entity.dimension == 3 ? "solid_" : "face_") + std::to_string(entity.number);
+      if (count.contains(own) || taken.contains(own))
+        throw Error("option -mesh_file " + file + ": another part or face has the name '" + own +
+                    "', which the program gives to number " + std::to_string(entity.number) +
+                    "; rename it in the shape");
+      add(own);
     }
     for (const auto& [name, tags] : groups) {
       const int dimension = entities == &solids ? 3 : 2;
@@ -147,7 +153,7 @@ void importShape(const std::string& file, const meshfile::ShapeMesh& mesh, const
     throw Error("option -mesh_file " + file + ": there is no solid in the shape, only " +
                 std::to_string(faces.size()) + " faces; a .geo can merge it and make volumes");
   if (solids.size() > 1) cut(solids, faces, warn);
-  makeGroups(solids, faces);
+  makeGroups(file, solids, faces);
   if (mesh.size > 0) {
     gmsh::option::setNumber("Mesh.MeshSizeMin", mesh.size);
     gmsh::option::setNumber("Mesh.MeshSizeMax", mesh.size);

@@ -176,10 +176,9 @@ void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, 
     if (options.isTied() != (role == Role::tied)) continue;
     const auto [loss, areas, bonded, ties] = lossOf(mesh, exchange, all, i, owners);
     if (bonded > 0 && all.reports[i].nodes == 0)
-      throw Error(formatted("%s: all %" PetscInt_FMT
-                            " nodes of '%s' are bonded to what they touch, by %s; remove one of "
-                            "the two",
-                            options.label().c_str(), bonded, all.slaves[i].surface.c_str(),
+      throw Error(formatted("%s: no node of '%s' is left: %" PetscInt_FMT
+                            " are bonded to what they touch, by %s; remove one of the two",
+                            options.label().c_str(), all.slaves[i].surface.c_str(), bonded,
                             joined(ties, " and ").c_str()));
     all.reports[i].bonded = bonded;
     if (loss.nodes == 0) continue;

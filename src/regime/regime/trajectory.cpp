@@ -71,8 +71,8 @@ std::vector<Trajectory> trajectories(MPI_Comm comm, const ReducedModel& model,
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const int root = rankOf(comm, i);
     mpi::broadcast(comm, tasks[i].failure, root);
-    if (!tasks[i].failure.empty()) continue;
     broadcast(comm, all[i].regime, root);
+    if (!tasks[i].failure.empty()) continue;
     broadcast(comm, all[i].passes, root);
   }
   return all;

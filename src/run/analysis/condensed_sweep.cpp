@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t largestBatch = 16;
 
 std::string endText(const condensed::ContactPath& path) {
-  constexpr int digits = 9;  // the path locates events to 1e-8
+  constexpr int digits = 9;  // digits that identify an event; the path locates it more accurately
   return sweep::parameterText(path.end, digits) + ": " + path.obstacle;
 }
 

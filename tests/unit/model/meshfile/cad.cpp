@@ -157,6 +157,17 @@ Mesh.MeshSizeMax = 20;
   EXPECT_NEAR(test::areaVectors(mesh).at("bottom")[2], -1e4, 1e-6);
 }
 
+// The label of one face is the name that the program gives to another.
+TEST(Cad, NumbersMustNotBeLabelsOfOthers) {
+  const auto path = test::plateAndBlock("taken.step");
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  const auto taken = test::writeFile(
+      "face_3.step", std::regex_replace(text.str(), std::regex("'bottom'"), "'face_3'"));
+  test::expectMessage(test::messageOfMesh(taken, materials),
+                      {"-mesh_file", "'face_3'", "number 3", "rename"});
+}
+
 TEST(Cad, ErrorsSayWhatIsThere) {
   const auto file = test::plateAndBlock("errors.step");
   const auto message = [](const std::string& of, const std::string& more) {
