@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 
+#include "algebra/linalg/complexdense.hpp"
 #include "algebra/linalg/lu.hpp"
 
 namespace squeal::linalg {
@@ -285,6 +286,36 @@ Complex Spectrum::product(std::size_t i, const DensePair& pair) const {
 
 Complex Spectrum::overlap(std::size_t i, const Spectrum& other, std::size_t j) const {
   return product(i, other.pairs_[j]) * other.product(j, pairs_[i]) / (own_[i] * other.own_[j]);
+}
+
+/// Returns product(i, pair j) for all pairs of both.
+ComplexMatrix Spectrum::products(const std::vector<DensePair>& pairs) const {
+  if (pairs_.empty() || pairs.empty()) return ComplexMatrix(pairs_.size(), pairs.size());
+  const std::size_t parts = linear_ ? 1 : 2, half = rows_[0].size() / parts,
+                    m = std::min(pairs[0].q.size(), half);
+  ComplexMatrix vectors(m);
+  for (const auto& pair : pairs) vectors.append(std::span(pair.q).first(m));
+  const auto times = [&](std::size_t begin) {
+    ComplexMatrix rows(m);
+    for (const auto& row : rows_) rows.append(std::span(row).subspan(begin, m));
+    return adjointProduct(rows, vectors);
+  };
+  ComplexMatrix result = times(0);
+  if (linear_) return result;
+  const ComplexMatrix rest = times(half);
+  for (std::size_t j = 0; j < pairs.size(); ++j)
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+      result(i, j) = pairs[j].s * result(i, j) + rest(i, j);
+  return result;
+}
+
+ComplexMatrix Spectrum::overlaps(const Spectrum& other) const {
+  ComplexMatrix result = products(other.pairs_);
+  const ComplexMatrix back = other.products(pairs_);
+  for (std::size_t j = 0; j < other.own_.size(); ++j)
+    for (std::size_t i = 0; i < own_.size(); ++i)
+      result(i, j) *= back(j, i) / (own_[i] * other.own_[j]);
+  return result;
 }
 
 }  // namespace squeal::linalg

@@ -46,9 +46,12 @@ class Spectrum {
   /// over all i of one group and all j of another is the dimension of the subspace that the two
   /// groups share.
   Complex overlap(std::size_t i, const Spectrum& other, std::size_t j) const;
+  /// Returns all overlaps, pairs × pairs of `other`.
+  ComplexMatrix overlaps(const Spectrum& other) const;
 
  private:
   Complex product(std::size_t i, const DensePair& pair) const;
+  ComplexMatrix products(const std::vector<DensePair>& pairs) const;
   std::vector<DensePair> pairs_;
   bool linear_;                             // true if the problem is linear in s²
   std::vector<std::vector<Complex>> rows_;  // [pair]: Mᵀ y, then (s M + Z)ᴴ y

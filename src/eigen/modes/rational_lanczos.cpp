@@ -50,6 +50,8 @@ void RationalLanczos::expand(const Pole& pole) {
     std::ranges::copy(columnRange(known, k).entries(), w_.data());
     massTimesW();
   }
+  massOfLast_[0] = std::move(massOfLast_[1]);
+  massOfLast_[1] = mw_;
   solve(pole);
   // In exact arithmetic, W has components only along the last two blocks, except in the first two
   // steps with a pole.
@@ -162,15 +164,23 @@ DenseMatrix RationalLanczos::timesMassTimesW(const DenseView& x) const {
   return linalg::transposedProduct(comm_, x, mw_);
 }
 
-/// Replaces W by W − X (Xᵀ M W) for the columns X of V from `first` on, and adds the coefficients
-/// to the rows of `sum`, k × b, from `first` on. M W is unchanged.
-void RationalLanczos::subtract(PetscInt first, DenseMatrix& sum) {
+/// Replaces W by W − V (Vᵀ M W) and adds the coefficients to `sum`, k × b. M W is unchanged.
+void RationalLanczos::subtract(DenseMatrix& sum) {
   massTimesW();
-  const DenseView x = columnRange(first, size_);
-  const DenseMatrix h = timesMassTimesW(x);
-  linalg::multiplyAdd(x, h, w_, -1);
-  for (PetscInt j = 0; j < width_; ++j)
-    for (PetscInt i = 0; i < h.rows(); ++i) sum(first + i, j) += h(i, j);
+  const DenseMatrix h = timesMassTimesW(columnRange(0, size_));
+  linalg::multiplyAdd(columnRange(0, size_), h, w_, -1);
+  linalg::addScaled(sum, 1, h);
+}
+
+/// Does the same for the last two blocks of V only, from M times these blocks.
+void RationalLanczos::subtractLastTwo(DenseMatrix& sum) {
+  for (const PetscInt back : {2, 1}) {
+    const PetscInt first = size_ - back * width_;
+    const DenseMatrix h = linalg::transposedProduct(comm_, massOfLast_[2 - back], w_);
+    linalg::multiplyAdd(columnRange(first, first + width_), h, w_, -1);
+    for (PetscInt j = 0; j < width_; ++j)
+      for (PetscInt i = 0; i < width_; ++i) sum(first + i, j) += h(i, j);
+  }
 }
 
 /// Makes W M-orthogonal to V and returns the summed coefficients, k × b. Two passes run over all of
@@ -178,8 +188,8 @@ void RationalLanczos::subtract(PetscInt first, DenseMatrix& sum) {
 /// limited to these.
 DenseMatrix RationalLanczos::orthogonalise(bool recurrence) {
   DenseMatrix sum(size_, width_);
-  subtract(recurrence ? std::max<PetscInt>(0, size_ - 2 * width_) : 0, sum);
-  subtract(0, sum);
+  recurrence ? subtractLastTwo(sum) : subtract(sum);
+  subtract(sum);
   return sum;
 }
 
@@ -218,7 +228,7 @@ void RationalLanczos::orthonormalise(double size) {
     } else if (pass == 0 && d.front() < 1e-8 * largest) {
       // Scaling up the small directions has amplified the remaining components along V.
       DenseMatrix rest(size_, width_);
-      subtract(0, rest);
+      subtract(rest);
     } else if (pass > 0) {
       mw_ = linalg::product(mw_, down);
       massIsOfLast_ = true;

@@ -2,6 +2,7 @@
 #pragma once
 /// Rational block Lanczos: a basis from solves with several shifted matrices (Ruhe 1984, 1998;
 /// Grimes, Lewis and Simon 1994).
+#include <array>
 #include <functional>
 #include <random>
 #include <vector>
@@ -67,7 +68,8 @@ class RationalLanczos {
   void massTimesW();
   void solve(const Pole& pole);
   linalg::DenseMatrix timesMassTimesW(const linalg::DenseView& x) const;
-  void subtract(PetscInt first, linalg::DenseMatrix& sum);
+  void subtract(linalg::DenseMatrix& sum);
+  void subtractLastTwo(linalg::DenseMatrix& sum);
   linalg::DenseMatrix orthogonalise(bool recurrence);
   void orthonormalise(double size);
   void refill(const std::vector<bool>& lost);
@@ -79,13 +81,14 @@ class RationalLanczos {
   MPI_Comm comm_;
   PetscInt width_, limit_ = 0, rows_ = 0, unknowns_ = 0, size_ = 0;  // width_ is b
   int solves_ = 0;
-  PetscScalar* columns_ = nullptr;  // of V
-  int sinceChange_ = 0;             // steps since the last restart or change of the pole
-  double distance_ = 0;             // of the last pole
-  bool massIsOfLast_ = false;       // M W is M times the last block
-  linalg::Block w_, mw_;            // W and M W
-  std::vector<bool> foreign_;       // [column of A] true: from a step with a pole other than σ0
-  linalg::DenseMatrix a_, b_, r_;   // A, B and the last R
+  PetscScalar* columns_ = nullptr;           // of V
+  int sinceChange_ = 0;                      // steps since the last restart or change of the pole
+  double distance_ = 0;                      // of the last pole
+  bool massIsOfLast_ = false;                // M W is M times the last block
+  linalg::Block w_, mw_;                     // W and M W
+  std::array<linalg::Block, 2> massOfLast_;  // M times the last two blocks of V
+  std::vector<bool> foreign_;      // [column of A] true: from a step with a pole other than σ0
+  linalg::DenseMatrix a_, b_, r_;  // A, B and the last R
   std::mt19937 random_;
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };

@@ -42,9 +42,9 @@ bool counted(const linalg::DenseProblem& problem, Complex s) {
 /// Returns true if |Σ tr(Π_i Π_j) − number| over all pairs of both, with the number of pairs of
 /// `a`, is at most 0.5. Returns false also if the sum is unknown.
 bool shared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
+  const linalg::ComplexMatrix overlaps = a.overlaps(b);
   Complex sum = 0;
-  for (std::size_t i = 0; i < a.pairs().size(); ++i)
-    for (std::size_t j = 0; j < b.pairs().size(); ++j) sum += a.overlap(i, b, j);
+  for (const Complex overlap : overlaps.entries()) sum += overlap;
   return std::abs(sum - a.pairs().size()) <= 0.5;  // false for NaN
 }
 
@@ -66,10 +66,11 @@ std::optional<linalg::Spectrum> locally(const linalg::DenseProblem& problem,
 /// Returns the indices of the pairs of `all` with the largest overlap with `from`, as many as
 /// `from` has.
 std::vector<std::size_t> closest(const linalg::Spectrum& from, const linalg::Spectrum& all) {
+  const linalg::ComplexMatrix overlaps = from.overlaps(all);
   std::vector<std::pair<double, std::size_t>> shares;
   for (std::size_t j = 0; j < all.pairs().size(); ++j) {
     Complex sum = 0;
-    for (std::size_t i = 0; i < from.pairs().size(); ++i) sum += from.overlap(i, all, j);
+    for (const Complex overlap : overlaps.column(j)) sum += overlap;
     shares.emplace_back(std::isnan(sum.real()) ? INFINITY : -sum.real(), j);
   }
   std::sort(shares.begin(), shares.end());
@@ -168,15 +169,12 @@ bool coincide(const std::vector<linalg::DensePair>& pairs) {
 
 std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& there) {
   const std::size_t n = here.pairs().size(), all = n + there.pairs().size();
-  std::vector<Complex> overlaps(n * (all - n));
+  const linalg::ComplexMatrix overlaps = here.overlaps(there);
   std::vector<std::size_t> parent(all);
   std::iota(parent.begin(), parent.end(), 0);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = n; j < all; ++j) {
-      overlaps[i * (all - n) + j - n] = here.overlap(i, there, j - n);
-      if (std::abs(overlaps[i * (all - n) + j - n]) > reach)
-        parent[rootOf(parent, i)] = rootOf(parent, j);
-    }
+    for (std::size_t j = n; j < all; ++j)
+      if (std::abs(overlaps(i, j - n)) > reach) parent[rootOf(parent, i)] = rootOf(parent, j);
   std::vector<Group> found(all);
   for (std::size_t k = 0; k < all; ++k) {
     Group& group = found[rootOf(parent, k)];
@@ -187,7 +185,7 @@ std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& 
   for (auto& group : found) {
     Complex sum = 0;
     for (const auto i : group.here)
-      for (const auto j : group.there) sum += overlaps[i * (all - n) + j];
+      for (const auto j : group.there) sum += overlaps(i, j);
     group.share = std::abs(sum - group.here.size());
   }
   return found;

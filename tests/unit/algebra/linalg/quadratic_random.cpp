@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Dense quadratic problems of random matrices: sums of powers of all eigenvalues, left vectors, and
-// the time that a large problem takes.
+// Dense quadratic problems of random matrices: sums of powers of all eigenvalues, left vectors,
+// overlaps, and the time that a large problem takes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <random>
 
 #include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/rayleigh_ritz.hpp"
 #include "algebra/linalg/spread.hpp"
 #include "support/algebra/dense.hpp"
 #include "support/algebra/quadratic.hpp"
@@ -46,6 +47,48 @@ TEST(Quadratic, LeftVectors) {
       EXPECT_LT(test::worstResidual(problem, pairs), 1e-13);
       EXPECT_LT(test::worstLeftResidual(problem, pairs), 1e-13);
     }
+}
+
+/// Returns the problem in one more unknown that is coupled weakly to the others.
+DenseProblem enlarged(const DenseProblem& problem) {
+  const PetscInt m = problem.order();
+  DenseProblem result;
+  for (const auto matrix :
+       {&DenseProblem::mass, &DenseProblem::damping, &DenseProblem::stiffness}) {
+    if ((problem.*matrix).empty()) continue;
+    DenseMatrix& large = result.*matrix;
+    large = DenseMatrix(m + 1, m + 1);
+    linalg::addExtended(large, 1, problem.*matrix);
+    large(m, m) = 30;
+    large(m, 0) = large(0, m) = 0.1;
+  }
+  return result;
+}
+
+// The projectors of one problem are disjoint. All overlaps together, also with a problem of a
+// larger basis, are those of single pairs.
+TEST(Spectrum, AllOverlaps) {
+  constexpr PetscInt m = 12;
+  std::mt19937 generator(7);
+  const DenseMatrix mass = randomMatrix(m, m, generator, 3.0 * m),
+                    damping = randomMatrix(m, m, generator, 0.3),
+                    stiffness = randomMatrix(m, m, generator, 4.0 * m);
+  for (const auto& z : {damping, DenseMatrix()}) {
+    const DenseProblem problem{mass, z, stiffness}, larger = enlarged(problem);
+    const linalg::Spectrum small(problem, solveQuadratic(problem, linalg::Vectors::both)),
+        large(larger, solveQuadratic(larger, linalg::Vectors::both));
+    const auto own = small.overlaps(small);
+    for (PetscInt j = 0; j < own.columns(); ++j)
+      for (PetscInt i = 0; i < own.rows(); ++i)
+        EXPECT_NEAR(std::abs(own(i, j) - Complex(i == j)), 0, 1e-11) << i << ' ' << j;
+    for (const auto& [from, to] : {std::pair(&small, &large), std::pair(&large, &small)}) {
+      const auto all = from->overlaps(*to);
+      ASSERT_EQ(all.columns(), std::ssize(to->pairs()));
+      for (PetscInt j = 0; j < all.columns(); ++j)
+        for (PetscInt i = 0; i < all.rows(); ++i)
+          EXPECT_NEAR(std::abs(all(i, j) - from->overlap(i, *to, j)), 0, 1e-12);
+    }
+  }
 }
 
 double trace(const DenseMatrix& a) {
