@@ -19,22 +19,6 @@ DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView
   return result;
 }
 
-DenseMatrix symmetricProduct(MPI_Comm comm, const DenseView& x, const DenseView& y) {
-  constexpr PetscInt panel = 256;  // wide enough for fast products
-  const LoggedWork work(Work::innerProduct);
-  const PetscInt size = x.columns();
-  DenseMatrix result(size, size);
-  for (PetscInt first = 0; first < size; first += panel) {
-    const PetscInt last = std::min(first + panel, size);
-    LoggedWork::addOperations(2.0 * x.rows() * last * (last - first));
-    const DenseMatrix part = transposedProduct(x.columnRange(0, last), y.columnRange(first, last));
-    for (PetscInt j = first; j < last; ++j)
-      for (PetscInt i = 0; i <= j; ++i) result(i, j) = result(j, i) = part(i, j - first);
-  }
-  mpi::sumAlike(comm, result.entries());  // later decisions must not depend on the rank
-  return result;
-}
-
 double length(MPI_Comm comm, std::span<const double> column) {
   const DenseView view(column.data(), std::ssize(column), 1);
   return std::sqrt(transposedProduct(comm, view, view)(0, 0));

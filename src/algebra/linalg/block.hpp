@@ -24,9 +24,6 @@ OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block);
 /// Collective. Returns Xᵀ Y, the same on all ranks. X and Y contain this rank's rows.
 DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView& y);
 
-/// Collective. Returns Xᵀ Y for X and Y whose product is symmetric, at half the cost.
-DenseMatrix symmetricProduct(MPI_Comm comm, const DenseView& x, const DenseView& y);
-
 /// Collective. Returns the 2-norm of a column, the same on all ranks. `column` contains this rank's
 /// rows.
 double length(MPI_Comm comm, std::span<const double> column);

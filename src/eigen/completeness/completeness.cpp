@@ -57,11 +57,6 @@ linalg::Block columnsOf(Mat rows) {
   return columns;
 }
 
-/// Collective. Returns FᵀK0⁻¹F of the interior rows of F.
-DenseMatrix flexibility(reduction::ReducedProblem& reduced, const linalg::Block& forces) {
-  return linalg::symmetricProduct(reduced.basis().comm(), reduced.responses(forces), forces);
-}
-
 /// Collective. Returns Vᵀ M K0⁻¹ M V with K0⁻¹ of the interior. The modes d need no solves, as K0⁻¹
 /// M d = d/λ.
 DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes& modes,
@@ -127,7 +122,7 @@ double errorOfModes(reduction::ReducedProblem& reduced, const modes::Modes& mode
   linalg::appendProduct(associated.assembled(2, {}), motions, forces);
   linalg::appendProduct(associated.assembled(0, {}), others, stiffness);
   linalg::addScaled(forces, -1, stiffness);
-  const DenseMatrix energy = flexibility(reduced, forces);
+  const DenseMatrix energy = reduced.flexibility(forces);
   double sum = 0;
   for (PetscInt j = 0; j < combinations; ++j) sum += energy(j, j);
   return 2 * std::sqrt(sum / combinations);
@@ -137,10 +132,10 @@ double errorOfModes(reduction::ReducedProblem& reduced, const modes::Modes& mode
 void proveList(const SetBounds& set, PointMatrices matrices, const Settings& settings,
                const pencil::WatchedBand& band, pencil::ComplexModes& point) {
   auto& found = *point.completeness;
-  const double wanted = (1 + above / 2) * point.bandTop;
+  const double wanted = wantedTop(point.bandTop);
   const auto bounds = pointBounds(set, std::move(matrices));
   const proof::DiagonalForm form(bounds.kept, wanted);
-  const proof::Region region{proof::placedTop(form.eigenvalues(), wanted, above / (2 + above))};
+  const proof::Region region{proof::placedTop(form.eigenvalues(), wanted, within)};
   const auto count = proof::proveCount(form, bounds.leftOut, region, settings.discs);
   found.proved = count.verdict == proof::Verdict::proved;
   found.count = static_cast<int>(count.count);
@@ -149,10 +144,7 @@ void proveList(const SetBounds& set, PointMatrices matrices, const Settings& set
   found.ratio = count.ratio;
   found.place = count.place;
   found.discs = static_cast<int>(count.discs);
-  found.reason = proof::reason(count, {.modes = "-modes_count",
-                                       .top = "-flutter_band",
-                                       .left = "",
-                                       .discs = "-flutter_proof_discs"});
+  found.reason = proof::reason(count, remedies("-modes_count"));
   judgeList(proof::enclose(form, bounds.leftOut, region, count), region, band, point);
 }
 
@@ -174,8 +166,8 @@ ProjectedFactors project(reduction::ReducedProblem& reduced, const FrictionFacto
   for (const auto& slip : factors.slip) result.slip.push_back(productWithBasis(basis, slip.rows));
   result.normal = productWithBasis(basis, factors.normal);
   result.inertia = productWithBasis(basis, factors.inertia);
-  result.ofNormal = flexibility(reduced, columnsOf(factors.normal));
-  result.ofInertia = flexibility(reduced, columnsOf(factors.inertia));
+  result.ofNormal = reduced.flexibility(columnsOf(factors.normal));
+  result.ofInertia = reduced.flexibility(columnsOf(factors.inertia));
   result.ofMass = massFlexibility(reduced, modes, lambda, mass);
   return result;
 }

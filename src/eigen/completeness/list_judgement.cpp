@@ -20,6 +20,10 @@ bool outsideBand(const pencil::WatchedBand& band, Complex s, double radius) {
 
 }  // namespace
 
+proof::Remedies remedies(const char* modes) {
+  return {.modes = modes, .top = "-flutter_band", .left = "", .discs = "-flutter_proof_discs"};
+}
+
 void judgeList(const std::vector<proof::Enclosure>& discs, const proof::Region& region,
                pencil::WatchedBand band, pencil::ComplexModes& point) {
   auto& found = *point.completeness;

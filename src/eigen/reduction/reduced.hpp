@@ -123,6 +123,10 @@ class ReducedProblem {
   linalg::DenseMatrix addResponses(linalg::Block forces);
   /// Collective. Returns K0⁻¹ F without changing the basis, with zeros at the boundary unknowns.
   linalg::Block responses(const linalg::Block& forces) { return basis_.basis().responses(forces); }
+  /// Collective. Returns FᵀK0⁻¹F, from the interior rows of F, without changing the basis.
+  linalg::DenseMatrix flexibility(const linalg::Block& forces) {
+    return basis_.basis().flexibility(forces);
+  }
   PetscInt basisSize() const { return basis().size(); }
   const Basis& basis() const { return basis_.basis(); }
   /// Returns the band that contains the bands of all sets. Its upper limit has two special

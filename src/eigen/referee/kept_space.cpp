@@ -188,7 +188,7 @@ ProjectedProblem KeptSpace::problem() {
     linalg::multiplyAdd(forces_, linalg::transposedProduct(comm, v_, rest), rest, -1);
     outside.append(rest);
   }
-  result.gram = flexibility(outside);
+  result.gram = basis_.flexibility(outside);
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     if (parts_[p].power != 2 || parts_[p].skew) continue;
     double sum = squaredNorm(parts_[p].onV, modes_, n, modes_);
@@ -197,23 +197,6 @@ ProjectedProblem KeptSpace::problem() {
       sum += std::max(result.gram(place, place), 0.0);
     }
     leak_ = std::sqrt(sum);
-  }
-  return result;
-}
-
-/// Collective. Returns FᵀK0⁻¹F, of which it computes one half.
-linalg::DenseMatrix KeptSpace::flexibility(const linalg::Block& forces) {
-  constexpr PetscInt atOnce = 256;  // limits the memory
-  const PetscInt size = forces.columns();
-  linalg::DenseMatrix result(size, size);
-  for (PetscInt first = 0; first < size; first += atOnce) {
-    const PetscInt last = std::min(first + atOnce, size);
-    const linalg::Block responses =
-        basis_.responses(linalg::Block(forces.columnRange(first, last)));
-    const linalg::DenseMatrix part =
-        linalg::transposedProduct(shifted_.system.comm(), forces.columnRange(0, last), responses);
-    for (PetscInt j = first; j < last; ++j)
-      for (PetscInt i = 0; i <= j; ++i) result(i, j) = result(j, i) = part(i, j - first);
   }
   return result;
 }

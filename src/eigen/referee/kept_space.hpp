@@ -66,7 +66,6 @@ class KeptSpace {
     linalg::DenseMatrix onV;  // Vᵀ A V
   };
   void measure();
-  linalg::DenseMatrix flexibility(const linalg::Block& forces);
   void appendLarge(const linalg::Block& parts, linalg::Block& residuals) const;
   linalg::DenseMatrix sum(int power) const;
 

@@ -163,6 +163,21 @@ linalg::Block Basis::responses(const linalg::Block& forces) {
   return prolonged(linalg::solved(solver_, some));
 }
 
+linalg::DenseMatrix Basis::flexibility(const linalg::Block& forces) {
+  constexpr PetscInt panel = 256;  // wide enough for fast products
+  const PetscInt size = forces.columns();
+  linalg::DenseMatrix result(size, size);
+  for (PetscInt first = 0; first < size; first += panel) {
+    const PetscInt last = std::min(first + panel, size);
+    const linalg::Block solved = responses(linalg::Block(forces.columnRange(first, last)));
+    const linalg::DenseMatrix part =
+        linalg::transposedProduct(comm_, forces.columnRange(0, last), solved);
+    for (PetscInt j = first; j < last; ++j)
+      for (PetscInt i = 0; i <= j; ++i) result(i, j) = result(j, i) = part(i, j - first);
+  }
+  return result;
+}
+
 PetscInt Basis::add(linalg::Block residuals) {
   const PetscInt before = size();
   addResponses(std::move(residuals));

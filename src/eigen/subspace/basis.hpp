@@ -63,6 +63,9 @@ class Basis {
   /// Collective. Returns K0⁻¹ times the interior rows of the columns, by a block solve. The result
   /// is zero at the boundary.
   linalg::Block responses(const linalg::Block& forces);
+  /// Collective. Returns FᵀK0⁻¹F, from the interior rows of F, the same on all ranks. It computes
+  /// one half, in panels of columns, which limits the memory.
+  linalg::DenseMatrix flexibility(const linalg::Block& forces);
   /// Collective. Replaces V by V · combinations. `combinations` is former size × new size and must
   /// have orthonormal columns.
   void combine(const linalg::DenseMatrix& combinations);

@@ -34,7 +34,7 @@ void ModeCount::sharpen(Basis& basis, Mat mass) {
   linalg::Block inertia(basis.localRows());
   basis.appendProducts(mass, 0, boundary, inertia);
   basis.clearBoundary(inertia);
-  rest_ = linalg::transposedProduct(basis.comm(), inertia, basis.responses(inertia));
+  rest_ = basis.flexibility(inertia);
   DenseMatrix scaled = modal_;
   for (PetscInt j = 0; j < boundary; ++j)
     for (PetscInt i = 0; i < scaled.rows(); ++i) scaled(i, j) /= lambda_[i];

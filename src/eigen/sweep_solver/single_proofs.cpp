@@ -115,7 +115,7 @@ std::optional<referee::BoundedProblem> boundedProblem(const SweepProblem& proble
         unknownsOf(problem, problem.ranges[point.range], reduced.basis().localRows());
     const auto pencil = sumsOf(terms, at, unknowns);
     return referee::bounded({pencil, at, vectorsOf(reduced, point.problem, unknowns)},
-                            (1 + completeness::above / 2) * point.list->bandTop, modes,
+                            completeness::wantedTop(point.list->bandTop), modes,
                             {"proof", sweep::parameterText(at) + ": "});
   } catch (const Error& error) {
     found.reason = error.what();
@@ -130,14 +130,12 @@ void judgeList(const referee::BoundedProblem& problem, const pencil::WatchedBand
   std::vector<Complex> list;
   for (const auto& e : point.eigenvalues) list.push_back(e.s);
   try {
-    const auto judged = referee::judge(
-        problem, list,
-        {.top = problem.wanted,
-         .within = completeness::above / (2 + completeness::above),
-         .tolerance = point.tolerance,
-         .discs = discs,
-         .remedies = {
-             .modes = "", .top = "-flutter_band", .left = "", .discs = "-flutter_proof_discs"}});
+    const auto judged = referee::judge(problem, list,
+                                       {.top = problem.wanted,
+                                        .within = completeness::within,
+                                        .tolerance = point.tolerance,
+                                        .discs = discs,
+                                        .remedies = completeness::remedies("")});
     found.proved = judged.proved();
     found.count = static_cast<int>(judged.count.count);
     found.top = judged.region.top;
