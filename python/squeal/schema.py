@@ -462,7 +462,7 @@ TABLES = {
             *numbers("radius_rad_per_s distance_rad_per_s", empty=True, **SIZE),
         ),
         together=(
-            ("entry", "growth_rate_1_per_s", "angular_frequency_rad_per_s"),
+            ("growth_rate_1_per_s", "angular_frequency_rad_per_s"),
             (
                 "proved_growth_rate_1_per_s",
                 "proved_angular_frequency_rad_per_s",

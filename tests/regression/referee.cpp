@@ -163,6 +163,8 @@ TEST(Referee, Refusals) {
   expect(with(belt, {{"referee_list", list.string()}, {"flutter_modal_damping", "0.01"}}),
          "-flutter_modal_damping is not part of the matrices");
   expect(with(belt, {{"referee_top", "3"}}), "-referee_list");
+  writeText(list, "# rad/s\n0 1\n-1 1e308\n");
+  expect(with(belt, {{"referee_list", list.string()}}), "-1+1e+308i is larger than 1e+50 rad/s");
   expect(with(layer, {{"referee_list", list.string()}}), "-report_matrices");
 }
 

@@ -18,6 +18,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 repository = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/steady")]
@@ -245,6 +246,42 @@ class Resumed(unittest.TestCase):
         self.assertNotEqual(run.finish(), 0)
         left = (folder / ".partial" / "options.txt").read_text()
         self.assertEqual(left, (self.place / "whole" / "options.txt").read_text())
+
+    def test_proofs_of_damped_points_are_kept(self):
+        damped = [
+            *BRAKE,
+            "-flutter_friction",
+            "0.2,0.4,0.6",
+            "-flutter_track",
+            "off",
+            "-flutter_proof",
+            "-flutter_friction_damping",
+            "-material_lining_rayleigh_mass",
+            "20",
+            "-checkpoint_interval",
+            "0",
+        ]
+        whole = done(self.place / "proved", damped, 1)
+        run = Run(self.folder, damped, 1)
+        run.wait_for(
+            lambda event: event["event"] == "checkpoint" and "_proofs_0000" in event["file"]
+        )
+        run.kill_ranks()
+        self.assertNotEqual(run.finish(), 0)
+        again = done(self.folder, [*damped, "-resume"], 1)
+
+        def proofs(of):
+            return of.text().count(" proved, ratio ")
+
+        self.assertEqual((proofs(whole), proofs(again)), (3, 2))
+        ours, theirs = (pd.read_csv(one.folder / "proof.csv") for one in (again, whole))
+        self.assertEqual(list(theirs["complete"]), [1, 1, 1])
+        for column in ("complete", "eigenvalues", "discs"):
+            self.assertEqual(list(ours[column]), list(theirs[column]))
+        radii = [
+            squeal.open(one.folder).eigenvalues["radius_1_per_s"].notna() for one in (again, whole)
+        ]
+        self.assertEqual(list(radii[0]), list(radii[1]))
 
     def test_what_cannot_be_continued(self):
         shutil.copytree(self.cut_off, self.folder)

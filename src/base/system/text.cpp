@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 
 namespace squeal {
 
@@ -103,6 +105,22 @@ std::string escaped(const std::string& text) {
   }
   return shown;
 }
+
+namespace {
+
+/// Returns the value with these digits. If the nearest such number lies on the wrong side of the
+/// value, returns the next one in the direction of the sign.
+std::string rounded(double value, int digits, int sign) {
+  const std::string nearest = formatted("%.*g", digits, value);
+  if (value == 0 || sign * (std::strtod(nearest.c_str(), nullptr) - value) >= 0) return nearest;
+  const double unit = std::pow(10, std::floor(std::log10(value)) - digits + 1);
+  return formatted("%.*g", digits, value + sign * 0.6 * unit);
+}
+
+}  // namespace
+
+std::string roundedUp(double value, int digits) { return rounded(value, digits, 1); }
+std::string roundedDown(double value, int digits) { return rounded(value, digits, -1); }
 
 std::string shortest(double value) {
   char buffer[32];

@@ -45,6 +45,10 @@ void fields(Stream& stream, Completeness& found) {
          undecided);
 }
 
+void serialiseProof(checkpoint::Archive& archive, ComplexModes& point) {
+  archive.common(point.eigenvalues, point.completeness);
+}
+
 void serialise(checkpoint::Archive& archive, ComplexModes& point) {
   auto& [at, eigenvalues, shapes, sensitivities, bandTop, freeModesInBand, damped, accuracy,
          tolerance, directBandTop, coveredTo, completeness] = point;

@@ -12,5 +12,8 @@ void serialise(checkpoint::Archive& archive, ComplexModes& point);
 void fields(Stream& stream, CriticalMode& found);
 /// Writes or reads the result of the proof for a list.
 void fields(Stream& stream, Completeness& found);
+/// Collective. Writes or reads what a proof sets: the eigenvalues with their radii, and what is
+/// proved about the list.
+void serialiseProof(checkpoint::Archive& archive, ComplexModes& point);
 
 }  // namespace squeal::pencil

@@ -81,7 +81,10 @@ void setRows(std::span<const Complex> list, const std::vector<proof::Enclosure>&
   }
   const auto add = [&](const proof::Enclosure& disc, Verdict verdict) {
     Row row{.entry = {}, .verdict = verdict, .proved = {}};
-    setProved(disc, row);
+    if (isSingle(disc))
+      setProved(disc, row);
+    else
+      row.listed = disc.s;
     judgement.rows.push_back(row);
   };
   for (const auto& disc : judged.missing) add(disc, Verdict::missing);
@@ -111,10 +114,10 @@ bool Judgement::isComplete() const {
 }
 
 std::string Judgement::regionText() const {
-  const double hertz = region.top / (2 * M_PI);
+  const std::string disc = "|s|/2π < " + roundedDown(region.top / (2 * M_PI), 6) + " Hz";
   return std::isinf(region.left) || region.left >= region.top
-             ? formatted("|s|/2π < %.6g Hz", hertz)
-             : formatted("|s|/2π < %.6g Hz and Re s > %.4g/s", hertz, -region.left);
+             ? disc
+             : disc + " and Re s > -" + roundedDown(region.left, 4) + "/s";
 }
 
 std::string Judgement::sentence() const {

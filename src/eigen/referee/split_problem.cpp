@@ -82,7 +82,7 @@ ShiftedSystem shiftedSystem(const SplitProblem& problem, double top) {
     return negative == 0 && zero == 0;
   };
   double shift = 0;
-  for (double tried : {0.0, 1. / 256, 1. / 64, 1. / 16, 1. / 4, 1., 4., 16.}) {
+  for (double tried : {0.0, 1. / 256, 1. / 64, 1. / 16, 1. / 4, 1., 4., 16., 64., 256.}) {
     shift = tried * top * top;
     if (isDefinite(shift)) {
       shift *= 2;  // not barely definite
@@ -95,10 +95,15 @@ ShiftedSystem shiftedSystem(const SplitProblem& problem, double top) {
               shift};
     }
   }
+  // With a definite mass a larger shift would do, but no bound relative to it is below 1.
+  const bool isMassless = factor::zeroRows(mass) > 0;
   throw Error(
       formatted("the symmetric part of the stiffness plus %.3g times the mass is not "
-                "positive definite; is an unknown without stiffness and mass?",
-                shift));
+                "positive definite; %s",
+                shift,
+                isMassless ? "is an unknown without stiffness and mass?"
+                           : "the unsymmetric part is too large for a proof, as with "
+                             "friction on a soft layer"));
 }
 
 }  // namespace squeal::referee

@@ -27,6 +27,7 @@ std::optional<modes::Modes> Journal::restoredModes() {
 
 void Journal::restorePoints(reduction::ReducedProblem* basis) {
   while (auto entry = checkpoint_.next(name_ + "_points")) serialisePoints(*entry, basis);
+  while (auto entry = checkpoint_.next(name_ + "_proofs")) serialiseProofs(*entry, {});
 }
 
 void Journal::record(modes::Modes& freeModes, reduction::ReducedProblem* basis) {
@@ -42,6 +43,33 @@ void Journal::record(modes::Modes& freeModes, reduction::ReducedProblem* basis) 
   checkpoint::Archive archive(comm());
   serialisePoints(archive, basis);
   checkpoint_.write(name_ + "_points", archive);
+  recordProofs();
+}
+
+/// Collective. Records the proofs of points that were recorded without them.
+void Journal::recordProofs() {
+  std::vector<std::size_t> points;
+  for (std::size_t k = 0; k < serialised_; ++k)
+    if (pointAt(k).completeness && !proofs_.contains(k)) points.push_back(k);
+  if (points.empty()) return;
+  checkpoint::Archive archive(comm());
+  serialiseProofs(archive, std::move(points));
+  checkpoint_.write(name_ + "_proofs", archive);
+}
+
+/// Returns a point by its place in the order of the solution.
+pencil::ComplexModes& Journal::pointAt(std::size_t k) {
+  const PointPlace& place = plan_.places[plan_.order[k]];
+  return state_.segments[place.range].points[place.inRange];
+}
+
+/// Collective. Writes the proofs of these points, or reads the points and their proofs.
+void Journal::serialiseProofs(checkpoint::Archive& archive, std::vector<std::size_t> points) {
+  archive.common(points);
+  for (const std::size_t k : points) {
+    pencil::serialiseProof(archive, pointAt(k));
+    proofs_.insert(k);
+  }
 }
 
 void Journal::recordFinished() {
@@ -66,8 +94,9 @@ void Journal::serialisePoints(checkpoint::Archive& archive, reduction::ReducedPr
     state_.hasSetModes = setModesRecorded_ = true;
   }
   for (; serialised_ < state_.solved; ++serialised_) {
-    const PointPlace& place = plan_.places[plan_.order[serialised_]];
-    pencil::serialise(archive, state_.segments[place.range].points[place.inRange]);
+    pencil::ComplexModes& point = pointAt(serialised_);
+    pencil::serialise(archive, point);
+    if (point.completeness) proofs_.insert(serialised_);
   }
   if (archive.reads()) pointsDone(state_.solved - before);
 }

@@ -2,7 +2,9 @@
 #pragma once
 /// The checkpoint of a sweep.
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "base/checkpoint/checkpoint.hpp"
 #include "eigen/modes/modes.hpp"
@@ -35,7 +37,7 @@ class Journal {
   void restorePoints(reduction::ReducedProblem* basis);
 
   /// Collective. Records the results since the last entry, if an entry is due: first the free modes
-  /// of the interior unknowns, then points and basis.
+  /// of the interior unknowns, then points and basis, then proofs of points recorded earlier.
   void record(modes::Modes& freeModes, reduction::ReducedProblem* basis);
   /// Collective. Saves the finished segments if their cost justifies an entry, so that an
   /// interrupted run need not repeat them.
@@ -43,7 +45,10 @@ class Journal {
 
  private:
   void serialisePoints(checkpoint::Archive& archive, reduction::ReducedProblem* basis);
+  void serialiseProofs(checkpoint::Archive& archive, std::vector<std::size_t> points);
   void serialiseFinished(checkpoint::Archive& archive);
+  void recordProofs();
+  pencil::ComplexModes& pointAt(std::size_t k);
   MPI_Comm comm() const { return problem_.pencil->comm(); }
 
   checkpoint::Checkpoint& checkpoint_;
@@ -53,7 +58,8 @@ class Journal {
   SweepState& state_;
   double begin_;  // s
   bool modesRecorded_ = false, setModesRecorded_ = false;
-  std::size_t serialised_ = 0;  // number of solved points that the checkpoint contains
+  std::size_t serialised_ = 0;    // number of solved points that the checkpoint contains
+  std::set<std::size_t> proofs_;  // points, in the order of the solution, whose proofs it contains
 };
 
 }  // namespace squeal::sweep_solver

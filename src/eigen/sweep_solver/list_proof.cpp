@@ -27,8 +27,7 @@ std::string whyNothing(const reduction::ReducedProblem& reduced) {
 
 std::vector<std::string> proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
                                     const modes::Modes& modes, std::vector<ListedPoint> points,
-                                    const completeness::Settings& settings,
-                                    const modes::Settings& modeSettings) {
+                                    const ProofRequest& request) {
   const MPI_Comm comm = reduced.basis().comm();
   if (const std::string why = whyNothing(reduced); !why.empty()) {
     printLine(comm, "proof: nothing to prove (" + why + ")");
@@ -38,6 +37,7 @@ std::vector<std::string> proveLists(const SweepProblem& problem, reduction::Redu
   std::map<std::size_t, completeness::ProvedSet> byRange;
   std::vector<ListedPoint*> others;
   for (auto& point : points) {
+    if (point.list->completeness) continue;
     if (!completeness::covers(point.problem, factors)) {
       others.push_back(&point);
       continue;
@@ -49,11 +49,11 @@ std::vector<std::string> proveLists(const SweepProblem& problem, reduction::Redu
   }
   std::vector<completeness::ProvedSet> sets;
   for (auto& [range, set] : byRange) sets.push_back(std::move(set));
-  proveSingly(problem, reduced, others, settings.discs, modeSettings);
+  proveSingly(problem, reduced, others, request);
   std::optional<Stage> stage;
   if (!sets.empty()) {
     stage.emplace(comm, "proof");
-    completeness::prove(reduced, *problem.system, modes, factors, sets, settings);
+    completeness::prove(reduced, *problem.system, modes, factors, sets, request.settings);
     for (const auto& set : sets)
       for (const auto* list : set.points) stage->printLine(completenessText(*list));
   }

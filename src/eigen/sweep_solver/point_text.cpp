@@ -28,8 +28,9 @@ std::string completenessText(const pencil::ComplexModes& point) {
   const auto& found = *point.completeness;
   std::string text = sweep::parameterText(point.at) + ": ";
   if (!found.proved) return text + "not proved: " + found.reason;
-  text += formatted("%g eigenvalues below %.6g Hz", found.count / 2.0, found.top / (2 * M_PI));
-  if (std::isfinite(found.left)) text += formatted(" with Re s > %.4g/s", -found.left);
+  text += formatted("%g eigenvalues below ", found.count / 2.0) +
+          roundedDown(found.top / (2 * M_PI), 6) + " Hz";
+  if (std::isfinite(found.left)) text += " with Re s > -" + roundedDown(found.left, 4) + "/s";
   text += formatted(" proved, ratio %.2g, %d discs", found.ratio, found.discs);
   const auto left = std::ranges::count_if(point.eigenvalues,
                                           [&](const auto& e) { return e.s.real() <= -found.left; });
@@ -38,8 +39,8 @@ std::string completenessText(const pencil::ComplexModes& point) {
       formatted(", %d of %d listed in discs of their own", judged - point.withoutDisc(), judged);
   if (left > 0) text += formatted(", %td listed farther left", left);
   for (const auto& one : found.missing)
-    text += formatted(", missing within %.2g of %.9g%+.9gi", one.radius, one.centre.real(),
-                      one.centre.imag());
+    text += ", missing within " + roundedUp(one.radius, 2) +
+            formatted(" of %.9g%+.9gi", one.centre.real(), one.centre.imag());
   for (const auto s : found.spurious)
     text += formatted(", %.9g%+.9gi is not an eigenvalue", s.real(), s.imag());
   for (const auto s : found.undecided)

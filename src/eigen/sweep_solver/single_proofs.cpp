@@ -155,9 +155,10 @@ void judgeList(const referee::BoundedProblem& problem, const pencil::WatchedBand
 }  // namespace
 
 void proveSingly(const SweepProblem& problem, const reduction::ReducedProblem& reduced,
-                 const std::vector<ListedPoint*>& points, int discs, modes::Settings modes) {
+                 const std::vector<ListedPoint*>& points, const ProofRequest& request) {
   const MPI_Comm comm = reduced.basis().comm();
   const std::size_t ranks = mpi::size(comm);
+  modes::Settings modes = request.modes;
   modes.countGiven = false;
   // The dense work of as many points as there are ranks is done at the same time.
   for (std::size_t first = 0; first < points.size(); first += ranks) {
@@ -171,12 +172,13 @@ void proveSingly(const SweepProblem& problem, const reduction::ReducedProblem& r
     }
     Stage stage(comm, "proof");
     linalg::onOwners(comm, lists.size(), [&](std::size_t i) {
-      if (own) judgeList(*own, reduced.band(), discs, *lists[i]);
+      if (own) judgeList(*own, reduced.band(), request.settings.discs, *lists[i]);
     });
     completeness::share(comm, lists);
     for (const auto* list : lists)
       if (list != lists.back()) stage.printLine(completenessText(*list));
     stage.finish(completenessText(*lists.back()));
+    if (request.afterPoints) request.afterPoints();
   }
 }
 

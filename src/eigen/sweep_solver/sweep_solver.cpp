@@ -299,7 +299,9 @@ class SweepSolver {
       if (isSolved(pointAt(i)))
         points.push_back({plan_.places[i].range, problemOf(i), &pointAt(i)});
     auto failures = proveLists(problem_, *reduced_, freeModes(), std::move(points),
-                               request_.settings.proof, *request_.settings.modes);
+                               {.settings = request_.settings.proof,
+                                .modes = *request_.settings.modes,
+                                .afterPoints = [this] { record(); }});
     std::ranges::move(failures, std::back_inserter(state_.failures));
   }
 

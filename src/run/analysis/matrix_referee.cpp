@@ -43,6 +43,11 @@ eigenlist::List readList(MPI_Comm comm, const Settings& settings, const sweep::S
                   eigenlist::listOption().c_str(), sweep.pointCount()));
   Stage stage(comm, "list");
   auto list = eigenlist::read(comm, settings.referee->list);
+  constexpr double largest = 1e50;  // rad/s, as of -referee_top: squares remain finite
+  for (const Complex s : list.values)
+    if (std::abs(s) > largest)
+      throw Error(formatted("option %s: the entry %g%+gi is larger than %g rad/s",
+                            eigenlist::listOption().c_str(), s.real(), s.imag(), largest));
   std::string halves;
   if (list.conjugates > 0) halves = formatted("; %ld conjugates dropped", list.conjugates);
   if (list.mirrored > 0)

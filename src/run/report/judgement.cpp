@@ -23,8 +23,8 @@ std::string placeText(Complex s, double radius = 0) {
 std::string lineOf(const referee::Row& row) {
   const std::string entry =
       row.entry ? formatted("entry %zu (", *row.entry + 1) + placeText(row.listed) + ")" : "";
-  const std::string proved = row.proved ? placeText(*row.proved, row.radius) +
-                                              formatted(" (radius %.2g rad/s)", row.radius)
+  const std::string proved = row.proved ? placeText(*row.proved, row.radius) + " (radius " +
+                                              roundedUp(row.radius, 2) + " rad/s)"
                                         : "";
   switch (row.verdict) {
     case Verdict::inexact:
@@ -38,7 +38,8 @@ std::string lineOf(const referee::Row& row) {
     case Verdict::missing:
       return "missing: " + proved;
     case Verdict::unproved:
-      return entry.empty() ? "an eigenvalue near which nothing is proved is not listed"
+      return entry.empty() ? "near " + placeText(row.listed) +
+                                 " nothing is proved, and the list has no entry there"
                            : entry + ": nothing is proved here";
     default:
       return "";
@@ -52,9 +53,10 @@ std::string refereeTable(const analysis::JudgedList& judged) {
       "entry,growth_rate_1_per_s,angular_frequency_rad_per_s,verdict,proved_growth_rate_1_per_s,"
       "proved_angular_frequency_rad_per_s,radius_rad_per_s,distance_rad_per_s\n";
   for (const auto& row : judged.judgement.rows)
-    table += (row.entry ? formatted("%zu,", *row.entry + 1) + pair(row.listed) : ",,") + "," +
-             text(row.verdict) + "," + (row.proved ? pair(*row.proved) : ",") + "," +
-             (row.proved ? formatted("%.3e", row.radius) : "") + "," +
+    table += (row.entry ? formatted("%zu", *row.entry + 1) : "") + "," +
+             (row.entry || !row.proved ? pair(row.listed) : ",") + "," + text(row.verdict) + "," +
+             (row.proved ? pair(*row.proved) : ",") + "," +
+             (row.proved ? roundedUp(row.radius, 4) : "") + "," +
              (row.proved && row.entry ? formatted("%.6e", row.distance) : "") + "\n";
   return table;
 }

@@ -83,9 +83,9 @@ std::string proofText(const analysis::Analysis& analysis) {
     const std::string at = sweep::parameterText(point->at);
     for (const auto& one : found.missing)
       others += formatted(
-          "\nMissing in the list at %s: one eigenvalue within %.2g 1/s of "
+          "\nMissing in the list at %s: one eigenvalue within %s 1/s of "
           "%.9g%+.9gi 1/s.",
-          at.c_str(), one.radius, one.centre.real(), one.centre.imag());
+          at.c_str(), roundedUp(one.radius, 2).c_str(), one.centre.real(), one.centre.imag());
     for (const auto s : found.spurious)
       others += formatted("\nWrong in the list at %s: %.9g%+.9gi 1/s is not an eigenvalue.",
                           at.c_str(), s.real(), s.imag());
@@ -115,9 +115,10 @@ std::string proofText(const analysis::Analysis& analysis) {
   std::string text =
       formatted("\nProof: the list is complete at %zu of %zu points", complete, points.size());
   if (complete > 0)
-    text += formatted(": the full problem has no other eigenvalue with |s|/2π up to %.6g Hz", top) +
-            (std::isfinite(left) ? formatted(" and Re s > %.4g/s in the band", -left) : "") +
-            formatted(", and exactly one within %.1e 1/s of each", radius) +
+    text += ": the full problem has no other eigenvalue with |s|/2π up to " + roundedDown(top, 6) +
+            " Hz" +
+            (std::isfinite(left) ? " and Re s > -" + roundedDown(left, 4) + "/s in the band" : "") +
+            ", and exactly one within " + roundedUp(radius, 2) + " 1/s of each" +
             (beyond > 0 ? formatted(" except %zu that decay faster", beyond) : "") +
             formatted(" (largest ratio %.2g; round-off is not bounded)", ratio);
   return text + "." + others;

@@ -44,7 +44,7 @@ std::string eigenvalueTable(const analysis::Analysis& analysis) {
                  formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,", e.s.real(), e.s.imag(),
                            e.s.imag() / (2 * M_PI), e.dampingRatio(), e.backwardError,
                            e.errorEstimate()) +
-                 (std::isfinite(e.radius) ? formatted("%.3e", e.radius) : "") +
+                 (std::isfinite(e.radius) ? roundedUp(e.radius, 4) : "") +
                  formatted(",%d,%s,%d,", e.certified ? 1 : 0, text(e.verdict), e.unstable ? 1 : 0) +
                  nameCell(names[i]) + "\n";
       }

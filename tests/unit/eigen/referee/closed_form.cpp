@@ -183,6 +183,33 @@ TEST(Referee, BoundsOfOtherTermsHold) {
   EXPECT_EQ(bounds.damping, 0);  // nothing is left out
 }
 
+// K is triangular, with the eigenvalues j², and couples the lowest unknown to the highest by c. The
+// lowest eigenvalue of K_s is that of [1, c/2; c/2, 120²], and σ must be larger: 5121 with c = 2e4,
+// 43,317 with c = 1e5. The largest σ tried is 256 · 5.5² = 7744.
+TEST(Referee, LargeShifts) {
+  const auto judgedWith = [](double c) {
+    std::vector<pencil::Term> terms(2);
+    terms[0].matrix = matrix([=](int i, int j) {
+      return i == j ? 1.0 * i * i : i == 1 && j == size ? c : 0;
+    });
+    terms[1].matrix = matrix([](int, int) { return 1.0; }, true);
+    terms[1].power = 2;
+    const pencil::Pencil pencil(std::move(terms));
+    return referee::judge({pencil, {}}, std::vector<Complex>{{0, 1}, {0, 2}}, {.top = top}, {});
+  };
+  const auto found = judgedWith(2e4);
+  EXPECT_GT(found.sizes.shift, 5121);
+  EXPECT_TRUE(!found.proved() || found.count.count == 10) << found.sentence();
+  try {
+    judgedWith(1e5);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the unsymmetric part is too large"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Referee, IndefiniteMassIsRefused) {
   std::vector<pencil::Term> terms(2);
   terms[0].matrix = matrix([](int, int) { return 1.0; }, true);
