@@ -288,7 +288,7 @@ Complex Spectrum::overlap(std::size_t i, const Spectrum& other, std::size_t j) c
   return product(i, other.pairs_[j]) * other.product(j, pairs_[i]) / (own_[i] * other.own_[j]);
 }
 
-/// Returns product(i, pair j) for all pairs of both.
+/// Returns product(i, pair) for all pairs i of this problem and all of these pairs.
 ComplexMatrix Spectrum::products(const std::vector<DensePair>& pairs) const {
   if (pairs_.empty() || pairs.empty()) return ComplexMatrix(pairs_.size(), pairs.size());
   const std::size_t parts = linear_ ? 1 : 2, half = rows_[0].size() / parts,

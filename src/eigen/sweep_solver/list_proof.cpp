@@ -37,7 +37,8 @@ std::vector<std::string> proveLists(const SweepProblem& problem, reduction::Redu
   std::map<std::size_t, completeness::ProvedSet> byRange;
   std::vector<ListedPoint*> others;
   for (auto& point : points) {
-    if (point.list->completeness) continue;
+    // A resumed run tries again where an earlier one ended with an error, for example of memory.
+    if (const auto& known = point.list->completeness; known && known->top > 0) continue;
     if (!completeness::covers(point.problem, factors)) {
       others.push_back(&point);
       continue;

@@ -43,7 +43,7 @@ eigenlist::List readList(MPI_Comm comm, const Settings& settings, const sweep::S
                   eigenlist::listOption().c_str(), sweep.pointCount()));
   Stage stage(comm, "list");
   auto list = eigenlist::read(comm, settings.referee->list);
-  constexpr double largest = 1e50;  // rad/s, as of -referee_top: squares remain finite
+  constexpr double largest = 1e50;  // rad/s; squares remain finite
   for (const Complex s : list.values)
     if (std::abs(s) > largest)
       throw Error(formatted("option %s: the entry %g%+gi is larger than %g rad/s",
