@@ -19,9 +19,11 @@ std::string trimmed(const std::string& text);
 /// a terminal would interpret or not show: control characters except line breaks and tabs,
 /// direction marks and characters of zero width. Bytes that are not UTF-8 become \x and two digits.
 std::string escaped(const std::string& text);
-/// Return a number that is finite and not negative with this number of significant digits (%g),
-/// such that the text does not read as less, or as more: a bound remains one when it is printed.
+/// Returns a number, finite and not negative, with this number of significant digits. The text
+/// reads as a number that is not smaller than the value: an upper bound remains one when it is
+/// printed.
 std::string roundedUp(double value, int digits);
+/// Does the same for lower bounds: the text does not read as a larger number.
 std::string roundedDown(double value, int digits);
 /// Returns the shortest decimal text that reads back as the same double.
 std::string shortest(double value);

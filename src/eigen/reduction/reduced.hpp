@@ -27,7 +27,7 @@
 
 namespace squeal::reduction {
 
-/// The result of ReducedProblem::improve(). Its lists have one entry per point passed to it.
+/// The result of ReducedProblem::improve(). Each of its lists has one entry per point.
 struct Improvement {
   /// True if the pairs must be computed again: the basis has grown or, in the result of
   /// tracking::Family::improve(), the interpolation of the terms between frictions was refined.
@@ -35,19 +35,19 @@ struct Improvement {
   /// For each point, the largest backward error of its pairs in the full problem. NaN means that no
   /// steady state with the active set of the family exists at this friction; `roundOff` is then NaN
   /// as well. Only tracking::Family::improve() returns NaN. The list is empty if the family does
-  /// not override Family::improve(), since such a family has the full problem.
+  /// not override Family::improve(), since the dense problem of such a family is the full problem.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
   /// reduced problem.
   std::vector<double> roundOff;
 };
 
-/// The Rayleigh–Ritz method in the space of the free modes and, unless `-flutter_basis modal`, of
-/// static responses to the friction forces and to the residuals of Ritz pairs. With only the modes,
-/// the method would miss unstable eigenvalues and report spurious ones. Each round adds K0⁻¹ r for
-/// the residuals r of all inaccurate pairs. One block solve computes all these vectors, with the
-/// real symmetric factorisation that was computed for the modes. A round reduces the errors to
-/// about a tenth. A pair is certified if its full-order backward error is at most
+/// The Rayleigh–Ritz method in the space of the free modes and, unless `-flutter_basis modal` is
+/// given, of static responses to the friction forces and to the residuals of Ritz pairs. With only
+/// the modes, the method would miss unstable eigenvalues and report spurious ones. Each round adds
+/// K0⁻¹ r for the residuals r of all inaccurate pairs. One block solve computes all these vectors,
+/// with the real symmetric factorisation that was computed for the modes. A round reduces the
+/// errors to about a tenth. A pair is certified if its full-order backward error is at most
 /// `-flutter_accuracy` and the estimate of |δs|/|s| at most `-flutter_tolerance`. All points of the
 /// object share one basis.
 class ReducedProblem {
@@ -62,35 +62,37 @@ class ReducedProblem {
   /// Collective. Adds a set of points that have the same boundary unknowns: has[i] is 1 if boundary
   /// unknown i, numbered over all ranks, is one of them. Returns the index of the set. `pencil`
   /// begins with the terms passed to the constructor. Its further terms apply to this set only, at
-  /// all of its points; the object and `pencil` share their matrices. A `passed` set contains no
-  /// point of the sweep; it is an active set through which the contact passes between two points.
+  /// all of its points; the object and `pencil` share their matrices. A set with `passed`
+  /// = true contains no point of the sweep; it is an active set that the contact passes through
+  /// between two points.
   /// Call load() before each use of a passed set. Throws Error if the stiffness is not positive
   /// definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
              bool passed = false);
-  /// Collective. Projects the terms of a passed set, unless they are loaded
+  /// Collective. Projects the terms of a passed set, unless they are already loaded
   /// (ProjectedBasis::load()).
   void load(int set) { basis_.load(set); }
   /// Collective. Returns the free modes in the band for each of these sets, [set]. They are
   /// corrected together, in the same way as the complex modes. Their vectors have the entries of
   /// all unknowns. Their countConfirmed is true if two conditions hold: the number of interior
   /// modes is confirmed, and there is a frequency below which the number of modes found equals both
-  /// the lower and the upper bound by subspace::ModeCount. From then on, these modes determine the
-  /// top of the band at the points of the set. The eigenvalues that solve() lists at these points
-  /// thus do not depend on the other sets of the basis. Only K and M of `pencil` are used.
+  /// the lower and the upper bound by subspace::ModeCount. After this call, whether or not the
+  /// count is confirmed, these modes determine the top of the band at the points of the set. The
+  /// eigenvalues that solve() lists at these points thus do not depend on the other sets of the
+  /// basis. Only K and M of `pencil` are used.
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns their complex modes, [point]. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
   /// responses are computed at the first point of the first batch. `trial` (T) maps vectors of the
   /// unknowns to nodal displacements.
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
-  /// Returns true if the basis only grows, as serialise() requires.
+  /// Returns true if vectors are only added to the basis, as serialise() requires.
   bool grows() const { return !settings_.compressed; }
   /// Makes solve() call `action`, which is collective, whenever the basis has grown.
   void afterEachRound(std::function<void()> action) { afterRound_ = std::move(action); }
   /// Collective. Writes or reads the results since the last call and the state of the current batch
   /// of solve(). After reading, the next solve() must have the same batch. All sets must have been
-  /// added before. An archive that is being written borrows the basis.
+  /// added before the call. An archive that is being written borrows the basis.
   void serialise(checkpoint::Archive& archive);
   /// Collective. Returns the eigenpairs of the point with these parameters and this set: those in
   /// the band and in the guard zone around it (see pencil::WatchedBand), with right and left
@@ -130,8 +132,8 @@ class ReducedProblem {
   PetscInt basisSize() const { return basis().size(); }
   const Basis& basis() const { return basis_.basis(); }
   /// Returns the band that contains the bands of all sets. Its upper limit has two special
-  /// values: infinity if the free modes span the whole space, and otherwise 0 with `-flutter_basis
-  /// modal`, which corrects no eigenvalue.
+  /// values. It is infinity if the free modes span the whole space. If they do not, it is 0 with
+  /// `-flutter_basis modal`, which corrects no eigenvalue.
   const pencil::WatchedBand& band() const { return band_; }
   /// Collective. Adds to the basis, by one block solve, corrections from the residuals of these
   /// pairs of several points. Their vectors may belong to an earlier, smaller basis.

@@ -37,7 +37,7 @@ const char* text(Verdict verdict);
 /// The verdict on an entry of the list, or on an eigenvalue that the list lacks.
 struct Row {
   std::optional<std::size_t> entry;  ///< index in the list
-  Complex listed = 0;                ///< without an entry and a disc, an eigenvalue on V
+  Complex listed = 0;                ///< without entry and disc: the approximate eigenvalue
   Verdict verdict = Verdict::unproved;
   std::optional<Complex> proved;  ///< centre of the nearest disc if Isolation::single
   double radius = 0;              ///< of this disc, rad/s

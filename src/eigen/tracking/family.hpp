@@ -23,8 +23,8 @@ class Family {
  public:
   virtual ~Family() = default;
   virtual MPI_Comm comm() const = 0;
-  /// Collective. Makes the problems available until several other families of the path have been
-  /// loaded. Must be called before all other functions.
+  /// Collective. Makes the problems available; loading several other families of the path may make
+  /// them unavailable again. Must be called before all other functions.
   virtual void load() {}
   /// Collective. Returns the problem at one friction in the current basis, the same on all ranks;
   /// none if it does not exist there, for example because the contact opens.
@@ -34,9 +34,10 @@ class Family {
   /// vectors are missing.
   virtual std::optional<std::vector<linalg::DensePair>> watchedPairs(double) { return {}; }
   /// Not collective. Returns the same problem as at(), or an approximation if at() must be
-  /// collective: the terms that belong to single points are interpolated between known frictions.
-  /// At a known friction they are exact, except that the rows and columns of vectors added to the
-  /// basis later are zero. improve() removes the interpolation error at a root.
+  /// collective: the terms that belong to single points are interpolated between known frictions
+  /// (see addFrictions()). At a known friction they are exact, except that the rows and columns of
+  /// vectors added to the basis later are zero. At a critical friction that has been located,
+  /// improve() removes the interpolation error.
   virtual std::optional<linalg::DenseProblem> near(double friction) { return at(friction); }
   /// Collective. Returns the pairs of at(friction) in coordinates common to all families of a path,
   /// for comparison.

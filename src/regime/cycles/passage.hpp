@@ -26,7 +26,7 @@ struct Orbit {
 struct Measures {
   double largestKinetic = 0;       ///< J
   double frictionPower = 0;        ///< mean power that friction dissipates, W
-  double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N of nodes that slides()
+  double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N of the nodes with Node::slides()
   int opening = 0, sticking = 0;   ///< numbers of nodes that are open or stick at some time
   bool linear = true;  ///< each node stays open, sticking or sliding as in steady sliding
 };

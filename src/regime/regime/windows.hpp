@@ -16,7 +16,7 @@ struct Means {
   double from = 0, to = 0;         ///< begin and end, s
   double kinetic = 0;              ///< mean kinetic energy, J
   double peakKinetic = 0;          ///< mean of the largest kinetic energies of the cycles, J
-  double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N of nodes that slides()
+  double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N of the nodes with Node::slides()
   double frictionPower = 0;        ///< −Σ R_T·w, W
   double open = 0, sticking = 0;   ///< mean numbers of open and sticking nodes
   bool linear = true;              ///< no node leaves its steady state: open, sticking or sliding

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The path of the contact: the changes of nodes that open and close between the points of a sweep.
+/// The path of the contact: how contact nodes change (open, close, are held or freed) between the
+/// points of a sweep.
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ enum class Change : unsigned char {
   held     ///< a closed node of a sticking interface that was free is held again
 };
 
-/// Returns the word for the change in tables.
+/// Returns the word that tables use for the change.
 std::string text(Change change);
 
 /// The change of a contact node on a straight line in the space of parameters.
@@ -27,7 +28,7 @@ struct ContactEvent {
   Change change = Change::opens;
   bool isReleased = false;  ///< true if released afterwards (contact::ActiveSet)
   int order = 0;            ///< number of earlier events on the path, over all ranks
-  std::size_t point = 0;    ///< point of the sweep to which the path leads; set by its owner
+  std::size_t point = 0;    ///< point of the sweep at the end of the path; set by the caller
 };
 
 /// Returns the changes of this rank from one set to another at one point; all get this `order`.
@@ -57,15 +58,15 @@ struct ContactInterval {
 /// between the ends of a path. The prediction affects only the run time.
 void precomputeContact(CondensedProblem& problem, const std::vector<ContactInterval>& intervals);
 
-/// Collective. Follows the steady state from the solution `from` on the straight line to the
-/// parameters `to`, which differ in friction, pressure or speed. On each active set the state is a
-/// smooth function of these parameters. The next change is at the first zero of a normal force or
-/// gap, located to 1e-11 of the length of the line. A node of a sticking interface that opens is
-/// freed along the surface, and held again when it closes. If the held node would change again at
-/// once, it stays closed and unheld. A node that opens loses its tangential force, so the state
-/// jumps there. The path ends if the equations of an active set are singular (a pole of forces and
-/// gaps), or if no active set is consistent after a change. Two zeros of one node between
-/// consecutive events may be missed.
+/// Collective. Follows the steady state from the solution `from` along the straight line to the
+/// parameters `to`, which differ from those of `from` in friction, pressure or speed. On each
+/// active set the state is a smooth function of these parameters. The next change is at the first
+/// zero of a normal force or gap, located to 1e-11 of the length of the line. A node of a sticking
+/// interface that opens is freed along the surface, and held again when it closes. If the node,
+/// once held again, would change at once, it is not held again, but stays closed and unheld. A node
+/// that opens loses its tangential force, so the state jumps there. The path ends if the equations
+/// of an active set are singular (a pole of forces and gaps), or if no active set is consistent
+/// after a change. Two zeros of one node between consecutive events may be missed.
 ContactPath traceContact(CondensedProblem& problem, const Solution& from,
                          const sweep::Parameters& to);
 
