@@ -41,9 +41,8 @@ void CondensedSweep::solve(StateLog& log) {
     const std::size_t begin = solutions.size(), end = std::min(begin + largestBatch, points.size());
     solveBatch({points.begin() + begin, points.begin() + end});
     if (isExact_) {
-      const auto steps = stepsToFollow(begin);
-      anticipate(steps);
-      for (const Step& step : steps) followPath(step);
+      for (const Step& step : stepsToFollow(begin)) followPath(step);
+      continueFromLast();
     }
     log.write();
   }
@@ -56,9 +55,7 @@ void CondensedSweep::solveBatch(const std::vector<sweep::Parameters>& points) {
   if (!condensed_) {
     condensed_.emplace(problem_, closed_);
     condensed_->offer([this] { return current_.open().stiffness(); });
-    const auto last = std::ranges::find_if(solutions.rbegin(), solutions.rend(),
-                                           [](const auto& one) { return one.converged; });
-    if (last != solutions.rend()) condensed_->continueFrom(*last);
+    continueFromLast();
   }
   const long before = condensed_->solves();
   const std::size_t begin = solutions.size();
@@ -70,6 +67,14 @@ void CondensedSweep::solveBatch(const std::vector<sweep::Parameters>& points) {
   }
   stage.finish(
       formatted("%zu points, %ld right-hand sides", points.size(), condensed_->solves() - before));
+}
+
+/// Makes the next points start from the last solution.
+void CondensedSweep::continueFromLast() {
+  const auto& solutions = states_.solutions;
+  const auto last = std::ranges::find_if(solutions.rbegin(), solutions.rend(),
+                                         [](const auto& one) { return one.converged; });
+  if (last != solutions.rend()) condensed_->continueFrom(*last);
 }
 
 /// Collective. Tries other ways to solve for a point without a solution.
@@ -183,22 +188,11 @@ std::vector<CondensedSweep::Step> CondensedSweep::stepsToFollow(std::size_t begi
   return steps;
 }
 
-/// Collective. Solves in blocks for the right-hand sides that followPath() will need.
-void CondensedSweep::anticipate(const std::vector<Step>& steps) {
-  Stage stage(comm_, "steady");
-  const long before = condensed_->solves();
-  std::vector<condensed::ContactInterval> ends;
-  for (const Step& step : steps)
-    ends.push_back({&states_.solutions[step.from], &states_.solutions[step.to]});
-  condensed::precomputeContact(*condensed_, ends);
-  if (const long more = condensed_->solves() - before; more > 0)
-    stage.finish(formatted("contact between the points: %ld right-hand sides", more));
-}
-
 /// Collective. Adds the events between the states at neighbouring points. If there are several
 /// solutions, the one that the path leads to becomes that of its end.
 void CondensedSweep::followPath(const Step& step) {
   Stage stage(comm_, "steady");
+  const long before = condensed_->solves();
   auto path = condensed::traceContact(*condensed_, states_.solutions[step.from],
                                       states_.solutions[step.to].at);
   if (!path.obstacle.empty())
@@ -207,8 +201,9 @@ void CondensedSweep::followPath(const Step& step) {
   addEvents(std::move(path.events), count, step);
   if (path.obstacle.empty()) takeSolutionOfPath(path, step);
   if (count > 0)
-    stage.finish(stepText(step) +
-                 formatted("%d %s", count, count == 1 ? "node changes" : "nodes change"));
+    stage.finish(stepText(step) + formatted("%d %s, %ld right-hand sides", count,
+                                            count == 1 ? "node changes" : "nodes change",
+                                            condensed_->solves() - before));
 }
 
 /// Adds the events of this rank on a step, `count` on all ranks.

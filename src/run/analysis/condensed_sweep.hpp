@@ -30,6 +30,7 @@ class CondensedSweep {
     std::size_t from, to;
   };
   void solveBatch(const std::vector<sweep::Parameters>& points);
+  void continueFromLast();
   void solveAgain(std::size_t point);
   void continueTo(const steady::Solution& from, steady::Solution& solution);
   void continueFromNeighbour(std::size_t point);
@@ -38,7 +39,6 @@ class CondensedSweep {
   void solveInAllUnknowns(std::size_t point);
   std::string stepText(const Step& step) const;
   std::vector<Step> stepsToFollow(std::size_t begin) const;
-  void anticipate(const std::vector<Step>& steps);
   void followPath(const Step& step);
   void addEvents(std::vector<condensed::ContactEvent> events, int count, const Step& step);
   void takeSolutionOfPath(condensed::ContactPath& path, const Step& step);

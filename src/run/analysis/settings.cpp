@@ -19,7 +19,7 @@ const FlagOption fullOption(
     "steady", "steady_full", false,
     "solution for steady sliding in all unknowns, as a check; off: in the unknowns of the contact");
 const IntegerOption pathOption(
-    "steady", "steady_path", 20, 0, 1'000'000,
+    "steady", "steady_path", 1000, 0, 1'000'000,
     "largest number of contact nodes that may differ between two neighbouring points of a sweep; "
     "up to this number, the program locates each opening and closing between them; 0 = no search");
 const IntegerOption releasedOption(

@@ -21,7 +21,7 @@ namespace squeal::analysis {
 /// Settings of the steady states of a sweep.
 struct SteadySettings {
   bool full = false;  ///< `-steady_full`: solve in all unknowns
-  int path = 20;      ///< `-steady_path`: the path between two points is followed if at most this
+  int path = 1000;    ///< `-steady_path`: the path between two points is followed if at most this
                       ///< number of nodes change; 0: no path
 };
 

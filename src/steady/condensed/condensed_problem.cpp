@@ -97,6 +97,16 @@ const Loads& CondensedProblem::loads() {
   return *loads_;
 }
 
+bool slideAlike(const Sticking& a, const Sticking& b) {
+  if (a.holds.size() != b.holds.size()) return false;
+  for (std::size_t i = 0; i < a.holds.size(); ++i) {
+    const bool slides = a.holds[i] == Hold::released;
+    if (slides != (b.holds[i] == Hold::released)) return false;
+    if (slides && a.direction[i] != b.direction[i]) return false;
+  }
+  return true;
+}
+
 /// Returns the conditions with all gaps closed.
 ContactConditions CondensedProblem::conditions(const sweep::Parameters& at,
                                                const Sticking& sticking) const {
@@ -115,8 +125,7 @@ ContactConditions CondensedProblem::conditions(const sweep::Parameters& at,
 /// are none.
 OwnedMat CondensedProblem::directFriction(const Sticking& sticking) {
   const bool any = mpi::any(comm(), std::ranges::count(sticking.holds, Hold::released) > 0);
-  const bool known = mpi::all(
-      comm(), directOf_.holds == sticking.holds && directOf_.direction == sticking.direction);
+  const bool known = mpi::all(comm(), slideAlike(directOf_, sticking));
   if (!any) return {};
   if (known) return direct_.share();
   std::vector<contact::Slip> slips(contact_.interfaces.nodes.size());
@@ -127,18 +136,29 @@ OwnedMat CondensedProblem::directFriction(const Sticking& sticking) {
   return direct_.share();
 }
 
-std::vector<impedance::ContactSolution> CondensedProblem::solveOnSets(
-    const std::vector<ChosenSet>& sets) {
+SetCase CondensedProblem::caseOn(const ChosenSet& set) {
+  SetCase result{{conditions(set.at, set.sticking), loads().forces(set.at)},
+                 directFriction(set.sticking)};
+  auto& conditions = result.contactCase.conditions;
+  conditions.direct = result.direct;
   const auto& nodeOf = impedance_->nodeOf();
+  for (std::size_t k = 0; k < nodeOf.size(); ++k)
+    if (!set.closed[nodeOf[k]]) conditions.free[k] = 1;
+  return result;
+}
+
+std::vector<impedance::ContactResponses> CondensedProblem::respond(
+    const std::vector<sweep::Parameters>& points, ChosenSet set,
+    const std::vector<PetscInt>& changed, const std::vector<double>& frictionUnits) {
   std::vector<ContactCase> cases;
-  std::vector<OwnedMat> direct;  // the cases borrow them
-  for (const ChosenSet& set : sets) {
-    cases.push_back({conditions(set.at, set.sticking), loads().forces(set.at)});
-    cases.back().conditions.direct = direct.emplace_back(directFriction(set.sticking));
-    for (std::size_t k = 0; k < nodeOf.size(); ++k)
-      if (!set.closed[nodeOf[k]]) cases.back().conditions.free[k] = 1;
+  OwnedMat direct;  // the same for all points; the cases borrow it
+  for (const auto& at : points) {
+    set.at = at;
+    auto [one, ofOne] = caseOn(set);
+    cases.push_back(std::move(one));
+    direct = std::move(ofOne);
   }
-  return solver_->solve(cases);
+  return solver_->respond(cases, changed, frictionUnits);
 }
 
 /// Solves for the gaps of a trial with these given forces, and returns (t, w).

@@ -4,6 +4,7 @@
 /// nearly so [3.10–3.13, M.59].
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "steady/condensed/loads.hpp"
@@ -26,6 +27,15 @@ struct ChosenSet {
   Sticking sticking;
 };
 
+/// Returns true if the same nodes of this rank are released (steady::Hold), in the same directions.
+bool slideAlike(const Sticking& a, const Sticking& b);
+
+/// The condensed problem of a set.
+struct SetCase {
+  impedance::ContactCase contactCase;
+  OwnedMat direct;  ///< borrowed by the conditions of the case; null if no node is released
+};
+
 /// The complementarity problem in the gaps only,
 ///   0 ≤ g ⟂ F(g) ≥ 0,
 /// where F(g) are the normal contact forces at the gaps g, in equilibrium with the friction that
@@ -37,7 +47,7 @@ struct ChosenSet {
 class CondensedProblem {
  public:
   /// Returns true if the problem at each point is linear except for the contact. The result of
-  /// solveOnSets() is then a solution except for round-off, which corrections reduce.
+  /// onSet() is then a solution except for round-off, which corrections reduce.
   static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
   /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and all
   /// sticking nodes held, during the lifetime of the object.
@@ -59,27 +69,40 @@ class CondensedProblem {
   Solution solveWithPivots(const sweep::Parameters& at) {
     return std::move(solveTogether({at}, true).front());
   }
-  /// Collective. Returns, for each set, the forces and gaps with its nodes closed and all others
-  /// open. Their signs are not checked, and convective terms are omitted. The sets of one call
-  /// share block solves.
-  std::vector<impedance::ContactSolution> solveOnSets(const std::vector<ChosenSet>& sets);
-  /// Collective. Does the same for one set.
+  /// Collective. Returns the condensed problem of one set: its nodes are closed, all others open.
+  /// Convective terms are omitted.
+  SetCase caseOn(const ChosenSet& set);
+  /// Collective. Returns the forces and gaps on one set. Their signs are not checked.
   impedance::ContactSolution onSet(const ChosenSet& set) {
-    return std::move(solveOnSets({set}).front());
+    return solver_->solve(caseOn(set).contactCase);
   }
+  /// Collective. Returns for each point the solution on one set and its responses to changes of
+  /// released unknowns, as ContactSolver::respond() does. The set of all points is that of `set`.
+  std::vector<impedance::ContactResponses> respond(const std::vector<sweep::Parameters>& points,
+                                                   ChosenSet set,
+                                                   const std::vector<PetscInt>& changed,
+                                                   const std::vector<double>& frictionUnits);
+  /// Collective. Returns the given forces (R, F)0 of the condensed problem at a point.
+  impedance::ContactVector given(const sweep::Parameters& at) { return loads().forces(at); }
+  /// Returns the contact node of each released unknown of this rank (Impedance::nodeOf()).
+  const std::vector<PetscInt>& nodeOf() const { return impedance_->nodeOf(); }
   /// Makes the next solve() start from these holds and gaps. `gaps` are the gap unknowns h,
   /// [contact node], m.
   void startFrom(std::vector<double> gaps, Sticking sticking) {
     gaps_ = std::move(gaps);
     sticking_ = std::move(sticking);
   }
+  /// Returns the gaps and holds from which the next solve() starts.
+  std::pair<std::vector<double>, Sticking> start() const { return {gaps_, sticking_}; }
   /// Makes the next solve() start from the contact of a solution, with all its closed sticking
   /// nodes held.
   void continueFrom(const Solution& solution);
   const contact::Contact& contact() const { return contact_; }
   /// Returns the force that opens the gap of a contact node of this rank by a unit, N/m; 0 if the
   /// gap has never been open.
-  double gapStiffness(std::size_t node) const { return solver_->gapStiffness(node); }
+  double gapStiffness(std::size_t node) const { return solver_->stiffness(node); }
+  /// Returns the same for any released unknown of this rank.
+  double stiffness(std::size_t unknown) const { return solver_->stiffness(unknown); }
   MPI_Comm comm() const { return impedance_->comm(); }
   /// Returns the total number of right-hand sides of all solves so far.
   long solves() const { return impedance_->solves(); }

@@ -5,14 +5,12 @@
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <functional>
 #include <optional>
-#include <tuple>
 
-#include "base/system/concatenation.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/interfaces/algebra.hpp"
+#include "steady/condensed/path_states.hpp"
 
 namespace squeal::condensed {
 namespace {
@@ -44,44 +42,6 @@ double poleNear(const std::array<double, 4>& places, const std::array<double, 4>
   return sum;
 }
 
-sweep::Parameters between(const sweep::Parameters& from, const sweep::Parameters& to, double s) {
-  sweep::Parameters point = from;
-  for (const auto value :
-       {&sweep::Parameters::friction, &sweep::Parameters::speed, &sweep::Parameters::pressure})
-    point.*value = std::lerp(from.*value, to.*value, s);  // exact where both are equal
-  return point;
-}
-
-/// A contact node that differs between two solutions, and the expected point of its change.
-struct ExpectedChange {
-  double at;
-  int rank, node;
-  bool operator<(const ExpectedChange& other) const {
-    return std::tie(at, rank, node) < std::tie(other.at, other.rank, other.node);
-  }
-};
-
-/// Collective. Returns the changes of all ranks between two solutions in the expected order, from
-/// the states on the set of the first solution at both ends.
-std::vector<ExpectedChange> expectedChanges(MPI_Comm comm, const ContactInterval& interval,
-                                            const impedance::ContactSolution& begin,
-                                            const impedance::ContactSolution& end) {
-  const int rank = mpi::rank(comm);
-  std::vector<ExpectedChange> own;
-  const auto &before = interval.from->closed, &after = interval.to->closed;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    if (before[i] == after[i]) continue;
-    const auto margin = [&](const impedance::ContactSolution& state) {
-      return (before[i] ? state.effects : state.causes)[before.size() + i];
-    };
-    const double atBegin = std::max(margin(begin), 0.0), atEnd = margin(end);
-    own.push_back({atEnd < 0 ? atBegin / (atBegin - atEnd) : 1, rank, static_cast<int>(i)});
-  }
-  auto all = concatenated(comm, own);
-  std::ranges::sort(all, std::less());
-  return all;
-}
-
 /// The data of a contact node for a message.
 struct PlaceName {
   mesh::Point position;
@@ -99,7 +59,11 @@ struct Place {
 class PathTracer {
  public:
   PathTracer(CondensedProblem& problem, const Solution& from, const sweep::Parameters& to)
-      : problem_(problem), from_(from.at), to_(to), closed_(from.closed), sticking_(from.sticking) {
+      : problem_(problem),
+        line_{from.at, to},
+        states_(problem, line_),
+        closed_(from.closed),
+        sticking_(from.sticking) {
     rank_ = mpi::rank(comm());
     for (const auto& state : from.contact) forceUnit_ = std::max(forceUnit_, state.normalForce);
     forceUnit_ = mpi::max(comm(), forceUnit_);
@@ -108,15 +72,25 @@ class PathTracer {
 
   ContactPath trace() {
     ContactPath path;
-    path.end = to_;
+    path.end = at(1);
     double s = 0;
     int inPlace = 0;  // successive events at one place
     while (true) {
-      Place worst = worstAt(1);
-      if (worst.margin >= -rounding) break;
-      double event = 1;
+      const double reach = states_.reach(s, closed_, sticking_);
+      Place worst = worstAt(reach);
+      if (worst.margin >= -rounding) {
+        if (!state_.found) {
+          path.obstacle = "no equilibrium is found there";
+          path.end = at(reach);
+          break;
+        }
+        if (reach >= 1) break;
+        s = reach;
+        continue;
+      }
+      double event = reach;
       // The first of the nodes that violate a condition ahead.
-      Place first;
+      Place first = worst;
       std::optional<double> pole;
       while (worst.margin < -rounding && event > s) {
         first = worst;
@@ -131,12 +105,13 @@ class PathTracer {
         break;
       }
       inPlace = event > s ? 0 : inPlace + 1;
-      if (inPlace > mostTogether || !change(first, event, path)) {
+      const auto next = inPlace > mostTogether ? std::nullopt : change(first, event, path);
+      if (!next) {
         path.obstacle = turningPoint(first);
         path.end = at(event);
         break;
       }
-      s = event;
+      s = *next;
     }
     if (path.obstacle.empty()) {
       path.gaps = gaps();
@@ -151,7 +126,7 @@ class PathTracer {
 
  private:
   MPI_Comm comm() const { return problem_.comm(); }
-  sweep::Parameters at(double s) const { return between(from_, to_, s); }
+  sweep::Parameters at(double s) const { return line_.at(s); }
   bool sticks(std::size_t i) const {
     return problem_.contact().interfaces.nodes[i].role == contact::Role::sticking;
   }
@@ -166,7 +141,7 @@ class PathTracer {
   /// Returns the forces at closed nodes and the gaps at open ones, relative, [contact node];
   /// infinity at nodes that do not separate.
   const std::vector<double>& margins(double s) {
-    state_ = problem_.onSet({at(s), closed_, sticking_});
+    state_ = states_.at(s, closed_, sticking_);
     margins_.clear();
     const std::size_t n = closed_.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -218,7 +193,7 @@ class PathTracer {
       from = std::min(low + behind, high);
       atLow = marginOf(place, from);
     }
-    if (!(atLow > 0)) return {low, {}};
+    if (!(atLow > 0) || !(from < high)) return {low, {}};
     if (!(atHigh < 0)) return {high, {}};
     std::uintmax_t steps = 100;
     const auto [a, b] = boost::math::tools::toms748_solve(
@@ -242,9 +217,9 @@ class PathTracer {
     sticking_.holds[i] = isHeld ? steady::Hold::held : steady::Hold::open;
     if (isHeld) sticking_.heldAgain[i] = 1;
   }
-  /// Changes a node and the nodes that change with it. Returns false if no active set is consistent
-  /// after the event.
-  bool change(Place place, double s, ContactPath& path) {
+  /// Changes a node and the nodes that change with it. Returns the place from which the path goes
+  /// on; none if no active set is consistent after the event.
+  std::optional<double> change(Place place, double s, ContactPath& path) {
     const contact::ActiveSet before = set();
     const Sticking heldBefore = sticking_;
     const double next = std::min(1.0, s + behind);
@@ -252,15 +227,37 @@ class PathTracer {
     for (int together = 0; together < mostTogether; ++together) {
       if (rank_ == place.rank) change(place.node);
       place = worstAt(next);
-      if (place.margin >= -rounding && state_.found) return record(before, s, path);
+      if (place.margin < -rounding || !state_.found) continue;
+      if (record(before, s, path)) return s;
+      break;  // all changes are undone: the path turns back
     }
     closed_ = before.closed, sticking_ = heldBefore;
-    margins(s);
-    problem_.startFrom(gaps(), sticking_);
-    const Solution found = problem_.solve(at(next));
-    if (!found.converged) return false;
-    closed_ = found.closed, sticking_ = found.sticking;
-    return record(before, s, path);
+    return jump(before, s, path);
+  }
+  /// Changes to the active set that SNES finds from the present state shortly after s. Returns the
+  /// place where it is found, if it is.
+  std::optional<double> jump(const contact::ActiveSet& before, double s, ContactPath& path) {
+    const Sticking heldBefore = sticking_;
+    for (const double ahead : {behind, 1e-5, 1e-3}) {
+      double next = std::min(1.0, s + ahead);
+      margins(s);
+      problem_.startFrom(gaps(), sticking_);
+      Solution found = problem_.solve(at(next));
+      if (!found.converged) continue;
+      if (ahead > behind) {  // perhaps the state found also exists nearer to the event
+        const double nearer = std::min(1.0, s + behind);
+        std::vector<double> gaps;
+        for (const auto& state : found.contact) gaps.push_back(state.coefficient);
+        problem_.startFrom(std::move(gaps), found.sticking);
+        if (Solution there = problem_.solve(at(nearer));
+            there.converged && !contact::sameOnAllRanks(comm(), steady::activeSet(there), before))
+          found = std::move(there), next = nearer;
+      }
+      closed_ = found.closed, sticking_ = found.sticking;
+      if (record(before, s, path)) return next;
+      closed_ = before.closed, sticking_ = heldBefore;
+    }
+    return {};
   }
   bool record(const contact::ActiveSet& before, double s, ContactPath& path) {
     const auto changes = changesBetween(before, set(), at(s), path.count);
@@ -271,7 +268,8 @@ class PathTracer {
   }
 
   CondensedProblem& problem_;
-  sweep::Parameters from_, to_;
+  const Line line_;
+  PathStates states_;
   contact::Mask closed_;
   Sticking sticking_;
   impedance::ContactSolution state_;  // the last one computed
@@ -310,32 +308,12 @@ std::vector<ContactEvent> changesBetween(const contact::ActiveSet& before,
   return found;
 }
 
-void precomputeContact(CondensedProblem& problem, const std::vector<ContactInterval>& intervals) {
-  const int rank = mpi::rank(problem.comm());
-  std::vector<ChosenSet> ends, sets;
-  for (const auto& interval : intervals)
-    for (const auto* solution : {interval.from, interval.to})
-      ends.push_back({solution->at, interval.from->closed, interval.from->sticking});
-  const auto states = problem.solveOnSets(ends);
-  for (std::size_t k = 0; k < intervals.size(); ++k) {
-    ChosenSet set = ends[2 * k];
-    const auto expected =
-        expectedChanges(problem.comm(), intervals[k], states[2 * k], states[2 * k + 1]);
-    for (const ExpectedChange& change : expected) {
-      if (change.rank == rank) set.closed[change.node] = !set.closed[change.node];
-      // Compute a set at its start, and at the end to find the node that changes next.
-      for (double s : {change.at, 1.0}) {
-        set.at = between(intervals[k].from->at, intervals[k].to->at, s);
-        sets.push_back(set);
-      }
-    }
-  }
-  problem.solveOnSets(sets);
-}
-
 ContactPath traceContact(CondensedProblem& problem, const Solution& from,
                          const sweep::Parameters& to) {
-  return PathTracer(problem, from, to).trace();
+  auto [gaps, sticking] = problem.start();
+  ContactPath path = PathTracer(problem, from, to).trace();
+  problem.startFrom(std::move(gaps), std::move(sticking));
+  return path;
 }
 
 }  // namespace squeal::condensed

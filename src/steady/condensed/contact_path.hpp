@@ -48,25 +48,17 @@ struct ContactPath {
   Sticking sticking;
 };
 
-/// The solutions at both ends of a path of the contact; borrowed.
-struct ContactInterval {
-  const Solution *from, *to;
-};
-
-/// Collective. Precomputes in blocks the states that traceContact() will probably need on these
-/// paths. The changes, their order and the sets in between are predicted by linear interpolation
-/// between the ends of a path. The prediction affects only the run time.
-void precomputeContact(CondensedProblem& problem, const std::vector<ContactInterval>& intervals);
-
 /// Collective. Follows the steady state from the solution `from` along the straight line to the
 /// parameters `to`, which differ from those of `from` in friction, pressure or speed. On each
 /// active set the state is a smooth function of these parameters. The next change is at the first
 /// zero of a normal force or gap, located to 1e-11 of the length of the line. A node of a sticking
 /// interface that opens is freed along the surface, and held again when it closes. If the node,
 /// once held again, would change at once, it is not held again, but stays closed and unheld. A node
-/// that opens loses its tangential force, so the state jumps there. The path ends if the equations
-/// of an active set are singular (a pole of forces and gaps), or if no active set is consistent
-/// after a change. Two zeros of one node between consecutive events may be missed.
+/// that opens loses its tangential force, so the state jumps there. If no active set is consistent
+/// after a change, the path jumps to the set that SNES finds from the last state slightly further
+/// on, at most 1e-3 of the line; all nodes that differ change there. The path ends if SNES finds
+/// none, or if the equations of an active set are singular (a pole of forces and gaps). Two zeros
+/// of one node between consecutive events may be missed.
 ContactPath traceContact(CondensedProblem& problem, const Solution& from,
                          const sweep::Parameters& to);
 

@@ -23,18 +23,20 @@ constexpr double accepted = 1e-8;
 /// Remaining forces on free unknowns above this fraction of the largest given one show a rigid-body
 /// mode.
 constexpr double balancedForces = 1e-6;
-/// The largest number of directions per call.
+/// The largest number of directions per call, and four more for each given force after the first.
 constexpr PetscInt mostDirections = 500;
 /// The remainder of a direction, a unit vector, must be longer than this after orthogonalisation
 /// against the space of friction magnitudes, and against its block. The next block contains the
 /// directions omitted here.
 constexpr double newInSpace = 1e-10, newInBlock = 0.3;
 
-/// Collective. Returns the coefficients a that minimise |b − G a|. It refines the normal equations,
-/// which gives all digits if the condition number of G is below some 1e7.
-DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseView& b) {
-  const SymmetricInverse inverse(linalg::transposedProduct(comm, g, g));
-  DenseMatrix sum(g.columns(), 1), rest(b);
+/// Collective. Returns for each column b the coefficients a that minimise |b − G a|. It refines the
+/// normal equations, which gives all digits if the condition number of G is below some 1e7. `gram`
+/// is GᵀG.
+DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseMatrix& gram,
+                         const DenseView& b) {
+  const SymmetricInverse inverse(gram);
+  DenseMatrix sum(g.columns(), b.columns()), rest(b);
   for (int pass = 0; pass < 3; ++pass) {
     DenseMatrix step = linalg::transposedProduct(comm, g, rest);
     inverse.apply(step);
@@ -44,16 +46,38 @@ DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseView& b) 
   return sum;
 }
 
+/// Collective. Returns the 2-norms of the columns.
+std::vector<double> lengths(MPI_Comm comm, const DenseView& columns) {
+  std::vector<double> result;
+  for (PetscInt j = 0; j < columns.columns(); ++j)
+    result.push_back(linalg::squaredLength(columns.column(j)));
+  mpi::sumAlike(comm, result);
+  for (double& length : result) length = std::sqrt(length);
+  return result;
+}
+
 }  // namespace
 
-/// The search for the friction of one case in the space of friction magnitudes.
+/// The search, in the space of friction magnitudes, for the friction due to several given forces
+/// under the same conditions.
 struct ContactSolver::Search {
-  const ContactCase& contactCase;
-  std::shared_ptr<FreeBlock> block;
-  DenseMatrix wanted;         // t without its own effects, [contact node]
-  double unit = 0;            // reference of the unbalanced part, N
-  DenseMatrix weights{0, 1};  // [direction]
-  double left = 0;            // 2-norm of the unbalanced part, N
+  const ContactConditions& conditions;
+  DenseMatrix given;         // (R, F)0, one column for each
+  std::vector<double> unit;  // [column] reference of the unbalanced part, N
+  std::shared_ptr<FreeBlock> block = nullptr;
+  DenseMatrix wanted = {};                  // t without its own effects, [contact node]×[column]
+  DenseMatrix weights{0, given.columns()};  // [direction]×[column]
+  std::vector<double> left = {};            // [column] 2-norm of the unbalanced part, N
+  DenseMatrix g = {}, gram = {};  // t − c R of the space, [contact node]×[direction]; GᵀG
+
+  bool isBalanced(std::size_t column, double accuracy) const {
+    return left[column] <= accuracy * unit[column];
+  }
+  bool isBalanced(double accuracy) const {
+    for (std::size_t j = 0; j < left.size(); ++j)
+      if (!isBalanced(j, accuracy)) return false;
+    return true;
+  }
 };
 
 ContactSolver::ContactSolver(const Impedance& impedance)
@@ -86,9 +110,9 @@ void ContactSolver::noteFriction(std::span<const ContactCase> cases) {
   for (const auto& block : free_.blocks()) block->normal = DenseMatrix(std::ssize(frictional_));
 }
 
-double ContactSolver::gapStiffness(std::size_t node) const {
-  const PetscInt place = free_.placeOf(node);
-  return place < 0 ? 0 : free_.columns()(impedance_.nodes() + node, place);
+double ContactSolver::stiffness(std::size_t unknown) const {
+  const PetscInt place = free_.placeOf(unknown);
+  return place < 0 ? 0 : free_.columns()(impedance_.nodes() + unknown, place);
 }
 
 /// Releases the free unknowns until F = 0 there. Returns their values, [known column], and adds
@@ -124,6 +148,21 @@ void ContactSolver::update(FreeBlock& block) const {
   block.normal.append(normal);
 }
 
+/// Updates a search to the present space of friction magnitudes.
+void ContactSolver::update(Search& search) const {
+  update(*search.block);
+  const PetscInt known = search.g.columns(), all = magnitudes_.columns();
+  if (known == all) return;
+  const auto& coefficient = search.conditions.coefficient;
+  DenseMatrix fresh(magnitudes_.columnRange(known, all));
+  for (PetscInt j = 0; j < fresh.columns(); ++j)
+    for (std::size_t i = 0; i < frictional_.size(); ++i)
+      fresh(frictional_[i], j) -= coefficient[frictional_[i]] * search.block->normal(i, known + j);
+  search.g.append(fresh);
+  search.gram = linalg::bordered(
+      search.gram, linalg::transposedProduct(impedance_.comm(), search.g, fresh), DenseMatrix());
+}
+
 /// Adds directions, [contact node]×[direction], to the space of friction magnitudes, without their
 /// components in it. Returns false if nothing remains.
 bool ContactSolver::extend(const DenseMatrix& directions) {
@@ -153,54 +192,89 @@ bool ContactSolver::extend(const DenseMatrix& directions) {
   return true;
 }
 
+/// Begins searches with the friction due to the given forces, without its own effects.
+void ContactSolver::begin(std::vector<Search>& searches) {
+  std::vector<std::shared_ptr<FreeBlock>> blocks;
+  for (Search& search : searches)
+    blocks.push_back(search.block =
+                         free_.blockOf(search.conditions.free, search.conditions.direct));
+  free_.makeReady(blocks);
+  const PetscInt n = impedance_.nodes();
+  for (Search& search : searches) {
+    DenseMatrix effects = search.given;
+    release(*search.block, effects);
+    search.g = DenseMatrix(n);
+    search.wanted = linalg::rowRange(effects, 0, n);
+    for (PetscInt j = 0; j < effects.columns(); ++j)
+      for (PetscInt i = 0; i < n; ++i) search.wanted(i, j) *= search.conditions.coefficient[i];
+    search.left = lengths(impedance_.comm(), search.wanted);
+    for (std::size_t j = 0; j < search.unit.size(); ++j)
+      search.unit[j] = std::max(search.left[j], search.unit[j]);
+  }
+}
+
 /// Searches for the friction of all cases until each is balanced or the space no longer grows.
 void ContactSolver::balance(std::vector<Search>& searches, double accuracy) {
-  const PetscInt n = impedance_.nodes(), most = magnitudes_.columns() + mostDirections;
+  const PetscInt n = impedance_.nodes();
+  PetscInt most = magnitudes_.columns() + mostDirections;
+  for (const Search& search : searches) most += 4 * (search.given.columns() - 1);
   const MPI_Comm comm = impedance_.comm();
   DenseMatrix unbalanced(n);
   do {
     unbalanced.resizeColumns(0);
     for (Search& search : searches) {
-      if (search.left <= accuracy * search.unit) continue;
-      update(*search.block);
-      const auto& coefficient = search.contactCase.conditions.coefficient;
-      DenseMatrix g = magnitudes_;  // t − c R
-      for (PetscInt j = 0; j < g.columns(); ++j)
-        for (std::size_t i = 0; i < frictional_.size(); ++i)
-          g(frictional_[i], j) -= coefficient[frictional_[i]] * search.block->normal(i, j);
-      search.weights = leastSquares(comm, g, search.wanted);
-      DenseMatrix rest = search.wanted;
-      linalg::multiplyAdd(g, search.weights, rest, -1);
-      search.left = linalg::length(comm, rest.entries());
-      if (!(search.left <= accuracy * search.unit)) unbalanced.append(rest);
+      if (search.isBalanced(accuracy)) continue;
+      update(search);
+      std::vector<PetscInt> open;  // columns
+      for (PetscInt j = 0; j < search.given.columns(); ++j)
+        if (!search.isBalanced(j, accuracy)) open.push_back(j);
+      DenseMatrix rest(n);
+      for (const PetscInt j : open) rest.append(search.wanted.column(j));
+      const DenseMatrix weights = leastSquares(comm, search.g, search.gram, rest);
+      linalg::multiplyAdd(search.g, weights, rest, -1);
+      const auto left = lengths(comm, rest);
+      DenseMatrix all(weights.rows(), search.given.columns());
+      for (PetscInt j = 0; j < all.columns(); ++j)
+        std::ranges::copy(search.weights.column(j), all.column(j).begin());
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        const PetscInt j = open[i];
+        std::ranges::copy(weights.column(i), all.column(j).begin());
+        search.left[j] = left[i];
+        if (!search.isBalanced(j, accuracy)) unbalanced.append(rest.column(i));
+      }
+      search.weights = std::move(all);
+      if (searches.size() > 1) search.g = DenseMatrix(n), search.gram = {};  // for lack of memory
     }
   } while (unbalanced.columns() > 0 && magnitudes_.columns() < most && extend(unbalanced));
 }
 
-ContactSolution ContactSolver::solution(const Search& search, double accuracy) const {
-  const PetscInt n = impedance_.nodes(), length = impedance_.length(),
-                 known = search.weights.rows();
+ContactResponses ContactSolver::responses(const Search& search, double accuracy) const {
+  const PetscInt n = impedance_.nodes(), known = search.weights.rows(),
+                 columns = search.given.columns();
   const DenseMatrix t = linalg::product(magnitudes_.columnRange(0, known), search.weights);
-  DenseMatrix effects(length, 1, search.contactCase.given);
+  ContactResponses result{DenseMatrix(impedance_.length(), columns), search.given,
+                          std::vector<int>(columns)};
+  DenseMatrix& effects = result.effects;
   linalg::multiplyAdd(responses_.columnRange(0, known), search.weights, effects);
   addDirect(*search.block, t, effects);
   const DenseMatrix freed = release(*search.block, effects);
-  ContactSolution result;
   const auto& local = search.block->unknowns.local;
   // No reaction balances forces on a rigid-body mode.
-  double largest[2] = {0, 0};  // of the forces on free unknowns, and of the given ones
-  for (const PetscInt i : local) largest[0] = std::max(largest[0], std::abs(effects(n + i, 0)));
-  for (const double force : search.contactCase.given)
-    largest[1] = std::max(largest[1], std::abs(force));
+  std::vector<double> largest(2 * columns, 0.0);  // of forces on free unknowns, and of given ones
+  for (PetscInt j = 0; j < columns; ++j) {
+    for (const PetscInt i : local)
+      largest[2 * j] = std::max(largest[2 * j], std::abs(effects(n + i, j)));
+    for (const double force : search.given.column(j))
+      largest[2 * j + 1] = std::max(largest[2 * j + 1], std::abs(force));
+  }
   mpi::reduce<double>(impedance_.comm(), largest, MPI_MAX);
-  result.found = std::isfinite(search.left) &&
-                 search.left <= std::max(accuracy, accepted) * search.unit &&
-                 largest[0] <= balancedForces * largest[1];
-  result.causes.assign(length, 0.0);
-  std::ranges::copy(t.entries(), result.causes.begin());
-  for (std::size_t i = 0; i < local.size(); ++i)
-    result.causes[n + local[i]] = freed(free_.placeOf(local[i]), 0);
-  result.effects.assign(effects.entries().begin(), effects.entries().end());
+  for (PetscInt j = 0; j < columns; ++j) {
+    result.found[j] = std::isfinite(search.left[j]) &&
+                      search.isBalanced(j, std::max(accuracy, accepted)) &&
+                      largest[2 * j] <= balancedForces * largest[2 * j + 1];
+    std::ranges::copy(t.column(j), result.causes.column(j).begin());
+    for (const PetscInt i : local) result.causes(n + i, j) = freed(free_.placeOf(i), j);
+  }
   return result;
 }
 
@@ -224,7 +298,6 @@ std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> case
 
 std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> cases,
                                                   double accuracy) {
-  const MPI_Comm comm = impedance_.comm();
   const PetscInt n = impedance_.nodes(), length = impedance_.length();
   std::vector<unsigned char> free(length - n);
   for (const auto& one : cases)
@@ -235,27 +308,65 @@ std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> c
   const auto begins = groups(cases);
   for (std::size_t group = 0; group + 1 < begins.size(); ++group) {
     std::vector<Search> searches;
-    for (std::size_t k = begins[group]; k < begins[group + 1]; ++k) {
-      const auto& conditions = cases[k].conditions;
+    for (std::size_t k = begins[group]; k < begins[group + 1]; ++k)
       searches.push_back(
-          {cases[k], free_.blockOf(conditions.free, conditions.direct), DenseMatrix(n, 1)});
-    }
-    std::vector<std::shared_ptr<FreeBlock>> blocks;
-    for (const Search& search : searches) blocks.push_back(search.block);
-    free_.makeReady(blocks);
-    for (Search& search : searches) {
-      const auto& [conditions, given, frictionUnit] = search.contactCase;
-      DenseMatrix effects(length, 1, given);
-      release(*search.block, effects);
-      for (PetscInt i = 0; i < n; ++i)
-        search.wanted(i, 0) = conditions.coefficient[i] * effects(i, 0);
-      search.left = linalg::length(comm, search.wanted.entries());
-      search.unit = std::max(search.left, frictionUnit);
-    }
+          {cases[k].conditions, DenseMatrix(length, 1, cases[k].given), {cases[k].frictionUnit}});
+    begin(searches);
     balance(searches, accuracy);
-    for (const auto& search : searches) solutions.push_back(solution(search, accuracy));
+    for (const auto& search : searches) {
+      const auto [causes, effects, found] = responses(search, accuracy);
+      solutions.push_back({{causes.entries().begin(), causes.entries().end()},
+                           {effects.entries().begin(), effects.entries().end()},
+                           found[0] != 0});
+    }
   }
   return solutions;
+}
+
+std::vector<ContactResponses> ContactSolver::respond(std::span<const ContactCase> cases,
+                                                     const std::vector<PetscInt>& changed,
+                                                     const std::vector<double>& frictionUnits) {
+  const PetscInt n = impedance_.nodes(), m = impedance_.length() - n, first = free_.first();
+  const auto isOwn = [&](PetscInt unknown) { return unknown >= first && unknown < first + m; };
+  std::vector<unsigned char> known = cases.front().conditions.free;
+  std::vector<int> isFree;
+  for (const PetscInt unknown : changed) {
+    isFree.push_back(isOwn(unknown) && known[unknown - first]);
+    if (isOwn(unknown)) known[unknown - first] = 1;
+  }
+  mpi::reduce<int>(impedance_.comm(), isFree, MPI_LOR);
+  computeColumns(known);
+  noteFriction(cases);
+  DenseMatrix causes(impedance_.length());
+  for (std::size_t k = 0; k < changed.size(); ++k)
+    if (isFree[k]) {
+      causes.resizeColumns(causes.columns() + 1);
+      if (isOwn(changed[k])) causes(n + changed[k] - first, causes.columns() - 1) = 1;
+    } else {
+      causes.append(free_.columns().column(free_.columnOf(changed[k])));
+    }
+  std::vector<double> units{0};
+  units.insert(units.end(), frictionUnits.begin(), frictionUnits.end());
+  std::vector<ContactResponses> result;
+  for (const auto& one : cases) {
+    DenseMatrix given(impedance_.length(), 1, one.given);
+    given.append(causes);
+    units[0] = one.frictionUnit;
+    std::vector<Search> searches;
+    searches.push_back({one.conditions, std::move(given), units});
+    begin(searches);
+    balance(searches, balanced);
+    auto& [t, effects, found] = result.emplace_back(responses(searches.front(), balanced));
+    for (std::size_t k = 0; k < changed.size(); ++k) {
+      if (!isOwn(changed[k])) continue;
+      const PetscInt row = n + changed[k] - first;
+      if (isFree[k])
+        effects(row, k + 1) -= 1;  // what remains is the force of the contact
+      else
+        t(row, k + 1) = 1;
+    }
+  }
+  return result;
 }
 
 ContactSolution ContactSolver::withGaps(const std::vector<double>& gaps, ContactCase one) {

@@ -38,6 +38,12 @@ struct ContactSolution {
   bool found = false;
 };
 
+/// Solutions for several given forces, [entry]×[column].
+struct ContactResponses {
+  linalg::DenseMatrix causes, effects;  ///< (t, w) and (R, F)
+  std::vector<int> found;               ///< [column] 1 if ContactSolution::found would be true
+};
+
 /// Solves [M.59]
 ///   (R, F) = (R, F)0 + Z (t, w),   t = c R,   F = 0 or w = 0
 /// for any choice of free unknowns, any coefficients c and any given forces (R, F)0. Z contains the
@@ -57,9 +63,19 @@ class ContactSolver {
                                      double accuracy = balanced);
   /// Collective. Solves one case with all gaps given, [contact node], regardless of `free`.
   ContactSolution withGaps(const std::vector<double>& gaps, ContactCase one);
-  /// Returns the force that opens the gap of a contact node of this rank by a unit, N/m, with all
-  /// other gaps closed; 0 if the gap has never been open.
-  double gapStiffness(std::size_t node) const;
+  /// Collective. Returns for each case its solution, in column 0, and its responses to changes of
+  /// released unknowns `changed`, numbered over all ranks. The cases must differ in their
+  /// coefficients and given forces only. Column k + 1 is the response without the given forces to
+  /// w = 1 of unknown k if it is held, and to a unit force on it if it is free. F contains the
+  /// forces of the contact only, thus −1 in the row of that free unknown. The sum of the solution
+  /// and of multiples of the responses solves the case with other F or w of the changed unknowns.
+  /// `frictionUnits`, [changed], is the ContactCase::frictionUnit of the responses.
+  std::vector<ContactResponses> respond(std::span<const ContactCase> cases,
+                                        const std::vector<PetscInt>& changed,
+                                        const std::vector<double>& frictionUnits);
+  /// Returns the force that displaces a released unknown of this rank by a unit, N/m, with all
+  /// others held; 0 if it has never been free. The first unknowns are the gaps of the nodes.
+  double stiffness(std::size_t unknown) const;
 
   /// An accuracy of the friction equivalent to round-off. The residual of all equations may be
   /// larger; refinement reduces it if necessary.
@@ -73,9 +89,11 @@ class ContactSolver {
                  linalg::DenseMatrix& effects) const;
   void noteFriction(std::span<const ContactCase> cases);
   void update(FreeBlock& block) const;
+  void update(Search& search) const;
   std::vector<std::size_t> groups(std::span<const ContactCase> cases) const;
+  void begin(std::vector<Search>& searches);
   void balance(std::vector<Search>& searches, double accuracy);
-  ContactSolution solution(const Search& search, double accuracy) const;
+  ContactResponses responses(const Search& search, double accuracy) const;
   bool extend(const linalg::DenseMatrix& directions);
 
   const Impedance& impedance_;

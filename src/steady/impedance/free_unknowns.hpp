@@ -25,6 +25,10 @@ class FreeUnknowns {
   const linalg::DenseMatrix& columns() const { return columns_; }
   /// Returns the index of the column of a released unknown of this rank; −1 if it is not known.
   PetscInt placeOf(PetscInt unknown) const;
+  /// Returns the index of this rank's first released unknown among those of all ranks.
+  PetscInt first() const { return first_; }
+  /// Returns the index of the known column of a released unknown, numbered over all ranks.
+  PetscInt columnOf(PetscInt unknown) const { return place_.at(unknown); }
   /// Collective. Returns the block of these free unknowns, whose columns must be known, and makes
   /// it the newest. A new block is not ready until makeReady() is called. `direct` is the
   /// matrix of Impedance::directFriction(), or null.
@@ -54,7 +58,7 @@ class FreeUnknowns {
                                const linalg::DenseView& effects) const;
 
   const Impedance& impedance_;
-  PetscInt first_ = 0;  // index of this rank's first released unknown
+  PetscInt first_ = 0;
   // [released unknown of all ranks] its column in columns_
   std::unordered_map<PetscInt, PetscInt> place_;
   linalg::DenseMatrix columns_;

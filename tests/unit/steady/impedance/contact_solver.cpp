@@ -163,7 +163,7 @@ TEST(ContactSolver, TakesGivenGaps) {
 TEST(ContactSolver, StiffnessOfAGap) {
   Condensed condensed(pressedBlock);
   const std::size_t nodes = condensed.impedance.nodes();
-  for (std::size_t i = 0; i < nodes; ++i) EXPECT_EQ(condensed.solver.gapStiffness(i), 0);
+  for (std::size_t i = 0; i < nodes; ++i) EXPECT_EQ(condensed.solver.stiffness(i), 0);
   ContactCase one = someCase(condensed, 0);
   std::ranges::fill(one.conditions.free, 1);
   condensed.solver.solve(one);
@@ -178,7 +178,7 @@ TEST(ContactSolver, StiffnessOfAGap) {
       if (!isOwn) continue;
       EXPECT_GT(answer[nodes + i], 0);
       // The columns are solved in blocks: the same to round-off.
-      EXPECT_NEAR(condensed.solver.gapStiffness(i) / answer[nodes + i], 1, 1e-11);
+      EXPECT_NEAR(condensed.solver.stiffness(i) / answer[nodes + i], 1, 1e-11);
     }
   }
 }
