@@ -59,9 +59,8 @@ function branchesOf(variant, y) {
   if (!b || across !== "friction") return [];
   for (let i = 0; i < b.branch.length; ++i) {
     if (lineOf(b, i) !== element("line").value || b.in_band[i] === 0) continue;
-    const branch = `${b.active_set[i]} ${b.branch[i]}`;
-    if (!found.has(branch)) found.set(branch, []);
-    found.get(branch).push({x: b.friction[i], y: y(b, i)});
+    if (!found.has(b.branch[i])) found.set(b.branch[i], []);
+    found.get(b.branch[i]).push({x: b.friction[i], y: y(b, i)});
   }
   return [...found.values()].map((points) => points.sort((p, q) => p.x - q.x));
 }

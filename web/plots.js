@@ -13,15 +13,14 @@ const abscissa = (table, i) => table[across][i];
 const hertz = (table, i) => (table.frequency_hz ? table.frequency_hz[i] : NaN);
 const growth = (table, i) => (table.growth_rate_1_per_s ? table.growth_rate_1_per_s[i] : 0);
 
-/** The branches of the line, each with one active set, as one list of points with gaps. */
+/** The branches of the line, through all changes of contact, as one list of points with gaps. */
 function branchPoints(x, y) {
   const b = data.branches, found = new Map();
   if (!b || across !== "friction") return [];
   for (let i = 0; i < b.branch.length; ++i) {
     if (lineOf(b, i) !== state.line || b.in_band[i] === 0) continue;
-    const key = `${b.active_set[i]} ${b.branch[i]}`;
-    if (!found.has(key)) found.set(key, []);
-    found.get(key).push({x: x(b, i), y: y(b, i), order: b.friction[i]});
+    if (!found.has(b.branch[i])) found.set(b.branch[i], []);
+    found.get(b.branch[i]).push({x: x(b, i), y: y(b, i), order: b.friction[i]});
   }
   const all = [];
   for (const points of found.values()) {

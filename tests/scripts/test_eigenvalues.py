@@ -154,12 +154,12 @@ class Plot(unittest.TestCase):
             self.written(folder, [0.2, 0.6], [1], [1])
             (folder / "branches.csv").write_text("\n".join([self.branch_head, *rows, ""]))
             (folder / "critical.csv").write_text("\n".join([*critical, ""]))
-            lines, ends = stability.pieces(squeal.open(folder).branches)
+            lines, ends = stability.lines_and_sets(squeal.open(folder).branches)
             self.assertEqual(ends, [(0.2, 0.3), (0.3, 0.6)])
             self.assertEqual(
-                [list(line["friction"]) for line in lines], [[0.2, 0.3], [0.3, 0.6], [0.3, 0.6]]
+                [list(line["friction"]) for line in lines], [[0.2, 0.3, 0.3, 0.6], [0.3, 0.6]]
             )
-            self.assertEqual([line["growth_rate_1_per_s"].iloc[0] for line in lines], [0, 5, 0])
+            self.assertEqual(list(lines[0]["growth_rate_1_per_s"]), [0, 0, 5, 9])
             subprocess.run([scripts / "squeal-plot", name], check=True)
             self.assertTrue((folder / "stability.png").exists())
 

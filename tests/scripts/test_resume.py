@@ -406,6 +406,7 @@ class Resumed(unittest.TestCase):
             ),
             "opening": (2, BLOCK),
             "sets by themselves": (2, [*BLOCK, "-flutter_released", "0"]),
+            "several bases": (2, [*BLOCK, "-flutter_released", "1"]),
             "in all unknowns": (2, [*BLOCK, "-steady_full", "on", "-report_fields", "on"]),
             "speeds": (2, ["-options_file", repository / "options/two_layers_moving.yaml"]),
             "direct": (

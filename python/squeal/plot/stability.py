@@ -52,10 +52,11 @@ def at(table, values):
     return table[selected]
 
 
-def pieces(branches):
-    """Returns the parts of each branch with one active set, by ascending friction, and the ends
-    of the active sets in order."""
-    lines = [rows.sort_values("friction") for _, rows in branches.groupby(["active_set", "branch"])]
+def lines_and_sets(branches):
+    """Returns the rows of each branch by ascending friction, and the ends of the active sets in
+    order."""
+    # Where contact changes, a branch has two rows at the same friction, in the order of the table.
+    lines = [rows.sort_values("friction", kind="stable") for _, rows in branches.groupby("branch")]
     # Set 0 means all sets between two points.
     friction = branches[branches["active_set"] != 0].groupby("active_set")["friction"]
     return lines, sorted(zip(friction.min(), friction.max()))
@@ -74,7 +75,7 @@ def draw_followed(upper, lower, bottom, scale, followed):
     """Draws lines along the branches, the critical frictions, and shades every second active
     set."""
     branches, critical = followed
-    lines, ends = pieces(branches[branches["in_band"] > 0])
+    lines, ends = lines_and_sets(branches[branches["in_band"] > 0])
     for line in lines:
         style = dict(color="0.7", linewidth=0.6, zorder=1)
         upper.plot(line["friction"], line["frequency_hz"] / scale, **style)

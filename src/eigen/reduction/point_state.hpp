@@ -2,6 +2,7 @@
 #pragma once
 /// The points of a batch while the basis is corrected.
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct PointProblem {
 /// Points with the same boundary unknowns.
 struct PointSet {
   PointSpace space;
-  pencil::Pencil pencil;                ///< contains the terms of these points
+  /// Collective. Returns a pencil with the terms of all points and, after them, those of the set.
+  std::function<pencil::Pencil()> pencil;
   std::optional<ProjectedTerms> terms;  ///< projected terms of the set; none if not loaded
   double top;                           ///< top of the band that is listed, rad/s
   int modesInBand;                      ///< number of free modes up to `top`

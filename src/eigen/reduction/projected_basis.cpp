@@ -15,15 +15,21 @@ ProjectedBasis::ProjectedBasis(const pencil::Pencil& pencil, const factor::Assoc
   serialised_ = basis_.size();
 }
 
-int ProjectedBasis::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
-                           bool passed) {
-  auto& set = *sets_.emplace_back(
+int ProjectedBasis::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
+  const auto shared = std::make_shared<const pencil::Pencil>(pencil.with({}));
+  const int number = addPassedSet([shared] { return shared->with({}); }, has);
+  projectTerms(*sets_[number]);
+  return number;
+}
+
+int ProjectedBasis::addPassedSet(std::function<pencil::Pencil()> pencil,
+                                 const std::vector<unsigned char>& has) {
+  sets_.push_back(
       std::make_unique<PointSet>(PointSet{.space = PointSpace(basis_.boundaryStiffness(), has),
-                                          .pencil = pencil.with({}),
+                                          .pencil = std::move(pencil),
                                           .terms = {},
                                           .top = 0,
                                           .modesInBand = 0}));
-  if (!passed) projectTerms(set);
   return std::ssize(sets_) - 1;
 }
 
@@ -43,9 +49,9 @@ void ProjectedBasis::load(int number) {
 }
 
 void ProjectedBasis::projectTerms(PointSet& set) const {
-  set.terms.emplace(
-      basis_,
-      std::span(set.pencil.terms()).first(set.pencil.affineCount()).subspan(terms_.count()));
+  const pencil::Pencil pencil = set.pencil();
+  set.terms.emplace(basis_,
+                    std::span(pencil.terms()).first(pencil.affineCount()).subspan(terms_.count()));
 }
 
 PointState ProjectedBasis::state(const PointProblem& point, const Norms& norms) const {
@@ -72,6 +78,13 @@ linalg::DenseProblem ProjectedBasis::projectOnAll(const PointState& state) const
   linalg::DenseProblem problem;
   for (const auto* terms : {&terms_, &state.set->terms.value(), &state.ownTerms})
     terms->addTo({state.point->at, state.associated}, problem);
+  return problem;
+}
+
+linalg::DenseProblem ProjectedBasis::projectOnAll(const sweep::Parameters& at,
+                                                  const PointSet& set) const {
+  linalg::DenseProblem problem;
+  for (const auto* terms : {&terms_, &set.terms.value()}) terms->addTo({at, false}, problem);
   return problem;
 }
 

@@ -35,13 +35,14 @@ class ProjectedBasis {
   /// Collective. Adds a set of points with the same boundary unknowns and returns its index. has[i]
   /// is 1 if boundary unknown i, numbered over all ranks, is one of them. `pencil` begins with the
   /// terms of all points; the terms after these that belong to no single point become those of the
-  /// set. A `passed` set contains no point of the sweep, and must be loaded before use. Throws
-  /// Error if the stiffness is not positive definite.
-  int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
-             bool passed = false);
+  /// set. Throws Error if the stiffness is not positive definite.
+  int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
+  /// Collective. Adds a set that contains no point of the sweep, and must be loaded before use.
+  /// `pencil` is called, on all ranks, whenever it is loaded.
+  int addPassedSet(std::function<pencil::Pencil()> pencil, const std::vector<unsigned char>& has);
   /// Collective. Projects the terms of a passed set, unless they are loaded. Only the `mostLoaded`
-  /// most recently used passed sets keep their projections, since a path may pass through hundreds
-  /// of sets.
+  /// most recently used passed sets keep their terms and projections, since a path may pass through
+  /// hundreds of sets.
   void load(int set);
   PointSet& set(int number) { return *sets_[number]; }
   const PointSet& set(int number) const { return *sets_[number]; }
@@ -53,6 +54,9 @@ class ProjectedBasis {
   void extend(const std::vector<PointState*>& states);
   /// Not collective. Returns the projected problem of a point.
   linalg::DenseProblem project(const PointState& state) const;
+  /// Not collective. Returns the projected problem with the terms that all points of a set have,
+  /// with all boundary unknowns.
+  linalg::DenseProblem projectOnAll(const sweep::Parameters& at, const PointSet& set) const;
   /// Not collective. Returns the projected problem with all boundary unknowns, in coordinates
   /// common to all points.
   linalg::DenseProblem projectOnAll(const PointState& state) const;

@@ -61,9 +61,17 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const factor::Assoc
   if (boundary > 0) count_.emplace(basis_.basis(), modes, associatedTerms(pencil).assembled(2, {}));
 }
 
-int ReducedProblem::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
-                           bool passed) {
-  const int number = basis_.addSet(pencil, has, passed);
+int ReducedProblem::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
+  return withBand(basis_.addSet(pencil, has));
+}
+
+int ReducedProblem::addPassedSet(std::function<pencil::Pencil()> pencil,
+                                 const std::vector<unsigned char>& has) {
+  return withBand(basis_.addPassedSet(std::move(pencil), has));
+}
+
+/// Gives a new set the band of the basis, and returns its index.
+int ReducedProblem::withBand(int number) {
   PointSet& set = basis_.set(number);
   set.top = band_.top;
   set.modesInBand = std::ranges::count_if(frequencies_, [&](double w) { return w <= set.top; });

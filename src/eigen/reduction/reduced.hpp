@@ -62,13 +62,13 @@ class ReducedProblem {
   /// Collective. Adds a set of points that have the same boundary unknowns: has[i] is 1 if boundary
   /// unknown i, numbered over all ranks, is one of them. Returns the index of the set. `pencil`
   /// begins with the terms passed to the constructor. Its further terms apply to this set only, at
-  /// all of its points; the object and `pencil` share their matrices. A set with `passed`
-  /// = true contains no point of the sweep; it is an active set that the contact passes through
-  /// between two points.
-  /// Call load() before each use of a passed set. Throws Error if the stiffness is not positive
-  /// definite.
-  int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has,
-             bool passed = false);
+  /// all of its points; the object and `pencil` share their matrices. Throws Error if the stiffness
+  /// is not positive definite.
+  int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
+  /// Collective. Does the same for a set that contains no point of the sweep: an active set that
+  /// the contact passes through between two points. Call load() before each use; it calls `pencil`,
+  /// on all ranks.
+  int addPassedSet(std::function<pencil::Pencil()> pencil, const std::vector<unsigned char>& has);
   /// Collective. Projects the terms of a passed set, unless they are already loaded
   /// (ProjectedBasis::load()).
   void load(int set) { basis_.load(set); }
@@ -106,6 +106,14 @@ class ReducedProblem {
   }
   /// Collective. Returns the projection of the problem at this point on the current basis.
   linalg::DenseProblem project(const PointProblem& point) const;
+  /// Not collective. Returns the projection of the terms that all points of a set have.
+  linalg::DenseProblem project(const sweep::Parameters& at, int set) const {
+    return space(set).restricted(projectOnAll(at, set));
+  }
+  /// Not collective. Returns the same projection with all boundary unknowns.
+  linalg::DenseProblem projectOnAll(const sweep::Parameters& at, int set) const {
+    return basis_.projectOnAll(at, basis_.set(set));
+  }
   /// Collective. Returns the projection with all boundary unknowns, even if the point has only some
   /// of them. Its coordinates are the same for all points.
   linalg::DenseProblem projectOnAll(const PointProblem& point) const;
@@ -141,6 +149,7 @@ class ReducedProblem {
       const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 
  private:
+  int withBand(int number);
   std::vector<PointState> statesOf(const std::vector<PointProblem>& batch);
   void correct(std::vector<PointState>& states);
   void solveDense(const std::vector<PointState*>& open);

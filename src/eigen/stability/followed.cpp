@@ -34,10 +34,21 @@ bool areFreeModes(const Station& station, const std::vector<double>& angularFreq
                     [&](double s, double w) { return std::abs(s - w) <= near * w; });
 }
 
+/// Returns true if a Sturm count of the free modes confirms the number of eigenvalues at friction
+/// 0, the first station.
+bool isCounted(const Branches& branches, const modes::Modes& modes) {
+  const auto& w = modes.angularFrequency;
+  const double top = branches.band.top;
+  const auto below = std::ranges::count_if(w, [&](double omega) { return omega <= top; });
+  return branches.stations.front().friction == 0 && modes.countConfirmed &&
+         top * top <= modes.inertiaShift && areFreeModes(branches.stations.front(), w, below);
+}
+
 }  // namespace
 
 bool worthTracking(const Line& line, bool requested) {
-  return line.swept.size() > 1 || line.before || (line.swept.front() != 0 && requested);
+  return line.swept.size() > 1 || line.before || line.isContinued ||
+         (line.swept.front() != 0 && requested);
 }
 
 std::string whyNotTracked(const reduction::ReducedProblem& reduced,
@@ -101,6 +112,9 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
   for (const auto& line : lines) {
     TrackedLine tracked;
     tracked.line = line.at;
+    tracked.begin = line.swept.front();
+    tracked.continues = line.continues;
+    tracked.isContinued = line.isContinued;
     tracked.wholeSpace = reduced.basisSize() == unknowns;
     std::vector<std::unique_ptr<tracking::ReducedFamily>> families;
     std::vector<Piece> path;
@@ -112,7 +126,7 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
         added.needed.push_back(std::ranges::binary_search(line.swept, friction));
       tracked.activeSet.push_back(piece.activeSet);
     }
-    if (auto& first = path.front(); first.frictions.front() != 0) {
+    if (auto& first = path.front(); first.frictions.front() != 0 && !line.continues) {
       first.frictions.insert(first.frictions.begin(), 0);
       first.needed.insert(first.needed.begin(), 1);
     }
@@ -122,16 +136,12 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
     auto& stations = tracked.branches.stations;
     for (auto& station : stations)
       station.swept = std::ranges::binary_search(line.swept, station.friction);
-    if (!stations.empty() && stations.front().friction == 0) {
-      const auto& w = line.modes->angularFrequency;
-      const double top = tracked.branches.band.top;
-      const auto below =
-          std::count_if(w.begin(), w.end(), [&](double omega) { return omega <= top; });
-      families.front()->load();
-      const auto problem = families.front()->at(0);
-      tracked.countExact = problem && problem->damping.empty() && line.modes->countConfirmed &&
-                           top * top <= line.modes->inertiaShift &&
-                           areFreeModes(stations.front(), w, below);
+    if (!stations.empty()) {
+      auto& family = *families[stations.front().piece];
+      family.load();
+      const auto problem = family.at(stations.front().friction);
+      tracked.isDamped = problem && !problem->damping.empty();
+      tracked.countExact = problem && !tracked.isDamped && isCounted(tracked.branches, *line.modes);
     }
     renumber(tracked.branches);
     if (settings.critical)
@@ -140,8 +150,8 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
       tracked.from = line.swept.front();
       auto& gaps = tracked.branches.gaps;
       std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= tracked.from; });
-      gaps.push_back({*line.before, tracked.from,
-                      "the active set changes, and the two sets have a basis each"});
+      gaps.push_back(
+          {*line.before, tracked.from, "no basis serves the active sets of both frictions"});
       std::erase_if(tracked.criticals,
                     [&](const Critical& critical) { return critical.friction < tracked.from; });
     }

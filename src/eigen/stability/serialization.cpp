@@ -32,10 +32,11 @@ void fields(Stream& stream, Gap& gap) {
 namespace squeal::stability {
 
 void fields(Stream& stream, TrackedLine& tracked) {
-  auto& [line, activeSet, from, branches, criticals, modes, countExact, wholeSpace] = tracked;
+  auto& [line, activeSet, from, begin, continues, isContinued, branches, criticals, modes,
+         countExact, wholeSpace, isDamped] = tracked;
   auto& [band, stations, events, gaps, count, entered, left, omitted] = branches;
-  stream(line, activeSet, from, band, stations, events, gaps, count, entered, left, omitted,
-         criticals, modes, countExact, wholeSpace);
+  stream(line, activeSet, from, begin, continues, isContinued, band, stations, events, gaps, count,
+         entered, left, omitted, criticals, modes, countExact, wholeSpace, isDamped);
 }
 
 }  // namespace squeal::stability

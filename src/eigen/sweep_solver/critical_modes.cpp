@@ -41,7 +41,7 @@ std::vector<Place> nextPlaces(SweepProblem& problem, reduction::ReducedProblem& 
     if (derives || !source.local) between = problem.between(at, piece.like);
     if (!between && !source.local) continue;
     if (!between) between.emplace();
-    reduction::PointProblem there{at, source.shared.with(std::move(between->terms)), source.set};
+    reduction::PointProblem there{at, source.shared().with(std::move(between->terms)), source.set};
     reduced.load(source.set);
     auto projected = reduced.project(there);
     const bool isCrossing = critical.kind == tracking::Event::Kind::crossing;

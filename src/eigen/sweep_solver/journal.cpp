@@ -12,7 +12,7 @@ bool Journal::restoreFinished() {
   auto entry = checkpoint_.next(name_ + "_finished");
   if (!entry) return false;
   serialiseFinished(*entry);
-  pointsDone(plan_.points.size());
+  pointsDone(plan_.own(0, plan_.order.size()));
   return true;
 }
 
@@ -98,7 +98,7 @@ void Journal::serialisePoints(checkpoint::Archive& archive, reduction::ReducedPr
     pencil::serialise(archive, point);
     if (point.completeness) proofs_.insert(serialised_);
   }
-  if (archive.reads()) pointsDone(state_.solved - before);
+  if (archive.reads()) pointsDone(plan_.own(before, state_.solved));
 }
 
 /// Collective. Writes or reads all reported results.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The results of a sweep.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,18 @@ struct ModalSegment {
   std::vector<std::vector<pencil::Component>> components;
   std::vector<pencil::ComplexModes> points;  ///< for each damping factor, all steady points
   /// If eigenvalues are tracked, one entry for each combination of speed, pressure and damping
-  /// whose first point is in `points`.
+  /// whose first point is in `points` or, if that has no result, in an earlier segment. It may run
+  /// on through the segments that follow.
   std::vector<stability::TrackedLine> trackedLines;
   long solves = 0;  ///< number of right-hand sides solved for the basis and for error estimates
 };
+
+/// Returns true if a point has been solved; the accuracy of other points is zero.
+inline bool isSolved(const pencil::ComplexModes& point) { return point.accuracy > 0; }
+/// Returns true if any point of the segment has been solved.
+inline bool hasResults(const ModalSegment& segment) {
+  return std::ranges::any_of(segment.points, isSolved);
+}
 
 /// The results of a problem.
 struct SolvedSweep {

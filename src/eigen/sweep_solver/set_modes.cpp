@@ -20,7 +20,7 @@ std::vector<modes::Modes> modesOfSets(reduction::ReducedProblem& reduced,
   std::vector<std::size_t> restricted;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const PointRange& range = problem.ranges[k];
-    if (range.first == range.last) continue;
+    if (range.isPassed()) continue;
     if (std::ranges::count(range.has, 1) == 0) {
       result[k] = onAllUnknowns(interior, reduced.basis());
       continue;

@@ -7,6 +7,11 @@
 
 namespace squeal::sweep_solver {
 
+std::size_t SweepPlan::own(std::size_t first, std::size_t last) const {
+  return std::count_if(order.begin() + first, order.begin() + last,
+                       [&](std::size_t i) { return places[i].isOwn; });
+}
+
 SweepPlan planOf(const SweepProblem& problem, const std::vector<double>& dampings, bool together) {
   SweepPlan plan;
   std::vector<std::size_t> counts(problem.ranges.size(), 0);
@@ -17,7 +22,7 @@ SweepPlan planOf(const SweepProblem& problem, const std::vector<double>& damping
       const auto range = std::ranges::find_if(
           problem.ranges, [&](const auto& one) { return one.first <= i && i < one.last; });
       const std::size_t number = range - problem.ranges.begin();
-      plan.places.push_back({i, number, counts[number]++});
+      plan.places.push_back({i, number, counts[number]++, i > 0 || !problem.continues});
     }
   plan.batches = sweep::batches(plan.points);
   for (const auto& batch : plan.batches)

@@ -13,6 +13,7 @@ struct PointPlace {
   std::size_t steadyPoint;  ///< index in SweepProblem::steadyPoints
   std::size_t range;        ///< index in SweepProblem::ranges
   std::size_t inRange;      ///< index among all points of the range
+  bool isOwn = true;        ///< false: a point of the preceding problem, without results here
 };
 
 /// The points of all dampings at all steady points.
@@ -21,6 +22,8 @@ struct SweepPlan {
   std::vector<PointPlace> places;                 ///< [point]
   std::vector<std::vector<std::size_t>> batches;  ///< points that are solved together, in order
   std::vector<std::size_t> order;                 ///< all points, batch after batch
+  /// Returns how many of order[first], …, order[last - 1] have results here.
+  std::size_t own(std::size_t first, std::size_t last) const;
 };
 
 /// Returns the plan of a sweep. With `together`, the points of a batch share the corrections of one

@@ -25,7 +25,11 @@ struct PointRange {
   PetscInt openNodes = 0;           ///< contact nodes that are not active, over all ranks
   /// [boundary unknown, over all ranks] 1 if it is an unknown of these points
   std::vector<unsigned char> has = {};
-  std::vector<pencil::Term> terms = {};  ///< of these points only; `pencil` has the others
+  /// Collective. Returns the terms of these points only; SweepProblem::pencil has the others. An
+  /// empty function stands for no terms.
+  std::function<std::vector<pencil::Term>()> terms = {};
+
+  bool isPassed() const { return first == last; }  ///< it occurs only between points
 };
 
 /// An interval of friction with one active set; the other parameters are fixed.
@@ -61,8 +65,14 @@ class SweepProblem {
   /// The last piece has the active set of the point. Empty if all points have one active set.
   std::vector<std::vector<PathPiece>> steps;
   /// The friction of the last point of the preceding problem, if that point and the first one here
-  /// differ only in friction.
+  /// differ only in friction and this problem does not continue it.
   std::optional<double> frictionBefore;
+  /// True if steadyPoints[0] is the last point of the preceding problem and differs from the next
+  /// point only in friction. It is solved again, in this basis, so that its eigenvalues can be
+  /// continued, and has no results here.
+  bool continues = false;
+  bool isContinued = false;  ///< the next problem continues this one
+  int rangesBefore = 0;      ///< number of ranges with results in all preceding problems
 
   /// Returns the path through `count` consecutive points, from steadyPoints[first] on. The points
   /// must differ only in friction, and all ranges must be known.

@@ -22,17 +22,11 @@
 #include "eigen/sweep_solver/mode_shapes.hpp"
 #include "eigen/sweep_solver/point_text.hpp"
 #include "eigen/sweep_solver/set_modes.hpp"
+#include "eigen/sweep_solver/sweep_lines.hpp"
 #include "eigen/sweep_solver/sweep_plan.hpp"
 
 namespace squeal::sweep_solver {
 namespace {
-
-/// The accuracy of unsolved points is zero.
-bool isSolved(const pencil::ComplexModes& point) { return point.accuracy > 0; }
-
-bool hasResults(const ModalSegment& segment) {
-  return std::ranges::any_of(segment.points, isSolved);
-}
 
 /// The eigenvalues at the points of a problem, batch by batch, with a common basis.
 class SweepSolver {
@@ -62,16 +56,20 @@ class SweepSolver {
     bool complete = true;
     try {
       solveAll();
+      dropRepeated();
     } catch (const Interrupted&) {
       record();  // before it stops: all results that the checkpoint lacks
+      dropRepeated();
       complete = false;
     } catch (const Error& error) {
+      dropRepeated();
       if (std::ranges::none_of(state_.segments, hasResults)) throw;
       state_.failures.push_back(error.what());
     }
     if (complete && std::ranges::none_of(state_.segments, hasResults))
       throw Error(state_.failures.front());
     for (auto& segment : state_.segments) std::erase_if(segment.points, std::not_fn(isSolved));
+    keepTrackedLines(state_.segments);
     std::erase_if(state_.segments, [](const auto& segment) { return segment.points.empty(); });
     if (complete && state_.failures.empty()) journal_.recordFinished();
     return {std::move(state_.segments), complete, std::move(state_.failures)};
@@ -80,19 +78,30 @@ class SweepSolver {
  private:
   /// The points with one active set.
   struct Set {
+    // Without the terms of the set if it is passed: there may be hundreds of such sets.
     pencil::Pencil pencil;
     int number;  // in the reduced problem
   };
+
+  /// Collective. Returns the terms of all points and those of a range.
+  pencil::Pencil withTermsOf(std::size_t range) const {
+    pencil::Pencil all = pencil_.with({});
+    if (const auto& terms = problem_.ranges[range].terms) all.add(terms());
+    return all;
+  }
+
+  /// Collective. Returns the terms that all points of a range have.
+  pencil::Pencil pencilOf(std::size_t range) const {
+    return problem_.ranges[range].isPassed() ? withTermsOf(range) : sets_[range].pencil.with({});
+  }
 
   void solveAll() {
     auto modes = computeModes();
     if (modes)
       pencil_.add(
           pencil::modalDamping(*modes, problem_.system->m0(), request_.settings.modalDamping));
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      sets_[k].pencil = pencil_.with({});
-      sets_[k].pencil.add(std::move(problem_.ranges[k].terms));
-    }
+    for (std::size_t k = 0; k < sets_.size(); ++k)
+      if (!problem_.ranges[k].isPassed()) sets_[k].pencil = withTermsOf(k);
     if (modes) reduce(std::move(*modes));
     journal_.restorePoints(reduced_.get());
     record();
@@ -101,6 +110,12 @@ class SweepSolver {
     solvePoints();
     trackPoints();
     provePoints();
+  }
+
+  /// Drops the points whose results belong to the preceding problem.
+  void dropRepeated() {
+    for (std::size_t i = 0; i < plan_.places.size(); ++i)
+      if (!plan_.places[i].isOwn) pointAt(i) = {};
   }
 
   void record() { journal_.record(freeModes(), reduced_.get()); }
@@ -140,9 +155,12 @@ class SweepSolver {
       state_.segments[0].shapes = shapesOf(modes);
       state_.segments[0].modes = std::move(modes);
     } else {
-      for (std::size_t k = 0; k < sets_.size(); ++k)
-        sets_[k].number = reduced_->addSet(sets_[k].pencil, problem_.ranges[k].has,
-                                           problem_.ranges[k].first == problem_.ranges[k].last);
+      for (std::size_t k = 0; k < sets_.size(); ++k) {
+        const auto& has = problem_.ranges[k].has;
+        sets_[k].number = problem_.ranges[k].isPassed()
+                              ? reduced_->addPassedSet([this, k] { return withTermsOf(k); }, has)
+                              : reduced_->addSet(sets_[k].pencil, has);
+      }
       interiorModes_ = std::move(modes);
       text += formatted(" and %" PetscInt_FMT " constraint modes for %zu active sets",
                         reduced_->basis().boundarySize(), sets_.size());
@@ -185,12 +203,12 @@ class SweepSolver {
       solveBatch(batch, problems);
       for (std::size_t i = 0; i < batch.size(); ++i) {
         auto& point = pointAt(batch[i]);
-        if (!isSolved(point)) continue;
+        if (!isSolved(point) || !plan_.places[batch[i]].isOwn) continue;
         problem_.examine(plan_.places[batch[i]].steadyPoint, problems[i].pencil,
                          startSpace(problems[i], point), point);
       }
+      pointsDone(plan_.own(state_.solved, end));
       state_.solved = end;
-      pointsDone(batch.size());
       record();
       if (state_.solved < plan_.points.size()) stopIfRequested(pencil_.comm());
     }
@@ -198,51 +216,19 @@ class SweepSolver {
       for (auto& segment : state_.segments) segment.solves = reduced_->basis().solves();
   }
 
-  /// Returns the lines of the sweep, each with the number of the segment in which it begins.
-  std::vector<std::pair<stability::Line, std::size_t>> lines() const {
-    std::vector<std::pair<stability::Line, std::size_t>> found;
-    for (std::size_t first = 0, last = 0; first < plan_.points.size(); first = last) {
-      stability::Line line;
-      line.at = plan_.points[first];
-      line.modes = &state_.segments[plan_.places[first].range].modes;
-      do {
-        line.swept.push_back(plan_.points[last++].friction);
-      } while (last < plan_.points.size() &&
-               sweep::growsInFriction(plan_.points[last - 1], plan_.points[last]));
-      line.at.friction = 0;
-      const std::size_t from = plan_.places[first].steadyPoint;
-      line.before = from == 0 ? problem_.frictionBefore : std::nullopt;
-      for (const auto& piece : problem_.path(from, last - first)) {
-        const PointRange& range = problem_.ranges[*piece.range];
-        const auto number =
-            std::count_if(problem_.ranges.begin(), problem_.ranges.begin() + *piece.range + 1,
-                          [](const auto& one) { return one.first < one.last; });
-        const bool isPassed = range.first == range.last;
-        line.pieces.push_back(
-            {sourceOf(*piece.range), {piece.from}, isPassed ? 0 : int(number), range.first});
-        auto& frictions = line.pieces.back().frictions;
-        for (double friction : line.swept)
-          if (piece.from < friction && friction < piece.to) frictions.push_back(friction);
-        if (piece.to > piece.from) frictions.push_back(piece.to);
-      }
-      found.emplace_back(std::move(line), plan_.places[first].range);
-    }
-    return found;
-  }
-
   tracking::ProblemSource sourceOf(std::size_t range) const {
-    const Set& set = sets_[range];
+    const int set = sets_[range].number;
     const std::size_t like = problem_.ranges[range].first;
-    const auto problemAt = [this, &set, like](const sweep::Parameters& at) {
+    const auto problemAt = [this, range, set, like](const sweep::Parameters& at) {
       std::optional<reduction::PointProblem> problem;
       if (state_.affine)
-        problem.emplace(reduction::PointProblem{at, set.pencil.with({}), set.number});
+        problem.emplace(reduction::PointProblem{at, pencilOf(range), set});
       else if (auto point = problem_.between(at, like))
         problem.emplace(
-            reduction::PointProblem{at, set.pencil.with(std::move(point->terms)), set.number});
+            reduction::PointProblem{at, pencilOf(range).with(std::move(point->terms)), set});
       return problem;
     };
-    return {set.pencil, problemAt, state_.affine, set.number};
+    return {[this, range] { return pencilOf(range); }, problemAt, state_.affine, set};
   }
 
   /// Collective. Tracks the eigenvalues over the friction and finds critical frictions, if that is
@@ -252,7 +238,8 @@ class SweepSolver {
     if (!settings.track) return;
     std::vector<stability::Line> all;
     std::vector<std::size_t> begins;
-    for (auto& [line, range] : lines()) {
+    const auto source = [this](std::size_t range) { return sourceOf(range); };
+    for (auto& [line, range] : linesOf(problem_, plan_, state_, source)) {
       if (!stability::worthTracking(line, settings.requested)) continue;
       all.push_back(std::move(line));
       begins.push_back(range);
@@ -296,7 +283,7 @@ class SweepSolver {
     stopIfRequested(pencil_.comm());
     std::vector<ListedPoint> points;
     for (std::size_t i = 0; i < plan_.points.size(); ++i)
-      if (isSolved(pointAt(i)))
+      if (isSolved(pointAt(i)) && plan_.places[i].isOwn)
         points.push_back({plan_.places[i].range, problemOf(i), &pointAt(i)});
     auto failures = proveLists(problem_, *reduced_, freeModes(), std::move(points),
                                {.settings = request_.settings.proof,
@@ -318,9 +305,11 @@ class SweepSolver {
     return points;
   }
 
-  void recordFailure(const sweep::Parameters& point, const std::string& what) {
-    const std::string at = sweep::parameterText(point);
-    state_.failures.push_back(what.find(at) == std::string::npos ? at + ": " + what : what);
+  void recordFailure(std::size_t i, const std::string& what) {
+    const std::string at = sweep::parameterText(plan_.points[i]);
+    std::string text = what.find(at) == std::string::npos ? at + ": " + what : what;
+    if (!plan_.places[i].isOwn) text = "solved again for the continuation of branches: " + text;
+    state_.failures.push_back(std::move(text));
   }
 
   /// Collective. Solves a point, or records the reason why it has no result.
@@ -329,7 +318,7 @@ class SweepSolver {
     single.push_back({problem.at, problem.pencil.with({}), problem.set});
     pointAt(i) = std::move(solved(single).front());
   } catch (const Error& error) {
-    recordFailure(problem.at, error.what());
+    recordFailure(i, error.what());
   }
 
   /// Collective. Solves points together or, if that fails, one by one, so a failure affects only
@@ -343,13 +332,15 @@ class SweepSolver {
     } catch (const Error& error) {
       if (plan_.points.size() == 1) throw;
       if (batch.size() == 1) {
-        recordFailure(problems.front().at, error.what());
+        recordFailure(batch.front(), error.what());
       } else {
         for (std::size_t i = 0; i < batch.size(); ++i) solveSingle(batch[i], problems[i]);
       }
     }
     for (const std::size_t i : batch)
-      if (isSolved(pointAt(i))) stage.printLine(pointText(pointAt(i)));
+      if (isSolved(pointAt(i)))
+        stage.printLine(pointText(pointAt(i)) +
+                        (plan_.places[i].isOwn ? "" : "; again, for the continuation"));
     std::string text = formatted("%zu points", batch.size());
     if (reduced_)
       text += formatted(", basis of %" PetscInt_FMT ", %ld solves", reduced_->basisSize(),

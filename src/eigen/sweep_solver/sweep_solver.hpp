@@ -23,7 +23,7 @@ struct Request {
 /// the free modes, the eigenvalues at these points with all dampings, and the eigenvalues tracked
 /// as the friction changes. Restores and continues the checkpoint logs whose names begin with
 /// `name`. If a point or a stage fails, the others are still computed, and the result contains the
-/// reason. Consumes the terms in the ranges of `problem`. Throws Error if no point is solved.
+/// reason. Throws Error if no point is solved.
 SolvedSweep solveSweep(SweepProblem& problem, const Request& request,
                        checkpoint::Checkpoint& checkpoint, const std::string& name);
 

@@ -31,7 +31,7 @@ sweep::Parameters ReducedFamily::point(double friction) const {
 
 /// Returns the projection of the terms common to all points of the line.
 linalg::DenseProblem ReducedFamily::ofAll(double friction) const {
-  return reduced_.project({point(friction), source_.shared.with({}), source_.set});
+  return reduced_.project(point(friction), source_.set);
 }
 
 std::optional<linalg::DenseProblem> ReducedFamily::at(double friction) {
@@ -53,9 +53,8 @@ linalg::Spectrum ReducedFamily::shared(double friction,
   for (const auto& pair : pairs)
     lifted.push_back(
         {pair.s, reduced_.lifted(source_.set, pair.q), reduced_.lifted(source_.set, pair.left)});
-  const auto whole =
-      problem ? reduced_.projectOnAll(*problem)
-              : reduced_.projectOnAll({point(friction), source_.shared.with({}), source_.set});
+  const auto whole = problem ? reduced_.projectOnAll(*problem)
+                             : reduced_.projectOnAll(point(friction), source_.set);
   return linalg::Spectrum(whole, std::move(lifted));
 }
 

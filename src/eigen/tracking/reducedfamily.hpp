@@ -17,9 +17,9 @@ namespace squeal::tracking {
 
 /// The terms common to all points of a line, and those of single points.
 struct ProblemSource {
-  const pencil::Pencil& shared;  ///< the common terms, borrowed
+  std::function<pencil::Pencil()> shared;  ///< collective; returns the common terms
   /// Returns the problem of a point; none if there is no steady state with this active set.
-  /// Collective, unless `local`.
+  /// Collective.
   std::function<std::optional<reduction::PointProblem>(const sweep::Parameters&)> at;
   bool local = false;  ///< no point has terms of its own
   int set = 0;         ///< index of the points' set of boundary unknowns

@@ -22,4 +22,13 @@ PetscInt countDifferent(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b) {
   return mpi::sum(comm, count);
 }
 
+void ActiveSetHull::add(const ActiveSet& set) {
+  for (std::size_t i = 0; i < set.closed.size(); ++i) {
+    anywhere.closed[i] = anywhere.closed[i] || set.closed[i];
+    anywhere.released[i] = anywhere.released[i] && set.released[i];
+    everywhere.closed[i] = everywhere.closed[i] && set.closed[i];
+    everywhere.released[i] = everywhere.released[i] || set.released[i];
+  }
+}
+
 }  // namespace squeal::contact

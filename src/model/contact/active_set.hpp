@@ -31,4 +31,13 @@ PetscInt countDifferent(MPI_Comm comm, const Mask& a, const Mask& b);
 /// Collective. Returns the number of contact nodes that differ in either flag.
 PetscInt countDifferent(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b);
 
+/// The nodes that are closed, or released, in any of several sets and in all of them.
+struct ActiveSetHull {
+  ActiveSet anywhere;    ///< closed if closed in any set; released if released in all
+  ActiveSet everywhere;  ///< closed if closed in all sets; released if released in any
+
+  explicit ActiveSetHull(const ActiveSet& first) : anywhere(first), everywhere(first) {}
+  void add(const ActiveSet& set);
+};
+
 }  // namespace squeal::contact

@@ -12,11 +12,13 @@
 namespace squeal::contact {
 namespace {
 
-/// Collective. Returns Aᵀ B. With Aᵀ at hand, PETSc multiplies much faster.
+/// Collective. Returns Aᵀ B. With Aᵀ at hand, PETSc multiplies much faster. Its workspace, which
+/// contains a copy of B, is freed, since a sweep may hold hundreds of such products.
 OwnedMat transposedProduct(Mat a, Mat b) {
   OwnedMat transposed, result;
   check(MatTranspose(a, MAT_INITIAL_MATRIX, transposed.out()));
   check(MatMatMult(transposed, b, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  check(MatProductClear(result));
   return result;
 }
 
@@ -33,9 +35,7 @@ Projection project(const Contact& contact, const Transformation& transformation,
   projection.matrix = transposedProduct(transformation.trial, xt);
   check(MatMatMult(contact.sliding.reaction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    projection.reaction.out()));
-  // PETSc stores the workspace of a product for the next product with the same pattern.
-  for (const Mat result : {projection.matrix.get(), projection.reaction.get()})
-    check(MatProductClear(result));
+  check(MatProductClear(projection.reaction));
   if (isSymmetric(x)) check(MatSetOption(projection.matrix, MAT_SYMMETRIC, PETSC_TRUE));
   return projection;
 }

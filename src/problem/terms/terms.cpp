@@ -115,6 +115,13 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
   return terms;
 }
 
+bool hasPointTerms(const contact::Contact& contact, double friction, bool prestressed,
+                   const Settings& settings) {
+  // In the plane, the direction of a slip with a constant law does not turn.
+  const bool turns = settings.frictionDamping && contact.mesh->dimension == 3;
+  return prestressed || (contact.hasFriction(friction) && (!contact.slipIsConstant() || turns));
+}
+
 std::vector<double> responseForces(const std::vector<unsigned char>& closed,
                                    std::vector<double> normalForce, const Settings& settings) {
   if (!settings.frictionDamping) return std::vector<double>(normalForce.size(), 0.0);

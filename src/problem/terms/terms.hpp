@@ -50,6 +50,11 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const steady::Solution& solution, Mat prestressChange,
                                      const Settings& settings);
 
+/// Returns true if pointTerms() may return terms at this friction; `prestressed`: the geometric
+/// stiffness depends on the point.
+bool hasPointTerms(const contact::Contact& contact, double friction, bool prestressed,
+                   const Settings& settings);
+
 /// Not collective. Returns the normal forces, in newtons, from which B is computed, one per
 /// contact node of this rank: R_N at the `closed` nodes, zero at the others. All are zero without
 /// friction damping.

@@ -2,12 +2,18 @@
 #include "run/analysis/cost.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "algebra/linalg/dense.hpp"
 #include "base/system/mpi.hpp"
 
 namespace squeal::analysis {
 namespace {
+
+// Operations of sparse factors are slower than those of dense products.
+constexpr double factorSpeed = 0.24, solveSpeed = 0.12;
+/// Work on an unsymmetric spectrum in a basis of m vectors, in m³ operations of dense products.
+constexpr double spectrumWork = 75;
 
 /// Returns the number of vectors in the basis at the end of a group of points. Complex eigenvectors
 /// need two vectors each, and differ more between points if the speed or loss factors vary.
@@ -20,6 +26,24 @@ double basisSize(const RunSize& size, bool setsDiffer) {
 }
 
 }  // namespace
+
+double groupWork(const GroupSize& size) {
+  // The latency of many small steps; a factorisation of a solid takes about 30 n² operations and
+  // has 15 n^(4/3) entries.
+  constexpr double start = 1e10;
+  const double n = size.unknowns, factor = 30 * n * n / factorSpeed,
+               solve = 4 * 15 * std::pow(n, 4. / 3) / solveSpeed;
+  const double freeModes = 2.1 * size.modes * solve + 150 * n * size.modes * size.modes;
+  // Points with similar active sets share most of their vectors.
+  constexpr double vectorsPerMode = 2.3, furtherPerMode = 0.85, perNode = 1.4, similar = 40,
+                   mostSets = 5;
+  const double further = furtherPerMode * size.modes * std::min(1.0, size.differing / similar) *
+                         (std::min(size.activeSets, mostSets) - 1),
+               basis = vectorsPerMode * size.modes + further + perNode * size.differing;
+  const double corrections = (basis - size.modes) * solve + 6 * n * basis * basis;
+  return start + 2 * factor + freeModes + corrections +
+         spectrumWork * (size.points + size.spectra) * basis * basis * basis;
+}
 
 double denseSpeed(MPI_Comm comm) {
   constexpr PetscInt order = 400;
@@ -35,8 +59,6 @@ double denseSpeed(MPI_Comm comm) {
 }
 
 RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double speed) {
-  // Operations of sparse factors are slower than those of dense products.
-  constexpr double factorSpeed = 0.24, solveSpeed = 0.12;
   const double basis = basisSize(size, setsDiffer), n = size.unknowns,
                contact = size.contactUnknowns;
   const double factor = size.factorFlops / (factorSpeed * speed),
@@ -46,9 +68,17 @@ RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double spee
   // The first points, and tracking, need more solves than the later ones.
   const double dense = 200 * (size.points + 8) * basis * basis * basis / speed;
   const double steady = 6 * contact * contact * contact / speed + 5 * solve;
+  // The responses to changes of contact on a step, and the spectra of some sets on it.
+  constexpr double setsOnStep = 20;
+  const double path =
+                   setsDiffer ? 50 * size.followedSteps * contact * contact * contact / speed : 0,
+               tracking = setsDiffer ? spectrumWork * size.trackedSteps * setsOnStep * basis *
+                                           basis * basis / speed
+                                     : 0;
   RunCost cost;
   cost.seconds = 1.2 * size.secondsSoFar + 2e-5 * n + (1 + 2 * groups) * factor +
-                 groups * (freeModes + corrections) + dense + size.steadyPoints * steady;
+                 groups * (freeModes + corrections) + dense + size.steadyPoints * steady + path +
+                 tracking;
   // Matrices of the order of the basis: the pairs of all points, the terms that belong to one point
   // for the points that are solved together, and the linearised problems of the ranks.
   constexpr double together = 16;

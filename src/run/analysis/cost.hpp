@@ -16,6 +16,8 @@ struct RunSize {
   /// Number of unknowns that contact adds when it opens or slides: gaps of interfaces that can
   /// separate, and tangential displacements of nodes that stick.
   double contactUnknowns = 0;
+  double followedSteps = 0;  ///< steps of the friction in which changes of contact are located
+  double trackedSteps = 0;   ///< steps of the friction over which eigenvalues are tracked
   double factorBytes = 0;    ///< memory of a factorisation of K0
   double factorEntries = 0;  ///< entries of the factor
   double factorFlops = 0;    ///< operations of a factorisation
@@ -33,12 +35,29 @@ struct RunCost {
   double bytes = 0, seconds = 0;
 };
 
+/// The size of a group of points that share a basis. Independent of the number of ranks.
+struct GroupSize {
+  double unknowns = 0;
+  double modes = 0;   ///< free modes
+  double points = 0;  ///< of the sweep
+  double activeSets =
+      0;  ///< number of times that the active set changes from point to point, plus 1
+  double differing = 0;  ///< number of contact nodes in which these sets differ
+  double spectra = 0;    ///< estimated number of active sets between the points whose eigenvalues
+                         ///< are computed to track them
+};
+
+/// Returns an estimate of the work on a group without damping: the number of operations of dense
+/// products that take the same time.
+double groupWork(const GroupSize& size);
+
 /// Collective. Returns the speed of dense matrix products on all ranks together, operations/s. The
 /// measurement takes a few hundredths of a second.
 double denseSpeed(MPI_Comm comm);
 
 /// Returns the estimates for a run whose points are solved in `groups` groups, each with its own
-/// factorisations and basis. `setsDiffer`: a basis serves several active sets. `speed` is that of
+/// factorisations and basis. `setsDiffer`: the active sets of the points differ, several share a
+/// basis, and there are others between the points. `speed` is that of
 /// denseSpeed(). The motion after flutter is not included.
 RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double speed);
 

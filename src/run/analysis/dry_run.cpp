@@ -20,6 +20,7 @@
 #include "run/analysis/inventory.hpp"
 #include "run/analysis/matrix_flutter.hpp"
 #include "run/analysis/matrix_referee.hpp"
+#include "run/analysis/point_groups.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -186,6 +187,13 @@ RunSize withContact(RunSize size, const Model& model, const Settings& settings,
                                (model.mesh->dimension == 3 || !contact.law.constant());
   size.steadyPoints = sweep.steadyPoints().size();
   size.contactUnknowns = contactUnknowns(model);
+  const double steps =
+      (sweep.frictions.size() - 1.0) * sweep.speeds.size() * sweep.pressures.size();
+  if (!settings.mesh->steady.full && settings.mesh->steady.path > 0) {
+    size.followedSteps = steps;
+    if (areTracked(settings, model, sweep.frictions.back()))
+      size.trackedSteps = steps * sweep.dampings.size();
+  }
   size.varied = model.bodies.gyroscopic || model.bodies.damping;
   size.damped = size.damped || size.varied || frictionDamping;
   // K̄ and M̄ have friction terms; Z̄ has them with damping.

@@ -28,7 +28,8 @@ struct Flutter {
 
   /// Not collective. Prints the reason why a stage has no result, and adds it to `failures`.
   void addFailure(MPI_Comm comm, const std::string& reason);
-  /// Adds the results `more` of further points. `complete` takes its value from `more`.
+  /// Adds the results `more` of further points. Tracked lines with the same speed, pressure and
+  /// damping become one. `complete` takes its value from `more`.
   void append(Flutter more);
 };
 

@@ -8,9 +8,11 @@
 #include "algebra/linalg/columns.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
+#include "eigen/stability/continuation.hpp"
 #include "problem/matrices/write.hpp"
 #include "problem/terms/influence.hpp"
 #include "run/analysis/mesh_sweep.hpp"
+#include "run/analysis/point_groups.hpp"
 #include "steady/steady/prestress.hpp"
 
 namespace squeal::analysis {
@@ -18,8 +20,9 @@ namespace {
 
 std::string groupText(const SlidingBrake& brake, const PointGroup& group) {
   const auto& solutions = brake.states.solutions;
-  const std::string begin = sweep::parameterText(solutions[group.first].at);
-  if (group.last - group.first == 1) return begin;
+  const std::size_t first = group.first + (group.continues ? 1 : 0);
+  const std::string begin = sweep::parameterText(solutions[first].at);
+  if (group.last - first == 1) return begin;
   return begin + " to " + sweep::parameterText(solutions[group.last - 1].at);
 }
 
@@ -81,19 +84,18 @@ void exportPencil(const SlidingBrake& brake, const MeshSweep& problem) {
                          points);
 }
 
-/// Collective. Returns the results of a group of points; `before` is the number of segments of the
-/// groups before it.
+/// Returns the name of the checkpoint of a group.
+std::string checkpointName(const PointGroup& group) {
+  return "sets_" + std::to_string(group.first + 1) + (group.continues ? "_continued" : "");
+}
+
+/// Collective. Returns the results of a group of points.
 Flutter solveGroup(const SlidingBrake& brake, MeshSweep& problem,
-                   const sweep_solver::Request& request, checkpoint::Checkpoint& checkpoint,
-                   int before) {
+                   const sweep_solver::Request& request, checkpoint::Checkpoint& checkpoint) {
   auto solved =
-      sweep_solver::solveSweep(problem, request, checkpoint, "sets_" + std::to_string(before + 1));
+      sweep_solver::solveSweep(problem, request, checkpoint, checkpointName(problem.group()));
   Flutter found{.segments = std::move(solved.segments), .complete = solved.complete};
   for (auto& segment : found.segments) problem.addComponents(segment);
-  for (auto& segment : found.segments)
-    for (auto& tracked : segment.trackedLines)
-      for (int& activeSet : tracked.activeSet)
-        if (activeSet > 0) activeSet += before;
   for (const auto& failure : solved.failures)
     found.addFailure(brake.comm(), groupText(brake, problem.group()) + ": " + failure);
   for (const auto& segment : found.segments)
@@ -140,13 +142,16 @@ Flutter meshFlutter(const SlidingBrake& brake, const sweep_solver::Request& requ
       energies::ownModes(*mesh, bodies, nodes, brake.mesh().ownModes));
   Flutter all{.ownModes = components.ownModes()};
   std::vector<std::string> lost;  // groups without results
+  bool hasFailed = false;         // the preceding group
   std::string firstReason;
-  for (const PointGroup& group : groupsOf(brake)) {
+  for (PointGroup group : groupsOf(brake)) {
+    if (group.continues && hasFailed) group.continues = false, ++group.first;
+    hasFailed = false;
     const auto solve = [&] {
       stopIfRequested(brake.comm());
-      MeshSweep problem(brake, group, current, influences, components);
+      MeshSweep problem(brake, group, std::ssize(all.segments), current, influences, components);
       exportPencil(brake, problem);
-      Flutter found = solveGroup(brake, problem, request, checkpoint, std::ssize(all.segments));
+      Flutter found = solveGroup(brake, problem, request, checkpoint);
       if (found.complete) followAfterFlutter(brake, problem, current, found);
       all.append(std::move(found));
     };
@@ -155,10 +160,14 @@ Flutter meshFlutter(const SlidingBrake& brake, const sweep_solver::Request& requ
     } catch (const Error& error) {  // the other groups may have results
       if (lost.empty()) firstReason = error.what();
       lost.push_back(groupText(brake, group) + ": " + error.what());
+      hasFailed = true;
     }
     if (!all.complete) break;
   }
   if (all.complete && !lost.empty() && all.segments.empty()) throw Error(firstReason);
+  for (auto& segment : all.segments)
+    for (auto& tracked : segment.trackedLines)
+      stability::nameMissingEnd(tracked, brake.sweep.frictions.back());
   for (const auto& failure : lost) all.addFailure(brake.comm(), failure);
   if (all.complete) nameUnfollowed(brake, all);
   return all;

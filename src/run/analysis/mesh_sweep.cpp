@@ -14,63 +14,15 @@
 #include "steady/steady/prestress.hpp"
 
 namespace squeal::analysis {
-namespace {
-
-/// Closes the nodes that another set closes, and holds those that it holds.
-void closeLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
-  for (std::size_t i = 0; i < set.closed.size(); ++i) {
-    set.closed[i] = set.closed[i] || other.closed[i];
-    set.released[i] = set.released[i] && other.released[i];
-  }
-}
-
-/// Opens the nodes that another set opens, and releases those that it releases.
-void openLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
-  for (std::size_t i = 0; i < set.closed.size(); ++i) {
-    set.closed[i] = set.closed[i] && other.closed[i];
-    set.released[i] = set.released[i] || other.released[i];
-  }
-}
-
-/// Collective. Returns the end of the group that begins with a point, which has a solution.
-std::size_t endOfGroup(const SlidingBrake& brake, std::size_t first) {
-  // Modal damping is that of the free modes of a point, which prestress changes.
-  if (brake.settings.pencil.isModallyDamped() && brake.model.bodies.settings.prestress)
-    return first + 1;
-  const auto& solutions = brake.states.solutions;
-  contact::ActiveSet anywhere = steady::activeSet(solutions[first]), everywhere = anywhere;
-  std::size_t last = first;
-  for (; last < solutions.size() && solutions[last].converged; ++last) {
-    const contact::ActiveSet set = steady::activeSet(solutions[last]);
-    closeLike(set, anywhere);
-    openLike(set, everywhere);
-    if (contact::countDifferent(brake.comm(), anywhere, everywhere) > brake.mesh().released) break;
-  }
-  return last;
-}
-
-}  // namespace
-
 subspace::Substructure substructureOf(const contact::CoupledSystem& all,
                                       const contact::CoupledSystem& interior) {
   auto unknowns = contact::compared(all.transformation(), interior.transformation());
   return {all.k0(), std::move(unknowns.shared), std::move(unknowns.released)};
 }
 
-std::vector<PointGroup> groupsOf(const SlidingBrake& brake) {
-  const auto& solutions = brake.states.solutions;
-  std::vector<PointGroup> groups;
-  for (std::size_t first = 0, last = 0; first < solutions.size(); first = last) {
-    last = first + 1;
-    if (!solutions[first].converged) continue;
-    last = endOfGroup(brake, first);
-    groups.push_back({first, last});
-  }
-  return groups;
-}
-
-MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, CurrentSystem& current,
-                     terms::Influences& influences, const energies::Components& components)
+MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, int segmentsBefore,
+                     CurrentSystem& current, terms::Influences& influences,
+                     const energies::Components& components)
     : brake_(brake),
       group_(group),
       current_(current),
@@ -86,12 +38,10 @@ MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, Current
     return std::make_unique<contact::CoupledSystem>(brake.model.bodies, brake.model.contact, set,
                                                     prestress_);
   };
-  contact::ActiveSet everywhere = sets_.front().set;
-  anywhere_ = everywhere;
-  for (const auto& one : sets_) {
-    closeLike(one.set, anywhere_);
-    openLike(one.set, everywhere);
-  }
+  contact::ActiveSetHull hull(sets_.front().set);
+  for (const auto& one : sets_) hull.add(one.set);
+  anywhere_ = hull.anywhere;
+  const contact::ActiveSet& everywhere = hull.everywhere;
   if (prestress_) stressed_ = systemOf(anywhere_);
   all_ = interior_ = stressed_ ? stressed_.get() : &current.of(anywhere_);
   if (!contact::sameOnAllRanks(brake.comm(), anywhere_, everywhere)) {
@@ -109,6 +59,9 @@ MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, Current
   pencil = terms::affineTerms(contact, *all_);
   ranges = pointRanges();
   frictionBefore = frictionOfPointBefore();
+  continues = group.continues;
+  isContinued = group.isContinued;
+  rangesBefore = segmentsBefore;
 }
 
 /// Collective. Finds the active sets of the points and of the way between them.
@@ -182,14 +135,14 @@ std::vector<sweep_solver::PathPiece> MeshSweep::piecesAfter(std::size_t point) {
 
 /// Returns the friction of the point before the first one, if the two differ only in friction.
 std::optional<double> MeshSweep::frictionOfPointBefore() const {
-  if (group_.first == 0) return {};
+  if (group_.first == 0 || group_.continues) return {};
   const steady::Solution& before = brake_.states.solutions[group_.first - 1];
   if (!before.converged || !sweep::growsInFriction(before.at, steadyPoints[0])) return {};
   return before.at.friction;
 }
 
 /// Collective. Returns the active sets with their points, boundary unknowns and terms.
-std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
+std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() {
   std::vector<sweep_solver::PointRange> found;
   const auto& contact = brake_.model.contact;
   const PetscInt dimension = contact.mesh->dimension;
@@ -198,7 +151,6 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
   std::vector<PetscInt> contactNode(contact.mesh->ownedNodes, -1);
   for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
     contactNode[contact.interfaces.nodes[i].node] = i;
-  contact::Mask before;  // nodes that slide in the set before
   for (const auto& [set, first, last] : sets_) {
     sweep_solver::PointRange range;
     range.first = first, range.last = last;
@@ -215,15 +167,30 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() const {
     for (std::size_t i = 0; i < slides.size(); ++i)
       slides[i] = slides[i] && !all_->closed()[i] &&
                   contact.interfaces.nodes[i].role == contact::Role::sliding;
-    // Most changes on a path concern nodes without friction.
-    if (!found.empty() && contact::countDifferent(brake_.comm(), slides, before) == 0)
-      for (const auto& term : found.back().terms) range.terms.push_back(term.share());
-    else if (ranks.size() > 0)
-      range.terms = terms::slidingTerms(contact, *all_, slides);
-    before = std::move(slides);
+    if (ranks.size() > 0) {
+      // Most changes on a path concern nodes without friction.
+      if (slides_.empty() || contact::countDifferent(brake_.comm(), slides, slides_.back()) > 0)
+        slides_.push_back(std::move(slides));
+      range.terms = [this, k = slides_.size() - 1] { return slidingTerms(k); };
+    }
     found.push_back(std::move(range));
   }
   return found;
+}
+
+/// Collective. Returns the friction terms of a set of nodes that slide, by its index.
+std::vector<pencil::Term> MeshSweep::slidingTerms(std::size_t set) {
+  constexpr std::size_t most = 12;  // a path may pass through hundreds of sets
+  auto known = std::ranges::find(sliding_, set, &SlidingTerms::set);
+  if (known == sliding_.end()) {
+    if (sliding_.size() == most) sliding_.erase(sliding_.begin());
+    sliding_.push_back({set, terms::slidingTerms(brake_.model.contact, *all_, slides_[set])});
+  } else {
+    std::rotate(known, known + 1, sliding_.end());  // the most recently used one is the last
+  }
+  std::vector<pencil::Term> shared;
+  for (const auto& term : sliding_.back().terms) shared.push_back(term.share());
+  return shared;
 }
 
 completeness::FrictionFactors MeshSweep::frictionFactors() const {

@@ -13,14 +13,10 @@
 #include "model/contact/coupled.hpp"
 #include "problem/energies/components.hpp"
 #include "problem/terms/influence.hpp"
+#include "run/analysis/point_groups.hpp"
 #include "run/analysis/sliding_brake.hpp"
 
 namespace squeal::analysis {
-
-/// Collective. Returns the points with a steady solution, in groups that share a basis. The
-/// active sets in a group differ in at most MeshSettings::released nodes. With modal damping and
-/// prestress, each point is a group of its own, since prestress changes the free modes.
-std::vector<PointGroup> groupsOf(const SlidingBrake& brake);
 
 /// Divides the unknowns of `all`, which is borrowed, into two parts. The interior consists of the
 /// unknowns that `interior` also has. The boundary consists of those that only `all` has: gaps, and
@@ -31,9 +27,11 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
 /// The problem of one group of points.
 class MeshSweep : public sweep_solver::SweepProblem {
  public:
-  /// Collective. Borrows all arguments during the life of the object.
-  MeshSweep(const SlidingBrake& brake, const PointGroup& group, CurrentSystem& current,
-            terms::Influences& influences, const energies::Components& components);
+  /// Collective. Borrows all arguments during the life of the object. `segmentsBefore` is the
+  /// number of segments of the preceding groups.
+  MeshSweep(const SlidingBrake& brake, const PointGroup& group, int segmentsBefore,
+            CurrentSystem& current, terms::Influences& influences,
+            const energies::Components& components);
   const PointGroup& group() const { return group_; }
   std::vector<pencil::Term> termsOf(std::size_t i) const override;
   completeness::FrictionFactors frictionFactors() const override;
@@ -67,7 +65,8 @@ class MeshSweep : public sweep_solver::SweepProblem {
   void addEnergies(const Energies& at, const pencil::ComplexModes& point,
                    pencil::Shape& shape) const;
   void findSets();
-  std::vector<sweep_solver::PointRange> pointRanges() const;
+  std::vector<sweep_solver::PointRange> pointRanges();
+  std::vector<pencil::Term> slidingTerms(std::size_t set);
   std::optional<double> frictionOfPointBefore() const;
   std::vector<sweep_solver::PathPiece> piecesAfter(std::size_t point);
   std::vector<pencil::Term> termsOf(const steady::Solution& solution) const;
@@ -81,9 +80,17 @@ class MeshSweep : public sweep_solver::SweepProblem {
   CurrentSystem& current_;
   terms::Influences& influences_;
   const energies::Components& components_;
-  std::vector<SetOnPath> sets_;  // [range]
-  contact::ActiveSet anywhere_;  // a node is closed if it is in any of the sets
-  OwnedMat prestress_;           // K_σ of the first point, which is part of K0
+  /// The terms of a set of nodes that slide.
+  struct SlidingTerms {
+    std::size_t set;  // index in slides_
+    std::vector<pencil::Term> terms;
+  };
+
+  std::vector<SetOnPath> sets_;        // [range]
+  std::vector<contact::Mask> slides_;  // nodes that slide, of consecutive ranges
+  std::vector<SlidingTerms> sliding_;  // those used last
+  contact::ActiveSet anywhere_;        // a node is closed if it is in any of the sets
+  OwnedMat prestress_;                 // K_σ of the first point, which is part of K0
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;
   const contact::CoupledSystem* interior_ = nullptr;  // closed: the nodes closed in any set
   const contact::CoupledSystem* all_ = nullptr;       // closed: those closed in all sets

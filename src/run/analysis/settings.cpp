@@ -23,9 +23,10 @@ const IntegerOption pathOption(
     "largest number of contact nodes that may differ between two neighbouring points of a sweep; "
     "up to this number, the program locates each opening and closing between them; 0 = no search");
 const IntegerOption releasedOption(
-    "flutter", "flutter_released", 150, 0, 100'000,
+    "flutter", "flutter_released", 350, 0, 100'000,
     "largest number of contact nodes whose state may differ among points that share a "
-    "factorisation and a basis; 0 = only points with the same active set share them");
+    "factorisation and a basis; eigenvalues are tracked over a step of the sweep only if its ends "
+    "share a basis; 0 = only points with the same active set share one");
 
 const IntegerOption componentModesOption(
     "report", "report_component_modes", 0, 0, 1000,

@@ -33,7 +33,7 @@ struct MeshSettings {
   terms::Settings terms;
   /// `-flutter_released`: largest number of contact nodes in which active sets that share a basis
   /// may differ; 0 if another setting needs the matrices of each active set.
-  int released = 150;
+  int released = 350;
   bool audit = true;  ///< `-audit`: audit the model before the solution
   int ownModes = 0;   ///< `-report_component_modes`: number of modes of each body by itself
 };

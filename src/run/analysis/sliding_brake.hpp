@@ -17,9 +17,4 @@ struct SlidingBrake {
   const MeshSettings& mesh() const { return *settings.mesh; }
 };
 
-/// The points [first, last) of SteadyStates::solutions.
-struct PointGroup {
-  std::size_t first = 0, last = 0;
-};
-
 }  // namespace squeal::analysis

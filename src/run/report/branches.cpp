@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include "base/system/text.hpp"
 #include "eigen/sweep/parameters.hpp"
@@ -67,16 +68,18 @@ std::vector<std::vector<double>> branchRows(const analysis::Analysis& analysis) 
   std::vector<std::vector<double>> rows;
   forEachTrackedLine(analysis, [&](const stability::TrackedLine& tracked) {
     const auto& line = tracked.line;
-    for (int branch = 1; branch <= tracked.branches.count; ++branch)
-      for (const auto& station : tracked.branches.stations)
-        for (std::size_t i = 0; i < station.pairs.size(); ++i) {
-          if (station.branch[i] != branch || station.friction < tracked.from) continue;
-          const auto s = station.pairs[i].s;
-          rows.push_back({double(tracked.activeSet[station.piece]), double(branch),
-                          station.friction, line.speed, line.pressure, line.damping, s.real(),
-                          s.imag(), station.overlap[i], double(station.inBand[i]),
-                          station.swept ? 1.0 : 0.0});
-        }
+    std::vector<std::vector<std::vector<double>>> ofBranch(tracked.branches.count + 1);
+    for (const auto& station : tracked.branches.stations)
+      for (std::size_t i = 0; i < station.pairs.size(); ++i) {
+        const int branch = station.branch[i];
+        if (branch == 0 || station.friction < tracked.from) continue;
+        const auto s = station.pairs[i].s;
+        ofBranch[branch].push_back({double(tracked.activeSet[station.piece]), double(branch),
+                                    station.friction, line.speed, line.pressure, line.damping,
+                                    s.real(), s.imag(), station.overlap[i],
+                                    double(station.inBand[i]), station.swept ? 1.0 : 0.0});
+      }
+    for (auto& some : ofBranch) std::ranges::move(some, std::back_inserter(rows));
   });
   return rows;
 }

@@ -103,6 +103,48 @@ TEST(RunCost, FollowsTheCountsOfOperations) {
   EXPECT_NEAR(runCost(size, 3, false, 1e10).seconds - before, 1 + 2 * 3 + 12, 1e-9);
 }
 
+// Where the active sets differ, each step takes the responses of its contact, and spectra on it.
+TEST(RunCost, FollowsTheStepsOfTheContact) {
+  RunSize size{.unknowns = 1e5, .modes = 100, .contactUnknowns = 1000};
+  const auto seconds = [&](bool setsDiffer) { return runCost(size, 1, setsDiffer, 1e10).seconds; };
+  const double same = seconds(false), different = seconds(true);
+  size.followedSteps = 2;
+  EXPECT_NEAR(seconds(true) - different, 2 * 5, 1e-9);  // 50 · 1000³ operations
+  EXPECT_EQ(seconds(false), same);
+  size.trackedSteps = 3;
+  const double basis = 460;
+  EXPECT_NEAR(seconds(true) - different, 10 + 3 * 75 * 20 * basis * basis * basis / 1e10, 1e-9);
+  EXPECT_EQ(seconds(false), same);
+}
+
+// Two groups or one: what was measured decides. Without tracking, a second group of a large model
+// costs more than a larger basis. With it, the spectra of many sets between the points of a brake
+// with many contact nodes cost more than a second group: there, groups of 163, 225 and 225 nodes
+// took 660 s of tracking, and smaller ones less than a third of it.
+TEST(GroupWork, WeighsTheSizeOfTheBasisAgainstTheNumberOfGroups) {
+  const auto ofSteps = [](int steps, double spectra) {
+    return groupWork({.unknowns = 112674,
+                      .modes = 200,
+                      .points = steps + 1.0,
+                      .activeSets = steps + 1.0,
+                      .differing = 80.0 * steps,
+                      .spectra = spectra * steps});
+  };
+  EXPECT_LT(ofSteps(2, 0), 2 * ofSteps(1, 0));
+  EXPECT_LT(ofSteps(4, 1), ofSteps(2, 1) + ofSteps(2, 1));
+  EXPECT_GT(ofSteps(4, 40), 2 * ofSteps(2, 40));
+  // A single disc brake whose contact opens a little: one group.
+  const auto ofDisc = [](double points, double sets) {
+    return groupWork({.unknowns = 55000,
+                      .modes = 200,
+                      .points = points,
+                      .activeSets = sets,
+                      .differing = 4 * sets,
+                      .spectra = 4 * sets});
+  };
+  EXPECT_LT(ofDisc(13, 5), ofDisc(7, 3) + ofDisc(7, 3));
+}
+
 // With -flutter_basis modal, the basis consists of the modes; with the sets of several points, it
 // is twice as large as without.
 TEST(RunCost, FollowsTheBasis) {
