@@ -14,6 +14,8 @@ namespace squeal::linalg {
 struct DenseProblem {
   DenseMatrix mass, damping, stiffness;
   PetscInt order() const { return stiffness.rows(); }  ///< m
+  /// Returns the matrix with this power of s.
+  DenseMatrix& ofPower(int power) { return power == 0 ? stiffness : power == 1 ? damping : mass; }
 };
 
 /// Returns true if, within round-off, M and K are symmetric positive definite and Z is

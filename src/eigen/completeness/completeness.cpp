@@ -17,6 +17,7 @@
 #include "eigen/proof/count.hpp"
 #include "eigen/proof/enclosure.hpp"
 #include "eigen/proof/reason.hpp"
+#include "eigen/reduction/factored_friction.hpp"
 #include "eigen/reduction/free_modes.hpp"
 
 namespace squeal::completeness {
@@ -27,15 +28,6 @@ using linalg::DenseMatrix;
 /// The bounds hold for |s| up to this multiple of the top of the band. The circles of enclose()
 /// have radii of up to 0.9 in the plane of z = (s / 1.04 top)², and |s| reaches 1.47 on them.
 constexpr double reach = 1.5;
-
-/// Collective. Returns A V for a matrix of few rows.
-DenseMatrix productWithBasis(const reduction::Basis& basis, Mat rows) {
-  PetscInt own = 0;
-  check(MatGetLocalSize(rows, &own, nullptr));
-  linalg::Block product(own);
-  basis.appendProducts(rows, 0, basis.size(), product);
-  return linalg::gatheredRows(Concatenation(basis.comm(), own), product);
-}
 
 /// Collective. Returns the columns of Aᵀ for a matrix of few rows, by this rank's rows.
 linalg::Block columnsOf(Mat rows) {
@@ -88,9 +80,9 @@ DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes
 /// Collective. Adds the static responses to the slip rows to the basis. Returns S_a K0⁻¹ S_aᵀ,
 /// [power of the friction], r × r.
 std::vector<DenseMatrix> addResponses(reduction::ReducedProblem& reduced,
-                                      const FrictionFactors& factors) {
+                                      const pencil::FrictionFactors& factors) {
   linalg::Block forces(reduced.basis().localRows());
-  for (const auto& slip : factors.slip) forces.append(columnsOf(slip.rows));
+  for (const auto& slip : factors.slip) forces.append(columnsOf(slip.matrix));
   const DenseMatrix all = reduced.addResponses(std::move(forces));
   const PetscInt count = std::ssize(factors.slip), rows = count > 0 ? all.rows() / count : 0;
   std::vector<DenseMatrix> result;
@@ -158,16 +150,17 @@ struct ProjectedFactors {
 };
 
 /// Collective. Adds the static responses to the slip rows to the basis.
-ProjectedFactors project(reduction::ReducedProblem& reduced, const FrictionFactors& factors,
+ProjectedFactors project(reduction::ReducedProblem& reduced, const pencil::FrictionFactors& factors,
                          const KnownModes& modes, const std::vector<double>& lambda, Mat mass) {
   ProjectedFactors result;
   result.ofSlip = addResponses(reduced, factors);
   const auto& basis = reduced.basis();
-  for (const auto& slip : factors.slip) result.slip.push_back(productWithBasis(basis, slip.rows));
-  result.normal = productWithBasis(basis, factors.normal);
-  result.inertia = productWithBasis(basis, factors.inertia);
-  result.ofNormal = reduced.flexibility(columnsOf(factors.normal));
-  result.ofInertia = reduced.flexibility(columnsOf(factors.inertia));
+  for (const auto& slip : factors.slip)
+    result.slip.push_back(reduction::productWithBasis(basis, slip.matrix));
+  result.normal = reduction::productWithBasis(basis, factors.normalOf(0));
+  result.inertia = reduction::productWithBasis(basis, factors.normalOf(2));
+  result.ofNormal = reduced.flexibility(columnsOf(factors.normalOf(0)));
+  result.ofInertia = reduced.flexibility(columnsOf(factors.normalOf(2)));
   result.ofMass = massFlexibility(reduced, modes, lambda, mass);
   return result;
 }
@@ -228,7 +221,7 @@ SetProjection projectionOf(const ProvedSet& set, const subspace::PointSpace& spa
 }
 
 /// Collective. Proves the lists of a set.
-void proveSet(reduction::ReducedProblem& reduced, const FrictionFactors& factors,
+void proveSet(reduction::ReducedProblem& reduced, const pencil::FrictionFactors& factors,
               const SetProjection& projection, const ProvedSet& set, const Settings& settings) {
   const SetBounds bounds = setBounds(projection.matrices, reach * set.points.front()->bandTop);
   std::vector<linalg::DenseProblem> problems;
@@ -259,7 +252,7 @@ std::optional<double> completeTo(const factor::AssociatedSystem& system, const m
 
 }  // namespace
 
-bool covers(const reduction::PointProblem& problem, const FrictionFactors& factors) {
+bool covers(const reduction::PointProblem& problem, const pencil::FrictionFactors& factors) {
   const auto& terms = problem.pencil.terms();
   if (!factors.missing.empty()) return false;
   for (std::size_t t = 0; t < terms.size(); ++t) {
@@ -282,7 +275,7 @@ void share(MPI_Comm comm, const std::vector<pencil::ComplexModes*>& points) {
 }
 
 void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
-           const modes::Modes& modes, const FrictionFactors& factors,
+           const modes::Modes& modes, const pencil::FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings) {
   if (sets.empty()) return;
   const auto theta = completeTo(system, modes, reduced.band().top);

@@ -3,10 +3,10 @@
 /// The proof that the lists of eigenvalues of a sweep are complete (docs/method.md, section 13).
 #include <vector>
 
-#include "eigen/completeness/friction_factors.hpp"
 #include "eigen/completeness/settings.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/friction_factors.hpp"
 #include "eigen/reduction/reduced.hpp"
 
 namespace squeal::completeness {
@@ -20,7 +20,7 @@ struct ProvedSet {
 
 /// Returns true if prove() covers the problem of a point: apart from the terms of K0 and M0, it has
 /// only friction terms that are the same at all points, and no terms in s.
-bool covers(const reduction::PointProblem& problem, const FrictionFactors& factors);
+bool covers(const reduction::PointProblem& problem, const pencil::FrictionFactors& factors);
 
 /// Collective. Extends the basis by K0⁻¹ Sᵀ, the static responses to forces along the slip rows S
 /// of `factors`. All problems must be covered. Sets ComplexModes::completeness of each point and
@@ -29,7 +29,7 @@ bool covers(const reduction::PointProblem& problem, const FrictionFactors& facto
 /// number of these modes up to well above the band. If their number is confirmed only up to
 /// slightly above the band, they are counted again at a higher frequency.
 void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
-           const modes::Modes& modes, const FrictionFactors& factors,
+           const modes::Modes& modes, const pencil::FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings);
 
 /// Collective. Copies to all ranks what the owners (linalg::onOwners()) have found about these

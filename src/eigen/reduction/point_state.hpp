@@ -30,6 +30,7 @@ struct PointSet {
   /// Collective. Returns a pencil with the terms of all points and, after them, those of the set.
   std::function<pencil::Pencil()> pencil;
   std::optional<ProjectedTerms> terms;  ///< projected terms of the set; none if not loaded
+  std::vector<PetscInt> slidingRows;    ///< of a passed set: its rows of the factored friction
   double top;                           ///< top of the band that is listed, rad/s
   int modesInBand;                      ///< number of free modes up to `top`
 };

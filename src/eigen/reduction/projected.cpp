@@ -160,10 +160,7 @@ void ProjectedTerms::combine(const linalg::DenseMatrix& combinations) {
 void ProjectedTerms::addTo(const Weights& weights, linalg::DenseProblem& sum) const {
   for (const auto& part : parts_)
     if (!weights.associated || part.term.isAssociated())
-      linalg::addScaled(part.term.power == 0   ? sum.stiffness
-                        : part.term.power == 1 ? sum.damping
-                                               : sum.mass,
-                        weights.of(part.term), part.projection);
+      linalg::addScaled(sum.ofPower(part.term.power), weights.of(part.term), part.projection);
 }
 
 void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,

@@ -17,17 +17,28 @@ ProjectedBasis::ProjectedBasis(const pencil::Pencil& pencil, const factor::Assoc
 
 int ProjectedBasis::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
   const auto shared = std::make_shared<const pencil::Pencil>(pencil.with({}));
-  const int number = addPassedSet([shared] { return shared->with({}); }, has);
+  const int number = newSet([shared] { return shared->with({}); }, has);
   projectTerms(*sets_[number]);
   return number;
 }
 
 int ProjectedBasis::addPassedSet(std::function<pencil::Pencil()> pencil,
-                                 const std::vector<unsigned char>& has) {
+                                 const std::vector<unsigned char>& has,
+                                 std::vector<PetscInt> slidingRows) {
+  ensure(slidingRows.empty() || (friction_ && slidingRows.back() < friction_->rows()),
+         "the factors of friction have the rows of each active set");
+  const int number = newSet(std::move(pencil), has);
+  sets_[number]->slidingRows = std::move(slidingRows);
+  return number;
+}
+
+int ProjectedBasis::newSet(std::function<pencil::Pencil()> pencil,
+                           const std::vector<unsigned char>& has) {
   sets_.push_back(
       std::make_unique<PointSet>(PointSet{.space = PointSpace(basis_.boundaryStiffness(), has),
                                           .pencil = std::move(pencil),
                                           .terms = {},
+                                          .slidingRows = {},
                                           .top = 0,
                                           .modesInBand = 0}));
   return std::ssize(sets_) - 1;
@@ -65,6 +76,7 @@ PointState ProjectedBasis::state(const PointProblem& point, const Norms& norms) 
 
 void ProjectedBasis::extend(const std::vector<PointState*>& states) {
   terms_.extend();
+  if (friction_) friction_->extend();
   for (auto& set : sets_)
     if (set->terms) set->terms->extend();
   for (auto* state : states) state->ownTerms.extend();
@@ -75,16 +87,25 @@ linalg::DenseProblem ProjectedBasis::project(const PointState& state) const {
 }
 
 linalg::DenseProblem ProjectedBasis::projectOnAll(const PointState& state) const {
-  linalg::DenseProblem problem;
-  for (const auto* terms : {&terms_, &state.set->terms.value(), &state.ownTerms})
-    terms->addTo({state.point->at, state.associated}, problem);
+  const Weights weights{state.point->at, state.associated};
+  linalg::DenseProblem problem = projectOnAll(weights, *state.set);
+  state.ownTerms.addTo(weights, problem);
   return problem;
 }
 
 linalg::DenseProblem ProjectedBasis::projectOnAll(const sweep::Parameters& at,
                                                   const PointSet& set) const {
+  return projectOnAll({at, false}, set);
+}
+
+linalg::DenseProblem ProjectedBasis::projectOnAll(const Weights& weights,
+                                                  const PointSet& set) const {
   linalg::DenseProblem problem;
-  for (const auto* terms : {&terms_, &set.terms.value()}) terms->addTo({at, false}, problem);
+  terms_.addTo(weights, problem);
+  if (set.terms)
+    set.terms->addTo(weights, problem);
+  else if (friction_ && !weights.associated)
+    friction_->addTo(weights.at, set.slidingRows, problem);
   return problem;
 }
 
@@ -146,6 +167,7 @@ void ProjectedBasis::combine(const linalg::DenseMatrix& directions) {
     std::ranges::copy(directions.column(j), all.column(boundary + j).begin() + boundary);
   basis_.combine(all);
   terms_.combine(all);
+  if (friction_) friction_->combine(all);
   for (auto& set : sets_)
     if (set->terms) set->terms->combine(all);
 }

@@ -9,6 +9,7 @@
 #include "algebra/linalg/quadratic.hpp"
 #include "base/checkpoint/archive.hpp"
 #include "eigen/modes/modes.hpp"
+#include "eigen/reduction/factored_friction.hpp"
 #include "eigen/reduction/point_state.hpp"
 #include "eigen/reduction/projected.hpp"
 #include "eigen/subspace/basis.hpp"
@@ -37,12 +38,18 @@ class ProjectedBasis {
   /// terms of all points; the terms after these that belong to no single point become those of the
   /// set. Throws Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
-  /// Collective. Adds a set that contains no point of the sweep, and must be loaded before use.
-  /// `pencil` is called, on all ranks, whenever it is loaded.
-  int addPassedSet(std::function<pencil::Pencil()> pencil, const std::vector<unsigned char>& has);
-  /// Collective. Projects the terms of a passed set, unless they are loaded. Only the `mostLoaded`
-  /// most recently used passed sets keep their terms and projections, since a path may pass through
-  /// hundreds of sets.
+  /// Collective. Sets the friction terms, as factors, of the nodes that slide in some sets only.
+  /// Must be called before addPassedSet().
+  void setFactors(pencil::FrictionFactors factors) {
+    friction_.emplace(basis_, std::move(factors));
+  }
+  /// Collective. Adds a set that contains no point of the sweep. `slidingRows` are the rows of the
+  /// factors whose nodes slide; load() calls `pencil`, on all ranks.
+  int addPassedSet(std::function<pencil::Pencil()> pencil, const std::vector<unsigned char>& has,
+                   std::vector<PetscInt> slidingRows);
+  /// Collective. Projects the terms of a passed set, unless they are loaded. Required for residuals
+  /// and for extend() with states of the set. Only the `mostLoaded` most recently used passed sets
+  /// keep their terms and projections, since a path may pass through hundreds of sets.
   void load(int set);
   PointSet& set(int number) { return *sets_[number]; }
   const PointSet& set(int number) const { return *sets_[number]; }
@@ -88,11 +95,14 @@ class ProjectedBasis {
   void serialise(checkpoint::Archive& archive);
 
  private:
-  static constexpr std::size_t mostLoaded = 12;
+  static constexpr std::size_t mostLoaded = 2;
   void projectTerms(PointSet& set) const;
+  int newSet(std::function<pencil::Pencil()> pencil, const std::vector<unsigned char>& has);
+  linalg::DenseProblem projectOnAll(const Weights& weights, const PointSet& set) const;
 
   Basis basis_;
   ProjectedTerms terms_;
+  std::optional<FactoredFriction> friction_;
   PetscInt unknowns_ = 0;
   std::vector<std::unique_ptr<PointSet>> sets_;
   std::vector<int> loaded_;  // passed sets, the most recently used one at the end

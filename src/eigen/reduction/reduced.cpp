@@ -65,11 +65,6 @@ int ReducedProblem::addSet(const pencil::Pencil& pencil, const std::vector<unsig
   return withBand(basis_.addSet(pencil, has));
 }
 
-int ReducedProblem::addPassedSet(std::function<pencil::Pencil()> pencil,
-                                 const std::vector<unsigned char>& has) {
-  return withBand(basis_.addPassedSet(std::move(pencil), has));
-}
-
 /// Gives a new set the band of the basis, and returns its index.
 int ReducedProblem::withBand(int number) {
   PointSet& set = basis_.set(number);
@@ -375,6 +370,7 @@ Improvement ReducedProblem::improve(
   states.reserve(located.size());
   std::vector<CorrectionRequest> requests;
   for (const auto& [point, pairs] : located) {
+    basis_.load(point.set);
     PointState& state = states.emplace_back(basis_.state(point, norms_.nearby(point)));
     auto& band = state.solution.spectrum.band;
     band = pairs;

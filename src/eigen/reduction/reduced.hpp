@@ -65,13 +65,16 @@ class ReducedProblem {
   /// all of its points; the object and `pencil` share their matrices. Throws Error if the stiffness
   /// is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
-  /// Collective. Does the same for a set that contains no point of the sweep: an active set that
-  /// the contact passes through between two points. Call load() before each use; it calls `pencil`,
-  /// on all ranks.
-  int addPassedSet(std::function<pencil::Pencil()> pencil, const std::vector<unsigned char>& has);
-  /// Collective. Projects the terms of a passed set, unless they are already loaded
-  /// (ProjectedBasis::load()).
-  void load(int set) { basis_.load(set); }
+  /// Collective. Sets the friction terms, as factors, of the nodes that slide in some sets only.
+  void setFactors(pencil::FrictionFactors factors) { basis_.setFactors(std::move(factors)); }
+  /// Collective. Adds a set that contains no point of the sweep: an active set that the contact
+  /// passes through between two points. Its friction terms are projected by the factors, of which
+  /// it uses `slidingRows`, the rows of the nodes that slide; improve() also calls `pencil`, on all
+  /// ranks. The rest is as for addSet().
+  int addPassedSet(std::function<pencil::Pencil()> pencil, const std::vector<unsigned char>& has,
+                   std::vector<PetscInt> slidingRows) {
+    return withBand(basis_.addPassedSet(std::move(pencil), has, std::move(slidingRows)));
+  }
   /// Collective. Returns the free modes in the band for each of these sets, [set]. They are
   /// corrected together, in the same way as the complex modes. Their vectors have the entries of
   /// all unknowns. Their countConfirmed is true if two conditions hold: the number of interior

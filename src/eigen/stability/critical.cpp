@@ -129,13 +129,11 @@ std::vector<Critical> criticalFrictions(const std::vector<Piece>& path, const Br
   for (const auto& event : branches.events) events[event.piece].push_back(event);
   for (std::size_t piece = 0; piece < path.size(); ++piece) {
     if (events[piece].empty()) continue;
-    path[piece].family->load();
     pieces[piece] = std::make_unique<Roots>(*path[piece].family, events[piece], tolerance);
   }
   std::vector<Critical> list;
   for (std::size_t piece = 0; piece < path.size(); ++piece) {
     if (!pieces[piece]) continue;
-    path[piece].family->load();
     Roots& roots = *pieces[piece];
     for (int round = 0; round < rounds; ++round) {
       const auto open = roots.open();

@@ -138,7 +138,6 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
       station.swept = std::ranges::binary_search(line.swept, station.friction);
     if (!stations.empty()) {
       auto& family = *families[stations.front().piece];
-      family.load();
       const auto problem = family.at(stations.front().friction);
       tracked.isDamped = problem && !problem->damping.empty();
       tracked.countExact = problem && !tracked.isDamped && isCounted(tracked.branches, *line.modes);

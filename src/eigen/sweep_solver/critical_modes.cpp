@@ -42,7 +42,6 @@ std::vector<Place> nextPlaces(SweepProblem& problem, reduction::ReducedProblem& 
     if (!between && !source.local) continue;
     if (!between) between.emplace();
     reduction::PointProblem there{at, source.shared().with(std::move(between->terms)), source.set};
-    reduced.load(source.set);
     auto projected = reduced.project(there);
     const bool isCrossing = critical.kind == tracking::Event::Kind::crossing;
     places.push_back({i,

@@ -33,7 +33,7 @@ std::vector<std::string> proveLists(const SweepProblem& problem, reduction::Redu
     printLine(comm, "proof: nothing to prove (" + why + ")");
     return {};
   }
-  const auto factors = problem.frictionFactors();
+  const auto [factors, rowsOf] = problem.frictionFactors();
   std::map<std::size_t, completeness::ProvedSet> byRange;
   std::vector<ListedPoint*> others;
   for (auto& point : points) {
@@ -44,7 +44,7 @@ std::vector<std::string> proveLists(const SweepProblem& problem, reduction::Redu
       continue;
     }
     auto& set = byRange[point.range];
-    set.rows = factors.rowsOf[point.range];
+    set.rows = rowsOf[point.range];
     set.problems.push_back({point.problem.at, point.problem.pencil.with({}), point.problem.set});
     set.points.push_back(point.list);
   }

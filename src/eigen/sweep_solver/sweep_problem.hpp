@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "algebra/factor/associated_system.hpp"
-#include "eigen/completeness/friction_factors.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/friction_factors.hpp"
 #include "eigen/pencil/participation.hpp"
 #include "eigen/pencil/pencil.hpp"
 #include "eigen/sensitivity/derive.hpp"
@@ -28,6 +28,9 @@ struct PointRange {
   /// Collective. Returns the terms of these points only; SweepProblem::pencil has the others. An
   /// empty function stands for no terms.
   std::function<std::vector<pencil::Term>()> terms = {};
+  /// Of a set between points: the rows of SweepProblem::releasedFriction() whose nodes slide,
+  /// ascending, the same on all ranks. Their friction terms are those of `terms`.
+  std::vector<PetscInt> slidingRows = {};
 
   bool isPassed() const { return first == last; }  ///< it occurs only between points
 };
@@ -45,6 +48,13 @@ struct PointBetween {
   /// contains the terms of the point, during the lifetime of the forms. If the function is empty,
   /// there are no derivatives.
   std::function<sensitivity::Forms(const pencil::Pencil&)> forms;
+};
+
+/// The factors of the friction terms of all ranges.
+struct RangeFactors {
+  pencil::FrictionFactors factors;
+  /// [range] rows of the factors whose nodes slide, ascending; the same on all ranks
+  std::vector<std::vector<PetscInt>> rowsOf;
 };
 
 /// The problem of consecutive steady points that share a basis and a factorisation, from a mesh or
@@ -81,11 +91,11 @@ class SweepProblem {
   /// Collective. Returns the terms that belong only to steadyPoints[i].
   virtual std::vector<pencil::Term> termsOf(std::size_t /*i*/) const { return {}; }
   /// Collective. Returns the factors of the friction terms of all ranges.
-  virtual completeness::FrictionFactors frictionFactors() const {
-    completeness::FrictionFactors factors;
-    factors.missing = "the factors of the friction terms are not known";
-    return factors;
+  virtual RangeFactors frictionFactors() const {
+    return {{{}, {}, "the factors of the friction terms are not known"}, {}};
   }
+  /// Collective. Returns the factors of the friction terms that only some of the ranges have.
+  virtual pencil::FrictionFactors releasedFriction() const { return {}; }
   /// Collective. Returns the data of a point between two points of the sweep; none if the point has
   /// no steady state, or if its active set differs from that of steadyPoints[like]. The forms
   /// borrow this problem.

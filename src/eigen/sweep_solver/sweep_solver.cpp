@@ -155,10 +155,13 @@ class SweepSolver {
       state_.segments[0].shapes = shapesOf(modes);
       state_.segments[0].modes = std::move(modes);
     } else {
+      if (std::ranges::any_of(problem_.ranges, &PointRange::isPassed))
+        reduced_->setFactors(problem_.releasedFriction());
       for (std::size_t k = 0; k < sets_.size(); ++k) {
         const auto& has = problem_.ranges[k].has;
         sets_[k].number = problem_.ranges[k].isPassed()
-                              ? reduced_->addPassedSet([this, k] { return withTermsOf(k); }, has)
+                              ? reduced_->addPassedSet([this, k] { return withTermsOf(k); }, has,
+                                                       problem_.ranges[k].slidingRows)
                               : reduced_->addSet(sets_[k].pencil, has);
       }
       interiorModes_ = std::move(modes);

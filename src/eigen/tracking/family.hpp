@@ -23,9 +23,9 @@ class Family {
  public:
   virtual ~Family() = default;
   virtual MPI_Comm comm() const = 0;
-  /// Collective. Makes the problems available; loading several other families of the path may make
-  /// them unavailable again. Must be called before all other functions.
-  virtual void load() {}
+  /// Returns true if all terms of the problems are known for all frictions. at() is then cheap and
+  /// not collective.
+  virtual bool isAffine() const { return true; }
   /// Collective. Returns the problem at one friction in the current basis, the same on all ranks;
   /// none if it does not exist there, for example because the contact opens.
   virtual std::optional<linalg::DenseProblem> at(double friction) = 0;

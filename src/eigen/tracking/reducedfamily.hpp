@@ -36,7 +36,7 @@ class ReducedFamily : public Family {
                 const ProblemSource& source, const Progress& progress)
       : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
   MPI_Comm comm() const override { return comm_; }
-  void load() override { reduced_.load(source_.set); }
+  bool isAffine() const override { return source_.local; }
   std::optional<linalg::DenseProblem> at(double friction) override;
   std::optional<std::vector<linalg::DensePair>> watchedPairs(double friction) override {
     return reduced_.watchedPairs(point(friction), source_.set);

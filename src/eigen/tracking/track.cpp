@@ -22,8 +22,8 @@ struct Place {
   bool needed;
 };
 
-/// Returns the frictions of all pieces of a path. Those that may be omitted are needed if there are
-/// at most `examined` of them between two needed ones.
+/// Returns the frictions of all pieces of a path. Those that may be omitted are needed if the
+/// problems are affine, or if there are at most `examined` of them between two needed ones.
 std::vector<Place> placesOf(const std::vector<Piece>& path, std::size_t examined) {
   std::vector<Place> places;
   for (std::size_t p = 0; p < path.size(); ++p)
@@ -31,6 +31,7 @@ std::vector<Place> placesOf(const std::vector<Piece>& path, std::size_t examined
       places.push_back({p, path[p].frictions[k], path[p].needed.empty() || path[p].needed[k] != 0});
   if (places.empty()) return places;
   places.front().needed = places.back().needed = true;
+  if (path.front().family->isAffine()) examined = places.size();
   for (std::size_t from = 0, to = 0; from + 1 < places.size(); from = to) {
     for (to = from + 1; !places[to].needed;) ++to;
     if (to - from - 1 <= examined)
@@ -48,7 +49,7 @@ class Tracker {
         places_(placesOf(path, limits.examined)),
         limits_(limits),
         comm_(path.front().family->comm()),
-        together_(std::min<std::size_t>(mpi::size(comm_), mostTogether)) {
+        together_(std::min<std::size_t>(2 * mpi::size(comm_), mostTogether)) {
     result_.band = band;
   }
 
@@ -63,14 +64,15 @@ class Tracker {
       if (row.empty()) continue;
       if (result_.stations.empty()) finish(nullptr, row.front());
       refine(row);
-      path_[row.back().station.piece].family->progress(formatted(
-          "%d branches tracked to friction %g", result_.count, row.back().station.friction));
+      familyOf(row.back().station.piece)
+          .progress(formatted("%d branches tracked to friction %g", result_.count,
+                              row.back().station.friction));
     }
     return std::move(result_);
   }
 
  private:
-  static constexpr std::size_t mostTogether = 4;  // stations whose matrices are in memory at a time
+  static constexpr std::size_t mostTogether = 8;  // stations whose matrices are in memory at a time
 
   /// A station to be solved.
   struct Wanted {
@@ -86,12 +88,7 @@ class Tracker {
     const double step = place == 0 ? 0 : friction - places_[place - 1].friction;
     return {piece, friction, place, limits_.smallest * step, true};
   }
-  /// Collective. Returns the family of a piece, ready for use.
-  Family& loaded(std::size_t piece) const {
-    Family& family = *path_[piece].family;
-    family.load();
-    return family;
-  }
+  Family& familyOf(std::size_t piece) const { return *path_[piece].family; }
 
   void append(const std::vector<Wanted>& some, std::list<SolvedStation>& row) {
     auto found = solve(some);
@@ -107,10 +104,10 @@ class Tracker {
     std::vector<std::optional<linalg::DenseProblem>> problems;
     std::vector<ProblemAt> solvable;
     std::vector<std::size_t> which;
-    for (const auto& wanted : some) problems.push_back(loaded(wanted.piece).at(wanted.friction));
+    for (const auto& wanted : some) problems.push_back(familyOf(wanted.piece).at(wanted.friction));
     for (std::size_t k = 0; k < some.size(); ++k)
       if (problems[k]) {
-        solvable.push_back({path_[some[k].piece].family, some[k].friction, &*problems[k]});
+        solvable.push_back({&familyOf(some[k].piece), some[k].friction, &*problems[k]});
         which.push_back(k);
       }
     auto pairs = watchedPairs(comm_, solvable, result_.band);
@@ -152,8 +149,8 @@ class Tracker {
   void join(const SolvedStation& a, SolvedStation& b) const {
     if (b.step) return;
     const std::size_t from = a.station.piece, to = b.station.piece;
-    const StepJoiner joiner(loaded(to), result_.band);
-    b.step = from == to ? joiner.join(a, b) : joiner.jump(loaded(from), a, b);
+    const StepJoiner joiner(familyOf(to), result_.band);
+    b.step = from == to ? joiner.join(a, b) : joiner.jump(familyOf(from), a, b);
   }
 
   /// Finishes all steps of the row. Inserts stations until all continuations are certain or cannot
@@ -203,7 +200,7 @@ class Tracker {
       // At a jump the problems at both ends have different unknowns, and there is no problem in
       // between.
       if (a->station.piece == b.station.piece)
-        screen(loaded(b.station.piece), {a->station.friction, a->problem},
+        screen(familyOf(b.station.piece), {a->station.friction, a->problem},
                {b.station.friction, b.problem}, step.singles, step.events, step.gaps);
       const auto number = [&](int index) { return index < 0 ? index : a->station.branch[index]; };
       for (auto& event : step.events) {

@@ -62,9 +62,9 @@ struct Branches {
 struct TrackLimits {
   /// Smallest step with a full solve, as a fraction of a step of the sweep.
   double smallest = 1. / 1024;
-  /// The other frictions between two needed ones (Piece::needed) are all examined if there are at
-  /// most this many. If there are more, the path between the needed ones is bisected until each
-  /// continuation is certain and without a change of stability.
+  /// The other frictions between two needed ones (Piece::needed) are all examined if the families
+  /// are affine, or if there are at most this many. Otherwise, the path between the needed ones is
+  /// bisected until each continuation is certain and without a change of stability.
   std::size_t examined = 32;
 };
 

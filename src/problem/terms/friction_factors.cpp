@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "base/petsc/matrix.hpp"
+#include "problem/terms/body_matrices.hpp"
 #include "problem/terms/terms.hpp"
 
 namespace squeal::terms {
@@ -25,10 +26,10 @@ OwnedMat rowsOf(Mat matrix, IS rows, Mat square) {
 
 }  // namespace
 
-completeness::FrictionFactors frictionFactors(const contact::Contact& contact,
-                                              const contact::CoupledSystem& system,
-                                              const std::vector<unsigned char>& slides) {
-  completeness::FrictionFactors factors;
+pencil::FrictionFactors frictionFactors(const contact::Contact& contact,
+                                        const contact::CoupledSystem& system,
+                                        const std::vector<unsigned char>& slides) {
+  pencil::FrictionFactors factors;
   if (!contact.slipIsConstant()) {
     factors.missing = "the slip differs between points";
     return factors;
@@ -37,11 +38,15 @@ completeness::FrictionFactors frictionFactors(const contact::Contact& contact,
   const auto slip = contact.slip(1, nullptr);
   for (const int exponent : contact.frictionExponents())
     factors.slip.push_back(
-        {exponent, rowsOf(contact.slipRows(system.transformation(), slip, slides, exponent), rows,
-                          system.k0())});
-  const auto& projections = system.projections();
-  factors.normal = rowsOf(projections.stiffness.reaction, rows, system.k0());
-  factors.inertia = rowsOf(projections.mass.reaction, rows, system.k0());
+        {.matrix = rowsOf(contact.slipRows(system.transformation(), slip, slides, exponent), rows,
+                          system.k0()),
+         .frictionExponent = exponent});
+  for (const auto& role : bodyMatrices(system))
+    if (role.projection)
+      factors.normal.push_back({.matrix = rowsOf(role.projection.reaction, rows, system.k0()),
+                                .power = role.power,
+                                .speedExponent = role.speedExponent,
+                                .dampingExponent = role.dampingExponent});
   return factors;
 }
 

@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "problem/terms/terms.hpp"
 
+#include "problem/terms/body_matrices.hpp"
 #include "problem/terms/friction_work.hpp"
 
 namespace squeal::terms {
 namespace {
 
-/// The exponents of s, of the speed and of the damping factor for a matrix of the bodies.
-struct Role {
-  const contact::Projection& projection;
-  int power = 0, speedExponent = 0, dampingExponent = 0;
-};
-
-std::vector<Role> roles(const contact::CoupledSystem& system) {
-  const auto& projections = system.projections();
-  return {{.projection = projections.stiffness},
-          {.projection = projections.mass, .power = 2},
-          {.projection = projections.damping, .power = 1, .dampingExponent = 1},
-          {.projection = projections.gyroscopic, .power = 1, .speedExponent = 1},
-          {.projection = projections.rotationStiffness, .speedExponent = 2}};
-}
-
 /// Appends the terms f^a S_aᵀ N X T of one matrix X for all powers a, at the nodes that slide.
-void addFriction(std::vector<pencil::Term>& terms, const Role& role,
+void addFriction(std::vector<pencil::Term>& terms, const BodyMatrix& role,
                  const contact::Contact& contact, const contact::CoupledSystem& system,
                  const std::vector<contact::Slip>& slip, const std::vector<unsigned char>& slides) {
   for (const int exponent : contact.frictionExponents()) {
@@ -40,7 +26,7 @@ void addFriction(std::vector<pencil::Term>& terms, const Role& role,
 void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& contact,
                  const contact::CoupledSystem& system, const std::vector<contact::Slip>& slip,
                  const std::vector<unsigned char>& slides) {
-  for (const auto& role : roles(system))
+  for (const auto& role : bodyMatrices(system))
     if (role.projection) addFriction(terms, role, contact, system, slip, slides);
 }
 
@@ -74,9 +60,18 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
 
 }  // namespace
 
+std::vector<BodyMatrix> bodyMatrices(const contact::CoupledSystem& system) {
+  const auto& projections = system.projections();
+  return {{.projection = projections.stiffness},
+          {.projection = projections.mass, .power = 2},
+          {.projection = projections.damping, .power = 1, .dampingExponent = 1},
+          {.projection = projections.gyroscopic, .power = 1, .speedExponent = 1},
+          {.projection = projections.rotationStiffness, .speedExponent = 2}};
+}
+
 pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system) {
   std::vector<pencil::Term> terms;
-  for (const auto& role : roles(system))
+  for (const auto& role : bodyMatrices(system))
     if (role.projection)
       terms.push_back({.matrix = role.projection.matrix.share(),
                        .power = role.power,

@@ -4,7 +4,7 @@
 /// and the steady state. Numbers in brackets refer to equations in docs/method.md, and
 /// src/README.md explains the symbols. X0 = Tᵀ X T for each matrix X of the bodies: K, M, C, G and
 /// K^R.
-#include "eigen/completeness/friction_factors.hpp"
+#include "eigen/pencil/friction_factors.hpp"
 #include "eigen/pencil/pencil.hpp"
 #include "model/contact/coupled.hpp"
 #include "problem/terms/settings.hpp"
@@ -27,11 +27,11 @@ std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
                                        const std::vector<unsigned char>& slides);
 
 /// Collective. Returns the friction terms of affineTerms() as products of thin matrices, for the
-/// contact nodes i for which slides[i] is 1. FrictionFactors::rowsOf is not set. If S differs
-/// between points, FrictionFactors::missing contains this reason.
-completeness::FrictionFactors frictionFactors(const contact::Contact& contact,
-                                              const contact::CoupledSystem& system,
-                                              const std::vector<unsigned char>& slides);
+/// contact nodes i for which slides[i] is 1. If S differs between points, FrictionFactors::missing
+/// contains this reason.
+pencil::FrictionFactors frictionFactors(const contact::Contact& contact,
+                                        const contact::CoupledSystem& system,
+                                        const std::vector<unsigned char>& slides);
 
 /// Collective. Returns the terms that depend on the steady state, of three kinds:
 /// 1. The friction terms f^a S_aᵀ N X T, if S depends on the deformation or on a friction law that

@@ -13,7 +13,7 @@ namespace {
 // Operations of sparse factors are slower than those of dense products.
 constexpr double factorSpeed = 0.24, solveSpeed = 0.12;
 /// Work on an unsymmetric spectrum in a basis of m vectors, in m³ operations of dense products.
-constexpr double spectrumWork = 75;
+constexpr double spectrumWork = 50;
 
 /// Returns the number of vectors in the basis at the end of a group of points. Complex eigenvectors
 /// need two vectors each, and differ more between points if the speed or loss factors vary.
@@ -68,17 +68,15 @@ RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double spee
   // The first points, and tracking, need more solves than the later ones.
   const double dense = 200 * (size.points + 8) * basis * basis * basis / speed;
   const double steady = 6 * contact * contact * contact / speed + 5 * solve;
-  // The responses to changes of contact on a step, and the spectra of some sets on it.
-  constexpr double setsOnStep = 20;
-  const double path =
-                   setsDiffer ? 50 * size.followedSteps * contact * contact * contact / speed : 0,
-               tracking = setsDiffer ? spectrumWork * size.trackedSteps * setsOnStep * basis *
-                                           basis * basis / speed
-                                     : 0;
+  // The responses to changes of contact on a step, and two spectra for each set on it.
+  constexpr double setsPerUnknown = 0.03;
+  const double path = 50 * size.followedSteps * contact * contact * contact / speed,
+               spectra = 2 * setsPerUnknown * contact * size.trackedSteps,
+               tracking = spectrumWork * spectra * basis * basis * basis / speed;
   RunCost cost;
   cost.seconds = 1.2 * size.secondsSoFar + 2e-5 * n + (1 + 2 * groups) * factor +
-                 groups * (freeModes + corrections) + dense + size.steadyPoints * steady + path +
-                 tracking;
+                 groups * (freeModes + corrections) + dense + size.steadyPoints * steady +
+                 (setsDiffer ? path + tracking : 0);
   // Matrices of the order of the basis: the pairs of all points, the terms that belong to one point
   // for the points that are solved together, and the linearised problems of the ranks.
   constexpr double together = 16;

@@ -43,8 +43,7 @@ struct GroupSize {
   double activeSets =
       0;  ///< number of times that the active set changes from point to point, plus 1
   double differing = 0;  ///< number of contact nodes in which these sets differ
-  double spectra = 0;    ///< estimated number of active sets between the points whose eigenvalues
-                         ///< are computed to track them
+  double spectra = 0;    ///< number of spectra between the points that tracking takes
 };
 
 /// Returns an estimate of the work on a group without damping: the number of operations of dense

@@ -125,8 +125,8 @@ RunSize sizeOf(MPI_Comm comm, const Settings& settings, const sweep::Sweep& swee
 }
 
 /// Collective. Prints the number of unknowns, and estimates of memory and time. `mayDiffer`: the
-/// active sets of the points may differ; a second estimate is then for sets of which two share a
-/// basis.
+/// active sets of the points may differ; a second estimate is then for sets of which only two share
+/// a basis.
 void printCost(MPI_Comm comm, const Settings& settings, Mat k0, const RunSize& size,
                bool mayDiffer) {
   MatInfo info;
@@ -139,7 +139,9 @@ void printCost(MPI_Comm comm, const Settings& settings, Mat k0, const RunSize& s
   std::string memory = "about " + gigabytes(same.bytes) + " on all ranks";
   std::string time = "about " + duration(same.seconds);
   if (mayDiffer && size.steadyPoints > 1) {
-    const RunCost different = runCost(size, std::ceil(size.steadyPoints / 2), true, speed);
+    // If eigenvalues are tracked, each step is best solved in a basis of its own.
+    const double groups = std::max(size.trackedSteps, std::ceil(size.steadyPoints / 2));
+    const RunCost different = runCost(size, groups, true, speed);
     const std::string whenever = " if the closed contact nodes differ between the points";
     if (different.bytes > 1.05 * same.bytes) memory += ", " + gigabytes(different.bytes) + whenever;
     time += ", " + duration(different.seconds) + whenever;

@@ -148,6 +148,8 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() {
   const PetscInt dimension = contact.mesh->dimension;
   const auto& rows = all_->transformation().rows;
   const Concatenation ranks(brake_.comm(), substructure.boundary.size());
+  const contact::Mask some = slidingInSome();
+  const Concatenation factorRows(brake_.comm(), std::ranges::count(some, 1));
   std::vector<PetscInt> contactNode(contact.mesh->ownedNodes, -1);
   for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
     contactNode[contact.interfaces.nodes[i].node] = i;
@@ -164,9 +166,16 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() {
     }
     range.has = ranks.gathered(own);
     contact::Mask slides = set.closed;
-    for (std::size_t i = 0; i < slides.size(); ++i)
-      slides[i] = slides[i] && !all_->closed()[i] &&
-                  contact.interfaces.nodes[i].role == contact::Role::sliding;
+    std::vector<unsigned char> ownRows;
+    for (std::size_t i = 0; i < slides.size(); ++i) {
+      slides[i] = slides[i] && some[i];
+      if (some[i]) ownRows.push_back(slides[i]);
+    }
+    if (range.isPassed() && contact.slipIsConstant()) {
+      const auto rows = factorRows.gathered(ownRows);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i]) range.slidingRows.push_back(i);
+    }
     if (ranks.size() > 0) {
       // Most changes on a path concern nodes without friction.
       if (slides_.empty() || contact::countDifferent(brake_.comm(), slides, slides_.back()) > 0)
@@ -180,7 +189,7 @@ std::vector<sweep_solver::PointRange> MeshSweep::pointRanges() {
 
 /// Collective. Returns the friction terms of a set of nodes that slide, by its index.
 std::vector<pencil::Term> MeshSweep::slidingTerms(std::size_t set) {
-  constexpr std::size_t most = 12;  // a path may pass through hundreds of sets
+  constexpr std::size_t most = 2;  // a path may pass through hundreds of sets
   auto known = std::ranges::find(sliding_, set, &SlidingTerms::set);
   if (known == sliding_.end()) {
     if (sliding_.size() == most) sliding_.erase(sliding_.begin());
@@ -193,8 +202,22 @@ std::vector<pencil::Term> MeshSweep::slidingTerms(std::size_t set) {
   return shared;
 }
 
-completeness::FrictionFactors MeshSweep::frictionFactors() const {
-  auto factors = terms::frictionFactors(brake_.model.contact, *all_, anywhere_.closed);
+/// Returns the nodes that slide in some of the sets, but not in all.
+contact::Mask MeshSweep::slidingInSome() const {
+  contact::Mask nodes = anywhere_.closed;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    nodes[i] = nodes[i] && !all_->closed()[i] &&
+               brake_.model.contact.interfaces.nodes[i].role == contact::Role::sliding;
+  return nodes;
+}
+
+pencil::FrictionFactors MeshSweep::releasedFriction() const {
+  return terms::frictionFactors(brake_.model.contact, *all_, slidingInSome());
+}
+
+sweep_solver::RangeFactors MeshSweep::frictionFactors() const {
+  sweep_solver::RangeFactors factors{
+      terms::frictionFactors(brake_.model.contact, *all_, anywhere_.closed), {}};
   const auto& all = anywhere_.closed;
   const Concatenation ranks(brake_.comm(), std::ranges::count(all, 1));
   for (const auto& one : sets_) {

@@ -34,7 +34,8 @@ class MeshSweep : public sweep_solver::SweepProblem {
             const energies::Components& components);
   const PointGroup& group() const { return group_; }
   std::vector<pencil::Term> termsOf(std::size_t i) const override;
-  completeness::FrictionFactors frictionFactors() const override;
+  sweep_solver::RangeFactors frictionFactors() const override;
+  pencil::FrictionFactors releasedFriction() const override;
   std::optional<sweep_solver::PointBetween> between(const sweep::Parameters& at,
                                                     std::size_t like) override;
   void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
@@ -64,6 +65,7 @@ class MeshSweep : public sweep_solver::SweepProblem {
   };
   void addEnergies(const Energies& at, const pencil::ComplexModes& point,
                    pencil::Shape& shape) const;
+  contact::Mask slidingInSome() const;
   void findSets();
   std::vector<sweep_solver::PointRange> pointRanges();
   std::vector<pencil::Term> slidingTerms(std::size_t set);

@@ -45,16 +45,15 @@ class Division {
     PointGroup group = {};
   };
 
-  /// Collective. Returns for each point how many active sets are examined to track eigenvalues over
-  /// the step to it. Where the changes of contact are located, this is bisection.
+  /// Collective. Returns for each point how many spectra are computed to track eigenvalues over the
+  /// step to it: one at both ends of the interval of each active set.
   std::vector<double> spectraOnSteps() const {
-    constexpr double most = 50;
     std::vector<double> count(brake_.states.solutions.size(), 0);
     for (const auto& event : brake_.states.path)
       if (event.point < count.size()) ++count[event.point];
     mpi::reduce<double>(brake_.comm(), count, MPI_SUM);
     for (std::size_t i = 0; i < count.size(); ++i)
-      count[i] = continues(i) ? std::clamp(count[i], 1.0, most) : 0;
+      count[i] = continues(i) ? std::max(2 * count[i], 1.0) : 0;
     return count;
   }
 

@@ -20,9 +20,11 @@ namespace squeal::test {
 struct Linear : tracking::Family {
   linalg::DenseProblem base;
   linalg::DenseMatrix friction;
+  bool affine = true;
   Linear(linalg::DenseProblem problem, linalg::DenseMatrix slope)
       : base(std::move(problem)), friction(std::move(slope)) {}
   MPI_Comm comm() const override { return PETSC_COMM_WORLD; }
+  bool isAffine() const override { return affine; }
   std::optional<linalg::DenseProblem> at(double f) override {
     linalg::DenseProblem problem = base;
     linalg::addScaled(problem.stiffness, f, friction);

@@ -51,18 +51,49 @@ struct Fixture : test::Layers {
     return closed;
   }
 
-  /// Adds the set with open nodes in this range.
-  int add(double from, double to, pencil::Pencil& own) {
+  /// Returns the friction terms of the nodes that slide if those in this range are open, but not if
+  /// all are.
+  std::vector<pencil::Term> slidingTerms(double from, double to) const {
+    Nodes slides = closedBut(from, to);
+    for (std::size_t i = 0; i < slides.size(); ++i) slides[i] = slides[i] && !all->closed()[i];
+    return terms::slidingTerms(model.contact, *all, slides);
+  }
+
+  /// Returns the boundary unknowns of the set with open nodes in this range.
+  Nodes boundaryOf(double from, double to) const {
     const Nodes closed = closedBut(from, to);
-    Nodes slides = closed, mine;
-    for (std::size_t i = 0; i < slides.size(); ++i) slides[i] = closed[i] && !all->closed()[i];
-    own.add(terms::slidingTerms(model.contact, *all, slides));
+    Nodes mine;
     const int dimension = model.mesh->dimension;
     for (const PetscInt k : substructure.boundary)
       for (std::size_t i = 0; i < closed.size(); ++i)
         if (model.contact.interfaces.nodes[i].node == all->transformation().rows[k] / dimension)
           mine.push_back(!closed[i]);
-    return reduced->addSet(own, concatenated(model.mesh->comm, mine));
+    return concatenated(model.mesh->comm, mine);
+  }
+
+  /// Adds the set with open nodes in this range.
+  int add(double from, double to, pencil::Pencil& own) {
+    own.add(slidingTerms(from, to));
+    return reduced->addSet(own, boundaryOf(from, to));
+  }
+
+  /// Adds the same set as one that contains no point.
+  int addPassed(double from, double to) {
+    const Nodes closed = closedBut(from, to);
+    Nodes mine;
+    for (std::size_t i = 0; i < closed.size(); ++i)
+      if (!all->closed()[i]) mine.push_back(closed[i]);
+    const Nodes slides = concatenated(model.mesh->comm, mine);
+    std::vector<PetscInt> rows;
+    for (std::size_t i = 0; i < slides.size(); ++i)
+      if (slides[i]) rows.push_back(i);
+    return reduced->addPassedSet(
+        [=, this] {
+          pencil::Pencil own = terms->with({});
+          own.add(slidingTerms(from, to));
+          return own;
+        },
+        boundaryOf(from, to), rows);
   }
 };
 
@@ -102,6 +133,45 @@ TEST(Substructure, EigenvaluesAreThoseOfEachActiveSet) {
                   from, to, point.at.friction, found.size(), worst, point.worstErrorEstimate());
     }
   }
+}
+
+// A set that contains no point has its friction terms from factors with one row per node.
+// Projected, they are those of the matrices, within round-off, before and after the basis grows.
+TEST(Substructure, PassedSetsHaveTheFrictionOfTheirNodes) {
+  Fixture f;
+  Nodes released = f.all->closed();
+  for (auto& node : released) node = !node;
+  f.reduced->setFactors(terms::frictionFactors(f.model.contact, *f.all, released));
+  const sweep::Parameters at{0.7};
+  std::vector<std::pair<int, int>> sets;
+  std::vector<pencil::Pencil> pencils;
+  for (const auto& [from, to] : ranges) {
+    pencils.push_back(f.terms->with({}));
+    const int ofPoints = f.add(from, to, pencils.back());
+    sets.emplace_back(ofPoints, f.addPassed(from, to));
+  }
+  const auto compare = [&] {
+    double friction = 0;
+    for (const auto& [ofPoints, passed] : sets) {
+      const auto one = f.reduced->project(at, ofPoints), two = f.reduced->project(at, passed);
+      ASSERT_EQ(one.order(), two.order());
+      for (const auto matrix : {&linalg::DenseProblem::stiffness, &linalg::DenseProblem::mass}) {
+        const auto &a = one.*matrix, &b = two.*matrix;
+        const double scale = std::sqrt(linalg::squaredLength(a.entries()));
+        for (PetscInt j = 0; j < a.columns(); ++j)
+          for (PetscInt i = 0; i < a.rows(); ++i) EXPECT_NEAR(a(i, j), b(i, j), 1e-13 * scale);
+      }
+      friction = std::max(friction, std::abs(one.stiffness(0, 1) - one.stiffness(1, 0)));
+    }
+    EXPECT_GT(friction, 1e-3);  // the terms are not small beside K0 = 1
+  };
+  compare();
+  const PetscInt before = f.reduced->basisSize();
+  std::vector<reduction::PointProblem> batch;
+  batch.push_back({at, pencils[1].with({}), sets[1].first});
+  f.reduced->solve(batch, f.all->transformation().trial);
+  EXPECT_GT(f.reduced->basisSize(), before);
+  compare();
 }
 
 // Free modes of each set, and their number up to the top of the band, against LAPACK.

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The friction terms as products of matrices with few rows.
+#include <string>
+#include <vector>
+
+#include "eigen/pencil/pencil.hpp"
+
+namespace squeal::pencil {
+
+/// The friction terms of r contact nodes,
+///   Σ_a f^a S_aᵀ Σ_X c_X s^k N_X,
+/// with the friction f and the matrices X of the bodies. Each factor has one row for each of the
+/// nodes, on all ranks together. An active set uses the rows of the nodes that slide.
+struct FrictionFactors {
+  /// [power of the friction] S_a, r × n, the slip rows: the motion of contact nodes along the slip,
+  /// times the coefficient of f^a. Only the frictionExponent a of the term is used.
+  std::vector<Term> slip;
+  /// [matrix of the bodies] N_X = N X T, r × n: normal forces due to the stiffness (power k = 0),
+  /// the mass (2) and others, whose terms have the exponents of c_X.
+  std::vector<Term> normal;
+  std::string missing;  ///< why the factors are not known; empty if they are
+
+  /// Returns N_X of the stiffness (power 0) or of the mass (2).
+  Mat normalOf(int power) const;
+};
+
+}  // namespace squeal::pencil
