@@ -12,13 +12,6 @@
 namespace squeal::stability {
 namespace {
 
-/// Drops the vectors, which take much memory and are no longer needed, and the events.
-void dropVectors(Branches& branches) {
-  for (auto& station : branches.stations)
-    for (auto& pair : station.pairs) pair = {pair.s, {}};
-  branches.events.clear();
-}
-
 /// Returns true if the eigenvalues in the band are i ω of the lowest modes, within their errors.
 /// Even at friction 0 they are not if the problem differs from that of the modes, for example by an
 /// unsymmetric stiffness from a file or by the prestress of another friction.
@@ -154,7 +147,7 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
       std::erase_if(tracked.criticals,
                     [&](const Critical& critical) { return critical.friction < tracked.from; });
     }
-    dropVectors(tracked.branches);
+    tracked.branches.events.clear();  // their vectors take much memory
     result.push_back(std::move(tracked));
   }
   return result;

@@ -216,7 +216,20 @@ class Tracker {
     }
     for (int& branch : b.station.branch)
       if (branch < 0) branch = result_.count++;
-    result_.stations.push_back(b.station);
+    result_.stations.push_back(withoutVectors(b.station));
+  }
+
+  /// The vectors of hundreds of stations would take more memory than the basis.
+  static Station withoutVectors(const Station& station) {
+    Station result{.friction = station.friction,
+                   .swept = station.swept,
+                   .pairs = {},
+                   .branch = station.branch,
+                   .overlap = station.overlap,
+                   .inBand = station.inBand,
+                   .piece = station.piece};
+    for (const auto& pair : station.pairs) result.pairs.push_back({pair.s, {}});
+    return result;
   }
 
   const std::vector<Piece>& path_;

@@ -15,9 +15,10 @@ namespace squeal::tracking {
 /// One friction of a tracked sweep.
 struct Station {
   double friction = 0;
-  bool swept = true;                     ///< false: inserted to make a continuation certain
-  std::vector<linalg::DensePair> pairs;  ///< in the band or in its guard zone, with left vectors
-  std::vector<int> branch = {};          ///< [pair] number of its branch
+  bool swept = true;  ///< false: inserted to make a continuation certain
+  /// In the band or in its guard zone; with right and left vectors only while it is tracked.
+  std::vector<linalg::DensePair> pairs;
+  std::vector<int> branch = {};      ///< [pair] number of its branch
   std::vector<double> overlap = {};  ///< [pair] |tr(Π Π')| with the preceding station; 1 if a group
                                      ///< was joined as a whole; 0 at the start of the branch
   std::vector<unsigned char> inBand = {};  ///< [pair] 1 if it is in the band
