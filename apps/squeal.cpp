@@ -12,6 +12,7 @@
 #include "base/session/events.hpp"
 #include "base/session/session.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/blas_kernel.hpp"
 #include "base/system/memory.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
@@ -112,6 +113,7 @@ int run(const squeal::Session& session) try {
 }  // namespace
 
 int main(int argc, char** argv) {
+  squeal::restartWithBlasKernel(argv);
   const squeal::Session session(argc, argv);
   const int code = run(session);
   squeal::endEvents(code);

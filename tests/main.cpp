@@ -8,6 +8,7 @@
 
 #include "base/session/session.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/blas_kernel.hpp"
 
 namespace {
 
@@ -43,6 +44,7 @@ void silence(int rank) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  squeal::restartWithBlasKernel(argv);
   testing::InitGoogleTest(&argc, argv);
   squeal::Session session(argc, argv);
   squeal::setQuiet(true);

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "base/petsc/owned.hpp"
+#include "base/system/blas_kernel.hpp"
 #include "base/system/error.hpp"
 
 namespace {
@@ -67,6 +68,7 @@ double floorSeconds(Mat matrix) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  restartWithBlasKernel(argv);
   check(PetscInitialize(&argc, &argv, nullptr, nullptr));
   if (argc != 2) {
     std::fputs("usage: floor FILE\n", stderr);

@@ -7,18 +7,11 @@
 
 #include "support/harness/same_on_ranks.hpp"
 #include "support/run/case.hpp"
+#include "support/run/sliding_block.hpp"
 #include "support/steady/complementarity.hpp"
 
 namespace squeal::test {
 namespace {
-
-const std::string block =
-    "-mesh_file meshes/layer.geo -mesh_set Lx=0.5,nx=4,ny=8 -material_layer_young 1e9 "
-    "-material_layer_poisson 0.3 "
-    "-material_layer_density 1000"
-    " -constraint_bottom_clamped xy -contact_plate_pad top -contact_plate_obstacle_velocity 1,0,0 "
-    "-contact_plate_obstacle_displacement 0,-0.001,0"
-    " -report_fields off ";
 
 // 4 x 8 cells: 40 free nodes of 45, 5 of them in contact; a closed gap is not an unknown.
 constexpr int contactNodes = 5, closedUnknowns = 75;
@@ -189,75 +182,6 @@ TEST(ActiveSet, BranchesRunThroughItsChanges) {
   EXPECT_EQ(followed.at("active_sets").at(0), 1);
   // The first branch, the lowest eigenvalue, runs from one end to the other.
   for (const auto& [f, numbers] : at) EXPECT_TRUE(numbers.count(1)) << f;
-}
-
-/// The ends of a branch: its eigenvalues at the first and at the last friction.
-using Ends = std::pair<Complex, Complex>;
-
-/// Returns the ends of each branch that runs through the whole sweep, by its first frequency.
-std::vector<Ends> throughBranches(const ProgramRun& run) {
-  const CsvTable table = readCsv(run.folder / "branches.csv");
-  const auto number = table.column("branch"), friction = table.column("friction"),
-             growth = table.column("growth_rate_1_per_s"),
-             frequency = table.column("angular_frequency_rad_per_s");
-  const double last = std::ranges::max(friction);
-  std::map<int, std::map<double, Complex>> branches;
-  for (std::size_t i = 0; i < number.size(); ++i)
-    branches[number[i]].emplace(friction[i], Complex(growth[i], frequency[i]));
-  std::vector<Ends> ends;
-  for (const auto& [branch, values] : branches)
-    if (values.count(0) && values.count(last)) ends.push_back({values.at(0), values.at(last)});
-  std::ranges::sort(ends, {}, [](const Ends& one) { return one.first.imag(); });
-  return ends;
-}
-
-// With at most one node that changes, the sweep takes three bases. Each begins with the last point
-// of the one before, where its branches are continued: they and the critical frictions are those of
-// a single basis, within the tolerance of both, 1e-8.
-TEST(ActiveSet, BranchesContinueInTheNextBasis) {
-  const ProgramRun& one = sweepOn(1);
-  ASSERT_EQ(one.exitCode, 0) << one.error;
-  const auto wanted = throughBranches(one);
-  ASSERT_GE(wanted.size(), 10U);
-  const CsvTable criticals = readCsv(one.folder / "critical.csv");
-  const auto eigenvalues = readCsv(one.folder / "eigenvalues.csv").column("friction");
-  for (const int ranks : {1, 2}) {
-    const ProgramRun run = runProgram("active_set/bases_np" + std::to_string(ranks), ranks,
-                                      block +
-                                          "-modes_count 21 -flutter_friction 0:0.7:0.1 "
-                                          "-flutter_released 1");
-    ASSERT_EQ(run.exitCode, 0) << run.error;
-    std::size_t bases = 0;
-    for (auto at = run.out.find("\ntrack "); at != std::string::npos;
-         at = run.out.find("\ntrack ", at + 1))
-      ++bases;
-    EXPECT_EQ(bases, 3U) << run.out;
-    const auto found = throughBranches(run);
-    ASSERT_EQ(found.size(), wanted.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_LT(std::abs(found[i].first - wanted[i].first), 1e-7 * std::abs(wanted[i].first));
-      EXPECT_LT(std::abs(found[i].second - wanted[i].second), 1e-7 * std::abs(wanted[i].second));
-    }
-    const CsvTable others = readCsv(run.folder / "critical.csv");
-    EXPECT_EQ(others.column("active_set"), criticals.column("active_set"));
-    for (const char* column : {"friction", "frequency_hz"}) {
-      const auto here = others.column(column), there = criticals.column(column);
-      ASSERT_EQ(here.size(), there.size());
-      for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i] / there[i], 1, 1e-7);
-    }
-    // Each point is listed once, and one line is followed through all active sets.
-    EXPECT_EQ(readCsv(run.folder / "eigenvalues.csv").column("friction"), eigenvalues);
-    const auto sets = findingsOf(run).summary.at("active_sets"),
-               expected = findingsOf(one).summary.at("active_sets");
-    ASSERT_EQ(sets.size(), expected.size());
-    const auto &line = sets.at(0).at("followed").at(0), &same = expected.at(0).at("followed").at(0);
-    for (const char* key : {"branches", "active_sets", "sturm_count_exact", "complete"})
-      EXPECT_EQ(line.at(key), same.at(key)) << key;
-    ASSERT_EQ(line.at("uncertain").size(), same.at("uncertain").size());
-    for (std::size_t k = 0; k < line.at("uncertain").size(); ++k)
-      EXPECT_EQ(line.at("uncertain").at(k).at("what"), same.at("uncertain").at(k).at("what"));
-    for (std::size_t k = 1; k < sets.size(); ++k) EXPECT_FALSE(sets.at(k).contains("followed"));
-  }
 }
 
 TEST(ActiveSet, OpenNodesCarryNoFriction) {

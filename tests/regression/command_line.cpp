@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The program as it is called: options files, words of the command line, and what is said of
 // mistakes in them.
+#include "base/system/blas_kernel.hpp"
 #include "support/harness/bad_input.hpp"
 #include "support/model/mesh_text.hpp"
 #include "support/run/own_case.hpp"
@@ -271,6 +272,29 @@ TEST(CommandLine, DryRunSaysWhatARunWouldDo) {
             onOneRank +
                 "-options_file options/layer.yaml -dry_run -contact_plate_pad topp 2>/dev/null"),
       1);
+}
+
+// Debian's OpenBLAS takes some processors for one of 2004. The program then chooses other code,
+// unless the user has chosen.
+TEST(CommandLine, OpenBlasFitsTheProcessor) {
+  if (blasKernel().empty()) GTEST_SKIP() << "another BLAS";
+  const fs::path place = placeFor("command_line/blas");
+  writeText(place / "out", "");
+  const auto codeWith = [&](const std::string& variable) {
+    const int code = shell(place, "'" SQUEAL_MPIEXEC "' serial " + variable +
+                                      " '" SQUEAL_EXECUTABLE "' -version >out 2>&1");
+    EXPECT_EQ(code, 0);
+    const std::string out = contentOf(place / "out"), text = "OpenBLAS with the code for ";
+    const auto begin = out.find(text);
+    EXPECT_NE(begin, std::string::npos) << out;
+    return out.substr(begin + text.size(), out.find('\n', begin) - begin - text.size());
+  };
+#ifdef __x86_64__
+  EXPECT_EQ(codeWith("OPENBLAS_CORETYPE=Prescott"), "Prescott");
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    EXPECT_NE(codeWith(""), "Prescott");
+  }
+#endif
 }
 
 TEST(CommandLine, VersionManualAndUsage) {

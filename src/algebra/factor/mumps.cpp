@@ -21,9 +21,11 @@ namespace {
 /// need another pass. An option -…_mat_mumps_icntl_27 takes precedence.
 constexpr int atOnce = 64;
 
-/// MUMPS estimates its workspace from the pattern, but pivoting may need more. A failed
-/// factorisation is repeated with these additional percentages (ICNTL(14)).
+/// MUMPS estimates its workspace and its message buffers from the pattern, but pivoting may need
+/// more. A failed factorisation is repeated with these additional percentages (ICNTL(14)).
 constexpr int workspaces[] = {100, 400};
+/// Values of INFOG(1) if the workspace, or a buffer for messages between ranks, is too small.
+constexpr int tooSmall[] = {-8, -9, -17, -20};
 
 /// Ratio of estimated to free memory above which the factorisation is not attempted.
 constexpr double hopeless = 2;
@@ -68,12 +70,15 @@ MumpsFactor::MumpsFactor(MPI_Comm comm, const std::string& prefix) {
   id_.par = 1;
   id_.sym = 2;
   call(begin);
-  for (int i = 1; i <= 4; ++i) icntl(i) = i < 4 ? -1 : 0;  // MUMPS prints nothing
-  icntl(18) = 3;                                           // the matrix is distributed
+  for (int i = 1; i <= 4; ++i) icntl(i) = 0;  // checked writes ignore unit 0, the standard error
+  icntl(18) = 3;                              // the matrix is distributed
   icntl(27) = atOnce;
   std::snprintf(id_.ooc_tmpdir, sizeof id_.ooc_tmpdir, "/tmp");
   applySolverOptions([&] { return readOptions(prefix.empty() ? nullptr : prefix.c_str(), id_); });
-  if (icntl(4) > 0) icntl(1) = icntl(2) = icntl(3) = 6;  // the option enables the output
+  if (icntl(4) > 0)  // the option enables the output
+    icntl(1) = icntl(2) = icntl(3) = 6;
+  else
+    icntl(4) = 1;  // with 0, MUMPS sets the unit to -1, where some of its WRITEs abort the program
 }
 
 MumpsFactor::~MumpsFactor() {
@@ -184,10 +189,12 @@ void MumpsFactor::fitIntoMemory() {
 std::string MumpsFactor::factorise(Mat matrix) {
   if (matrix && !hasEntries_) setEntries(matrix);
   fitIntoMemory();
+  // From three ranks on, blocks of the last front exceed the message buffers that MUMPS plans.
+  if (!schur_.empty() && ranks_ > 2) icntl(14) = std::max<MUMPS_INT>(icntl(14), workspaces[0]);
   ++sparseWork().factorisations;
   call(factorisation);
   for (const int percent : workspaces) {
-    if (infog(1) != -8 && infog(1) != -9) break;
+    if (std::ranges::find(tooSmall, infog(1)) == std::end(tooSmall)) break;
     icntl(14) = std::max<MUMPS_INT>(icntl(14), percent);
     call(factorisation);
   }
@@ -274,7 +281,7 @@ std::string MumpsFactor::failure() const {
   if (among(allocations)) return "MUMPS is out of memory" + numbers + ": " + lessMemory;
   if (among(workspace))
     return "MUMPS needs a larger workspace than estimated" + numbers +
-           ": raise -…_mat_mumps_icntl_14, percent, for example to 50";
+           ": raise -…_mat_mumps_icntl_14, percent, above 400";
   if (among(overflow))
     return "the factor has more entries than a 32-bit integer can count" + numbers +
            ": use more ranks";

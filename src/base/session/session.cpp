@@ -16,6 +16,7 @@
 #include "base/options/settings.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/log_events.hpp"
+#include "base/system/blas_kernel.hpp"
 #include "base/system/process_memory.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
@@ -116,11 +117,13 @@ std::string versions() {
   const auto firstPart = [](const std::string& text) {
     return text.substr(0, text.find_first_of(",\n"));
   };
+  const std::string kernel = blasKernel();
   return formatted(
-      "squeal %s\n%s\n%s\nMUMPS %s\n%s\nHDF5 %u.%u.%u, gmsh %s, VTK %s\nscalars: %s, %zu bits; "
+      "squeal %s\n%s\n%s\nMUMPS %s\n%s\nHDF5 %u.%u.%u, gmsh %s, VTK %s\n%sscalars: %s, %zu bits; "
       "indices: %zu bits\n",
       version(), firstPart(petsc).c_str(), firstPart(slepc).c_str(), MUMPS_VERSION,
       firstPart(mpi).c_str(), hdf5[0], hdf5[1], hdf5[2], GMSH_API_VERSION, VTK_VERSION,
+      kernel.empty() ? "" : ("OpenBLAS with the code for " + kernel + "\n").c_str(),
       PetscDefined(USE_COMPLEX) ? "complex" : "real", 8 * sizeof(PetscReal), 8 * sizeof(PetscInt));
 }
 

@@ -42,13 +42,13 @@ const std::vector<FactoredFriction::Product>& FactoredFriction::products(
     const std::vector<PetscInt>& rows) const {
   if (!last_.empty() && rows == lastRows_) return last_;
   last_.clear();
-  lastRows_ = rows;
   for (const auto& slip : slip_) {
     const DenseMatrix left = linalg::rowsOf(rows, slip.timesV);
     for (const auto& normal : normal_)
       last_.push_back({&slip.term, &normal.term,
                        linalg::transposedProduct(left, linalg::rowsOf(rows, normal.timesV))});
   }
+  lastRows_ = rows;
   return last_;
 }
 

@@ -23,7 +23,7 @@ struct LinePiece {
   tracking::ProblemSource source;
   std::vector<double> frictions;  ///< ascending, with the ends of the piece
   int activeSet = 1;              ///< its number in the results
-  std::size_t like = 0;           ///< index of a steady point with this active set
+  std::size_t range = 0;          ///< index of the active set in the problem of the sweep
 };
 
 /// The points of one speed, pressure and damping.

@@ -2,6 +2,7 @@
 #include "eigen/sweep_solver/critical_modes.hpp"
 
 #include "algebra/linalg/null_vectors.hpp"
+#include "base/session/stages.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "eigen/sensitivity/derive.hpp"
@@ -38,9 +39,16 @@ std::vector<Place> nextPlaces(SweepProblem& problem, reduction::ReducedProblem& 
     at.friction = critical.friction;
     const tracking::ProblemSource& source = piece.source;
     std::optional<PointBetween> between;
-    if (derives || !source.local) between = problem.between(at, piece.like);
-    if (!between && !source.local) continue;
-    if (!between) between.emplace();
+    if (derives || !source.local) between = problem.between(at, piece.range);
+    if (!between) {
+      if (derives)
+        printLine(reduced.basis().comm(),
+                  formatted("track: no derivatives of the critical friction %.6g, since no steady "
+                            "state with its active set was found",
+                            at.friction));
+      if (!source.local) continue;
+      between.emplace();
+    }
     reduction::PointProblem there{at, source.shared().with(std::move(between->terms)), source.set};
     auto projected = reduced.project(there);
     const bool isCrossing = critical.kind == tracking::Event::Kind::crossing;

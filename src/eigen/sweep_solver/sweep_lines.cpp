@@ -40,10 +40,8 @@ std::vector<LineOfSegment> linesOf(const SweepProblem& problem, const SweepPlan&
     line.isContinued =
         problem.isContinued && plan.places[last - 1].steadyPoint + 1 == problem.steadyPoints.size();
     for (const auto& piece : problem.path(from, last - first)) {
-      line.pieces.push_back({sourceOf(*piece.range),
-                             {piece.from},
-                             numberOf(problem, *piece.range),
-                             problem.ranges[*piece.range].first});
+      line.pieces.push_back(
+          {sourceOf(*piece.range), {piece.from}, numberOf(problem, *piece.range), *piece.range});
       auto& frictions = line.pieces.back().frictions;
       for (double friction : line.swept)
         if (piece.from < friction && friction < piece.to) frictions.push_back(friction);

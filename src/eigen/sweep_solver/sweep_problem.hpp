@@ -96,11 +96,10 @@ class SweepProblem {
   }
   /// Collective. Returns the factors of the friction terms that only some of the ranges have.
   virtual pencil::FrictionFactors releasedFriction() const { return {}; }
-  /// Collective. Returns the data of a point between two points of the sweep; none if the point has
-  /// no steady state, or if its active set differs from that of steadyPoints[like]. The forms
-  /// borrow this problem.
+  /// Collective. Returns the data of a point between two points of the sweep; none if no steady
+  /// state with the active set of this range is found there. The forms borrow this problem.
   virtual std::optional<PointBetween> between(const sweep::Parameters& /*at*/,
-                                              std::size_t /*like*/) {
+                                              std::size_t /*range*/) {
     return PointBetween();
   }
   /// Collective. Adds to `point`, which belongs to steadyPoints[i], its friction work and the

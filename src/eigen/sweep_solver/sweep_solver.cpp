@@ -221,12 +221,11 @@ class SweepSolver {
 
   tracking::ProblemSource sourceOf(std::size_t range) const {
     const int set = sets_[range].number;
-    const std::size_t like = problem_.ranges[range].first;
-    const auto problemAt = [this, range, set, like](const sweep::Parameters& at) {
+    const auto problemAt = [this, range, set](const sweep::Parameters& at) {
       std::optional<reduction::PointProblem> problem;
       if (state_.affine)
         problem.emplace(reduction::PointProblem{at, pencilOf(range), set});
-      else if (auto point = problem_.between(at, like))
+      else if (auto point = problem_.between(at, range))
         problem.emplace(
             reduction::PointProblem{at, pencilOf(range).with(std::move(point->terms)), set});
       return problem;

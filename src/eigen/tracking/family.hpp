@@ -25,7 +25,7 @@ class Family {
   virtual MPI_Comm comm() const = 0;
   /// Returns true if all terms of the problems are known for all frictions. at() is then cheap and
   /// not collective.
-  virtual bool isAffine() const { return true; }
+  virtual bool isAffine() const = 0;
   /// Collective. Returns the problem at one friction in the current basis, the same on all ranks;
   /// none if it does not exist there, for example because the contact opens.
   virtual std::optional<linalg::DenseProblem> at(double friction) = 0;

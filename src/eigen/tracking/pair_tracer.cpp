@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "base/system/text.hpp"
 #include "eigen/tracking/growth.hpp"
 #include "eigen/tracking/join.hpp"
+#include "eigen/tracking/neutral_end.hpp"
 #include "eigen/tracking/step.hpp"
 
 namespace squeal::tracking {
@@ -17,9 +19,14 @@ constexpr double least = 1. / 65536;  // of `smallest`, to look for a change of 
 
 double width(const TraceRequest& request) { return request.high.friction - request.low.friction; }
 
+/// At friction 0 there may be no damping matrix yet.
+bool isDamped(const TraceRequest& request) {
+  return request.low.spectrum.damped() || request.high.spectrum.damped();
+}
+
 /// Returns true if the eigenvalues have different stability at both ends.
 bool changesStability(const TraceRequest& request) {
-  const bool damped = request.low.spectrum.damped();
+  const bool damped = isDamped(request);
   return unstable(request.low.pairs(), damped) != unstable(request.high.pairs(), damped);
 }
 
@@ -47,7 +54,7 @@ std::optional<Trace> PairTracer::trace(const TraceRequest& request) const {
   const auto& [low, high, ids, isolation, smallest] = request;
   const auto &a = low.pairs(), &b = high.pairs();
   if (coincide(a) || coincide(b)) return traceFromEqual(request);
-  const bool damped = low.spectrum.damped();
+  const bool damped = isDamped(request);
   const bool merging = neutralPair(a, damped) && splitPair(b, damped),
              parting = splitPair(a, damped) && neutralPair(b, damped);
   if (merging || parting) return coalesced(request, merging);
@@ -94,17 +101,18 @@ Trace PairTracer::separate(const TraceRequest& request, std::vector<std::size_t>
                            bool clear) const {
   const auto& [low, high, ids, isolation, smallest] = request;
   const auto &a = low.pairs(), &b = high.pairs();
-  const bool damped = low.spectrum.damped();
+  const bool damped = isDamped(request);
   Trace trace{.mate = std::move(mate)};
   for (std::size_t i = 0; i < 2 && (clear || changesStability(request)); ++i) {
     const auto& end = b[trace.mate[i]];  // the number of changes does not depend on the identity
-    if (auto event = crossing({.branch = ids[i],
-                               .low = low.friction,
-                               .high = high.friction,
-                               .below = {a[i]},
-                               .above = {end},
-                               .isolation = std::min(isolation, 2 * std::abs(a[0].s - mean(a)))},
-                              sign(a[i].s, damped), sign(end.s, damped)))
+    Event step{.branch = ids[i],
+               .low = low.friction,
+               .high = high.friction,
+               .below = {a[i]},
+               .above = {end},
+               .isolation = std::min(isolation, 2 * std::abs(a[0].s - mean(a)))};
+    if (clear && damped && turns(step, trace)) continue;
+    if (auto event = crossing(std::move(step), sign(a[i].s, damped), sign(end.s, damped)))
       trace.events.push_back(std::move(*event));
   }
   if (!clear)
@@ -114,6 +122,33 @@ Trace PairTracer::separate(const TraceRequest& request, std::vector<std::size_t>
                                     mean(a).imag() / (2 * M_PI)),
                           true});
   return trace;
+}
+
+/// Collective. Returns true if the signs at both ends of a step do not show the changes of
+/// stability of an eigenvalue that is neutral at one of them, and appends these changes.
+bool PairTracer::turns(const Event& event, Trace& trace) const {
+  if (neutral(event.below[0].s, true) == neutral(event.above[0].s, true)) return false;
+  const auto below = family_.near(event.low), above = family_.near(event.high);
+  if (!below || !above) return false;
+  const StepEnd low{event.low, *below}, high{event.high, *above};
+  const linalg::Spectrum from(*below, event.below), to(*above, event.above);
+  const NeutralStep step{event, slopes(from, low, high)[0].real(), slopes(to, low, high)[0].real(),
+                         [&](double friction) {
+                           const double part = (friction - event.low) / (event.high - event.low);
+                           const auto found =
+                               continuedTo(family_, friction, part < 0.5 ? from : to,
+                                           (1 - part) * event.below[0].s + part * event.above[0].s,
+                                           event.isolation);
+                           return found ? found->pairs() : std::vector<linalg::DensePair>();
+                         }};
+  if (!turnsWithin(family_.comm(), step)) return false;
+  auto found = turnOf(step);
+  if (!found) {
+    trace.gaps.push_back(notExamined(step));
+    return false;
+  }
+  std::ranges::move(*found, std::back_inserter(trace.events));
+  return true;
 }
 
 /// Traces two eigenvalues via a friction in between.
@@ -144,7 +179,7 @@ std::optional<PairAt> PairTracer::within(const PairAt& equal, const PairAt& apar
 /// Finds whether two equal eigenvalues split immediately into those at `apart`.
 PairTracer::Approach PairTracer::approach(const PairAt& equal, const PairAt& apart,
                                           const TraceRequest& request) const {
-  const bool damped = apart.spectrum.damped();
+  const bool damped = isDamped(request);
   Approach way;
   PairAt last = apart;
   while (!way.between && std::abs(last.friction - equal.friction) > request.smallest) {
@@ -165,7 +200,7 @@ PairTracer::Approach PairTracer::approach(const PairAt& equal, const PairAt& apa
 std::optional<Trace> PairTracer::traceFromEqual(const TraceRequest& request) const {
   const auto& [low, high, ids, isolation, smallest] = request;
   const auto &a = low.pairs(), &b = high.pairs();
-  const bool damped = low.spectrum.damped(), equalBelow = coincide(a),
+  const bool damped = isDamped(request), equalBelow = coincide(a),
              equalTwice = equalBelow && coincide(b);
   Trace trace{.mate = ordered(a, b)};
   std::array<int, 2> before{}, after{};

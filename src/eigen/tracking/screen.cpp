@@ -11,31 +11,6 @@
 namespace squeal::tracking {
 namespace {
 
-/// Returns the slopes of the eigenvalues at one end of the step,
-/// with P_f from the difference over the step. This is exact where P is linear in f, and elsewhere
-/// good enough to look for candidates.
-std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low,
-                            const StepEnd& high) {
-  const auto& pairs = spectrum.pairs();
-  const auto change = [&](const linalg::DenseMatrix& a, const linalg::DenseMatrix& b) {
-    linalg::DenseMatrix difference = b;
-    linalg::addScaled(difference, -1, a);
-    return linalg::timesVectors(difference, pairs);
-  };
-  const auto stiffness = change(low.problem.stiffness, high.problem.stiffness),
-             damping = change(low.problem.damping, high.problem.damping),
-             mass = change(low.problem.mass, high.problem.mass);
-  std::vector<Complex> list;
-  for (std::size_t j = 0; j < pairs.size(); ++j) {
-    const auto& [s, x, y] = pairs[j];
-    Complex sum = 0;
-    for (std::size_t i = 0; i < y.size(); ++i)
-      sum += std::conj(y[i]) * (stiffness(i, j) + s * damping(i, j) + s * s * mass(i, j));
-    list.push_back(-sum / (high.friction - low.friction) / spectrum.derivative(j));
-  }
-  return list;
-}
-
 /// The cubic with given values and slopes at 0 and 1.
 struct Cubic {
   double value0, slope0, value1, slope1;
@@ -129,7 +104,13 @@ class Screening {
     };
     for (std::size_t i = 0; i < singles_.size(); ++i)
       if (!still(singles_[i])) {
-        arch(i);
+        const auto isNeutral = [&](const linalg::DensePair& end) {
+          return neutral(end.s, damped());
+        };
+        if (!isNeutral(singles_[i].below) && !isNeutral(singles_[i].above))
+          arch(i);
+        else if (damped())
+          fromNeutral(i);
       } else {
         for (std::size_t j = 0; j < i; ++j)
           if (still(singles_[j])) merger(i, j);
@@ -138,7 +119,8 @@ class Screening {
 
  private:
   double width() const { return high_.friction - low_.friction; }
-  bool damped() const { return !low_.problem.damping.empty(); }
+  // At friction 0 there may be no damping matrix yet.
+  bool damped() const { return !low_.problem.damping.empty() || !high_.problem.damping.empty(); }
 
   /// Returns the discriminant of two eigenvalues, or the growth rate of one, at t; NaN if the
   /// subspace is not found.
@@ -149,7 +131,7 @@ class Screening {
                                    (1 - t) * mean(below) + t * mean(above), isolation);
     if (!found) return NAN;
     found_ = found->pairs();
-    return found_.size() == 2 ? discriminant(found_, from.damped()) : found_[0].s.real();
+    return found_.size() == 2 ? discriminant(found_, damped()) : found_[0].s.real();
   }
 
   /// Appends the two events that a search has found, or a gap if its result is unknown.
@@ -227,6 +209,33 @@ class Screening {
         dip.search(t, [&](double at) { return sign * examine(at, below, above, a.isolation); });
     record(result, dip,
            {Event::Kind::crossing, a.branch, -1, sign < 0, 0, 0, below, above, a.isolation});
+  }
+
+  /// Examines an eigenvalue that is neutral at one end of the step.
+  void fromNeutral(std::size_t i) {
+    const ContinuedPair& a = singles_[i];
+    const std::vector<linalg::DensePair> below{a.below}, above{a.above};
+    const NeutralStep step{.event = {.branch = a.branch,
+                                     .low = low_.friction,
+                                     .high = high_.friction,
+                                     .below = below,
+                                     .above = above,
+                                     .isolation = a.isolation},
+                           .slopeBelow = below_[i].real(),
+                           .slopeAbove = above_[i].real(),
+                           .pairAt = [&](double friction) {
+                             const double t = (friction - low_.friction) / width();
+                             return std::isnan(examine(t, below, above, a.isolation))
+                                        ? std::vector<linalg::DensePair>()
+                                        : found_;
+                           }};
+    if (!turnsWithin(family_.comm(), step)) return;
+    auto found = turnOf(step);
+    if (!found) return gaps_.push_back(notExamined(step));
+    std::erase_if(events_, [&](const Event& event) {  // that of crossing()
+      return event.kind == Event::Kind::crossing && event.branch == a.branch;
+    });
+    for (auto& event : *found) events_.push_back(std::move(event));
   }
 
   Family& family_;

@@ -15,7 +15,7 @@ std::optional<Event> crossing(Event event, int before, int after) {
   else if (before == 0)
     event.high = event.low;
   else if (after == 0)
-    event.low = event.high;
+    event.low = event.high, event.below = event.above;
   return event;
 }
 

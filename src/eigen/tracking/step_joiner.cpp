@@ -88,7 +88,7 @@ void StepJoiner::joinSingle(const Ends& ends, const Group& group, StepResult& st
   if (!matters(ends, group)) return;
   const linalg::DensePair &p = here.pairs()[i], &q = there.pairs()[j];
   step.singles.push_back({branch, p, q, isolation(ends, group)});
-  const bool damped = here.damped();
+  const bool damped = here.damped() || there.damped();
   if (auto event = crossing({.branch = branch,
                              .low = a.station.friction,
                              .high = b.station.friction,

@@ -31,7 +31,8 @@ std::vector<Place> placesOf(const std::vector<Piece>& path, std::size_t examined
       places.push_back({p, path[p].frictions[k], path[p].needed.empty() || path[p].needed[k] != 0});
   if (places.empty()) return places;
   places.front().needed = places.back().needed = true;
-  if (path.front().family->isAffine()) examined = places.size();
+  if (std::ranges::all_of(path, [](const Piece& piece) { return piece.family->isAffine(); }))
+    examined = places.size();
   for (std::size_t from = 0, to = 0; from + 1 < places.size(); from = to) {
     for (to = from + 1; !places[to].needed;) ++to;
     if (to - from - 1 <= examined)

@@ -139,8 +139,10 @@ void printCost(MPI_Comm comm, const Settings& settings, Mat k0, const RunSize& s
   std::string memory = "about " + gigabytes(same.bytes) + " on all ranks";
   std::string time = "about " + duration(same.seconds);
   if (mayDiffer && size.steadyPoints > 1) {
-    // If eigenvalues are tracked, each step is best solved in a basis of its own.
-    const double groups = std::max(size.trackedSteps, std::ceil(size.steadyPoints / 2));
+    // If eigenvalues are tracked, each step is best solved in a basis of its own; all dampings
+    // share it.
+    const double pairs = std::ceil(size.steadyPoints / 2),
+                 groups = size.trackedSteps > 0 ? std::max(size.followedSteps, pairs) : pairs;
     const RunCost different = runCost(size, groups, true, speed);
     const std::string whenever = " if the closed contact nodes differ between the points";
     if (different.bytes > 1.05 * same.bytes) memory += ", " + gigabytes(different.bytes) + whenever;

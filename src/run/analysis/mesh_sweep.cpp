@@ -11,6 +11,7 @@
 #include "problem/terms/friction_work.hpp"
 #include "problem/terms/terms.hpp"
 #include "run/analysis/mode_components.hpp"
+#include "steady/steady/limit_states.hpp"
 #include "steady/steady/prestress.hpp"
 
 namespace squeal::analysis {
@@ -243,25 +244,30 @@ std::vector<pencil::Term> MeshSweep::termsOf(const steady::Solution& solution) c
   return terms::pointTerms(brake_.model.contact, *all_, solution, change, brake_.mesh().terms);
 }
 
-/// Collective. Returns the steady state at a point, borrowed if it is one of the sweep.
-std::shared_ptr<const steady::Solution> MeshSweep::solutionAt(const sweep::Parameters& at) {
+/// Collective. Returns the steady state at a point with an active set, borrowed if it is one of the
+/// sweep; null if no state with this set is found.
+std::shared_ptr<const steady::Solution> MeshSweep::solutionOn(const contact::ActiveSet& set,
+                                                              const sweep::Parameters& at) {
   sweep::Parameters steady = at;
   steady.damping = 1;
   const auto& solutions = brake_.states.solutions;
   const auto known = std::ranges::find(solutions, steady, &steady::Solution::at);
-  if (known != solutions.end()) return {std::shared_ptr<void>(), &*known};
+  if (known != solutions.end() && known->converged &&
+      contact::sameOnAllRanks(brake_.comm(), steady::activeSet(*known), set))
+    return {std::shared_ptr<void>(), &*known};
   if (!problem_)
     problem_ = std::make_unique<steady::Problem>(*brake_.model.mesh, brake_.model.bodies,
                                                  brake_.model.contact);
-  return std::make_shared<const steady::Solution>(problem_->solve(steady, current_.of(anywhere_)));
+  auto solution = problem_->solve(steady, current_.of(anywhere_));
+  if (!solution.converged) return {};
+  auto onSet = steady::onActiveSet(brake_.model.contact, std::move(solution), set);
+  return onSet ? std::make_shared<const steady::Solution>(std::move(*onSet)) : nullptr;
 }
 
 std::optional<sweep_solver::PointBetween> MeshSweep::between(const sweep::Parameters& at,
-                                                             std::size_t like) {
-  const auto solution = solutionAt(at);
-  if (!solution->converged || !contact::sameOnAllRanks(brake_.comm(), steady::activeSet(*solution),
-                                                       steady::activeSet(steadyAt(like))))
-    return {};
+                                                             std::size_t range) {
+  const auto solution = solutionOn(sets_[range].set, at);
+  if (!solution) return {};
   return sweep_solver::PointBetween{termsOf(*solution), [=, this](const pencil::Pencil& ofPoint) {
                                       return formsOf(at, solution, ofPoint);
                                     }};

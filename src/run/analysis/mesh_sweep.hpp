@@ -37,7 +37,7 @@ class MeshSweep : public sweep_solver::SweepProblem {
   sweep_solver::RangeFactors frictionFactors() const override;
   pencil::FrictionFactors releasedFriction() const override;
   std::optional<sweep_solver::PointBetween> between(const sweep::Parameters& at,
-                                                    std::size_t like) override;
+                                                    std::size_t range) override;
   void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override;
   std::vector<pencil::CriticalMode> describe(const std::vector<pencil::ComplexMotion>& motions,
@@ -72,7 +72,8 @@ class MeshSweep : public sweep_solver::SweepProblem {
   std::optional<double> frictionOfPointBefore() const;
   std::vector<sweep_solver::PathPiece> piecesAfter(std::size_t point);
   std::vector<pencil::Term> termsOf(const steady::Solution& solution) const;
-  std::shared_ptr<const steady::Solution> solutionAt(const sweep::Parameters& at);
+  std::shared_ptr<const steady::Solution> solutionOn(const contact::ActiveSet& set,
+                                                     const sweep::Parameters& at);
   sensitivity::Forms formsOf(const sweep::Parameters& at,
                              std::shared_ptr<const steady::Solution> solution,
                              const pencil::Pencil& pencil) const;

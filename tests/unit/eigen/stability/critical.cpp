@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "algebra/linalg/quadratic.hpp"
 #include "algebra/linalg/spread.hpp"
@@ -48,6 +50,64 @@ TEST(Critical, CoalescenceOfTwo) {
           branches.stations.size(), found[0].friction / exact - 1);
     EXPECT_NEAR(found[0].friction, exact, 1e-10 * exact);
   }
+}
+
+/// Two modes that friction couples and damps, both in proportion to g = f, or to g = top − f.
+struct DampedByFriction : tracking::Family {
+  double eta1, eta2, top;
+  bool falls, isEmpty;  // isEmpty: no damping matrix where g = 0
+  DampedByFriction(double one, double two, double end, bool isFalling, bool withoutMatrix)
+      : eta1(one), eta2(two), top(end), falls(isFalling), isEmpty(withoutMatrix) {}
+  static constexpr double w1 = 600, w2 = 660, w0 = 500;
+  MPI_Comm comm() const override { return PETSC_COMM_WORLD; }
+  bool isAffine() const override { return true; }
+  std::optional<linalg::DenseProblem> at(double f) override {
+    const double g = falls ? top - f : f;
+    Linear undamped = modal({w1 * w1, w2 * w2}, {{0, 1, w0 * w0}});
+    auto problem = undamped.at(g);
+    if (g != 0 || !isEmpty) problem->damping = test::diagonal(std::vector{eta1 * g, eta2 * g});
+    return problem;
+  }
+  /// The g at which one of the growth rates is zero, from the condition of Routh and Hurwitz below.
+  double root() const {
+    const double a = (eta1 * w2 * w2 + eta2 * w1 * w1) / (eta1 + eta2);
+    return std::sqrt((a - w1 * w1) * (w2 * w2 - a) / (std::pow(w0, 4) - a * eta1 * eta2));
+  }
+};
+
+// At friction 0 all eigenvalues are neutral without damping. Friction damps both modes at first;
+// then one of them grows, though the signs at both ends suggest that it grows from 0 on. With the
+// opposite sign both grow at first, and one of them decays again. The same ends the sweep.
+TEST(Critical, NeutralAtAnEnd) {
+  constexpr double top = 0.1;
+  using Expected = std::vector<std::pair<double, bool>>;  // friction, whether stability is lost
+  for (const int sign : {1, -1})
+    for (const bool falls : {false, true})
+      for (const bool isEmpty : {false, true})
+        for (const int steps : {1, 2, 7}) {
+          SCOPED_TRACE(testing::Message() << sign << falls << isEmpty << steps);
+          DampedByFriction family(sign * 1.0, sign * 30.0, top, falls, isEmpty);
+          const double root = falls ? top - family.root() : family.root();
+          Expected expected{{root, (sign > 0) != falls}};
+          if (sign < 0)  // both grow near the neutral end
+            expected.insert(falls ? expected.end() : expected.begin(), 2,
+                            {falls ? top : 0, !falls});
+          const auto branches = track(family, grid(top, steps), {});
+          expectNoGaps(branches);
+          const auto found = stability::criticalFrictions(family, branches, 1e-9);
+          ASSERT_EQ(found.size(), expected.size());
+          for (std::size_t k = 0; k < found.size(); ++k) {
+            EXPECT_EQ(found[k].kind, tracking::Event::Kind::crossing);
+            EXPECT_TRUE(found[k].converged);
+            EXPECT_EQ(found[k].loss, expected[k].second);
+            if (expected[k].first != root) {  // at the neutral end: a mode without friction
+              EXPECT_LT(std::min(std::abs(found[k].angularFrequency - family.w1),
+                                 std::abs(found[k].angularFrequency - family.w2)),
+                        1e-9 * family.w1);
+            }
+            EXPECT_NEAR(found[k].friction, expected[k].first, 1e-9 * top);
+          }
+        }
 }
 
 // The same with damping: Routh and Hurwitz (tests/verification/minimal_models.cpp).

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "eigen/tracking/neutral_end.hpp"
+
+#include <cmath>
+
+#include "base/system/mpi.hpp"
+#include "base/system/text.hpp"
+#include "eigen/tracking/growth.hpp"
+#include "eigen/tracking/join.hpp"
+
+namespace squeal::tracking {
+namespace {
+
+Complex low(const NeutralStep& step) { return step.event.below[0].s; }
+Complex high(const NeutralStep& step) { return step.event.above[0].s; }
+bool isNeutralBelow(const NeutralStep& step) { return neutral(low(step), true); }
+
+/// Returns the sign of the growth rate near the neutral end; 0 if the slope does not show it.
+int signNear(const NeutralStep& step) {
+  constexpr double significant = 1e-9;  // of |s|, ten times as much as for neutral eigenvalues
+  const double width = step.event.high - step.event.low,
+               change = width * (isNeutralBelow(step) ? step.slopeBelow : -step.slopeAbove);
+  return std::abs(change) <= significant * std::abs(low(step)) ? 0 : change > 0 ? 1 : -1;
+}
+
+int signFar(const NeutralStep& step) {
+  return sign(isNeutralBelow(step) ? high(step) : low(step), true);
+}
+
+}  // namespace
+
+bool turnsWithin(MPI_Comm comm, const NeutralStep& step) {
+  if (isNeutralBelow(step) == neutral(high(step), true)) return false;
+  if (real(low(step)) || real(high(step))) return false;
+  int turns = signNear(step) != 0 && signNear(step) != signFar(step) ? 1 : 0;
+  mpi::broadcast(comm, turns, 0);  // the ranks may differ in round-off
+  return turns != 0;
+}
+
+std::optional<std::vector<Event>> turnOf(const NeutralStep& step) {
+  const bool atLow = isNeutralBelow(step);
+  const int near = signNear(step);
+  Event turn = step.event;
+  turn.kind = Event::Kind::crossing;
+  turn.loss = atLow ? near < 0 : near > 0;
+  const double width = turn.high - turn.low, end = atLow ? turn.low : turn.high;
+  // Close to the neutral end the sign is certain, but the growth rate is small.
+  for (double part = 0.25; part > 1e-4; part *= 0.25) {
+    const double inside = atLow ? end + part * width : end - part * width;
+    const auto found = step.pairAt(inside);
+    if (found.size() != 1 || sign(found[0].s, true) != near) continue;
+    std::vector<Event> events;
+    (atLow ? turn.low : turn.high) = inside;
+    (atLow ? turn.below : turn.above) = found;
+    if (near > 0) {
+      Event there = step.event;
+      there.kind = Event::Kind::crossing;
+      there.loss = atLow;
+      there.low = there.high = end;
+      (atLow ? there.above : there.below) = atLow ? there.below : there.above;
+      events.push_back(std::move(there));
+    }
+    events.push_back(std::move(turn));
+    return events;
+  }
+  return {};
+}
+
+Gap notExamined(const NeutralStep& step) {
+  return {step.event.low, step.event.high,
+          formatted("an eigenvalue near %.6g Hz could not be examined in between",
+                    low(step).imag() / (2 * M_PI))};
+}
+
+std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low,
+                            const StepEnd& high) {
+  const auto& pairs = spectrum.pairs();
+  const auto change = [&](const linalg::DenseMatrix& a, const linalg::DenseMatrix& b) {
+    linalg::DenseMatrix difference = b;
+    linalg::addScaled(difference, -1, a);
+    return linalg::timesVectors(difference, pairs);
+  };
+  const auto stiffness = change(low.problem.stiffness, high.problem.stiffness),
+             damping = change(low.problem.damping, high.problem.damping),
+             mass = change(low.problem.mass, high.problem.mass);
+  std::vector<Complex> list;
+  for (std::size_t j = 0; j < pairs.size(); ++j) {
+    const auto& [s, x, y] = pairs[j];
+    Complex sum = 0;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      sum += std::conj(y[i]) * (stiffness(i, j) + s * damping(i, j) + s * s * mass(i, j));
+    list.push_back(-sum / (high.friction - low.friction) / spectrum.derivative(j));
+  }
+  return list;
+}
+
+}  // namespace squeal::tracking

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Eigenvalues tracked through the active sets of a sweep: from basis to basis, and where each set
+// has terms of its own.
+#include <map>
+#include <set>
+
+#include "support/harness/same_on_ranks.hpp"
+#include "support/run/case.hpp"
+#include "support/run/sliding_block.hpp"
+
+namespace squeal::test {
+namespace {
+
+/// The ends of a branch: its eigenvalues at the first and at the last friction.
+using Ends = std::pair<Complex, Complex>;
+
+/// Returns the ends of each branch that runs through the whole sweep, by its first frequency.
+std::vector<Ends> throughBranches(const ProgramRun& run) {
+  const CsvTable table = readCsv(run.folder / "branches.csv");
+  const auto number = table.column("branch"), friction = table.column("friction"),
+             growth = table.column("growth_rate_1_per_s"),
+             frequency = table.column("angular_frequency_rad_per_s");
+  const double last = std::ranges::max(friction);
+  std::map<int, std::map<double, Complex>> branches;
+  for (std::size_t i = 0; i < number.size(); ++i)
+    branches[number[i]].emplace(friction[i], Complex(growth[i], frequency[i]));
+  std::vector<Ends> ends;
+  for (const auto& [branch, values] : branches)
+    if (values.count(0) && values.count(last)) ends.push_back({values.at(0), values.at(last)});
+  std::ranges::sort(ends, {}, [](const Ends& one) { return one.first.imag(); });
+  return ends;
+}
+
+// With at most one node that changes, the sweep takes three bases. Each begins with the last point
+// of the one before, where its branches are continued: they and the critical frictions are those of
+// a single basis, within the tolerance of both, 1e-8.
+TEST(Tracking, BranchesContinueInTheNextBasis) {
+  const ProgramRun one = runProgram("active_set/one_basis", 1,
+                                    block + "-modes_count 21 -flutter_friction 0:0.7:0.1 -quiet");
+  ASSERT_EQ(one.exitCode, 0) << one.error;
+  const auto wanted = throughBranches(one);
+  ASSERT_GE(wanted.size(), 10U);
+  const CsvTable criticals = readCsv(one.folder / "critical.csv");
+  const auto eigenvalues = readCsv(one.folder / "eigenvalues.csv").column("friction");
+  for (const int ranks : {1, 2}) {
+    const ProgramRun run = runProgram("active_set/bases_np" + std::to_string(ranks), ranks,
+                                      block +
+                                          "-modes_count 21 -flutter_friction 0:0.7:0.1 "
+                                          "-flutter_released 1");
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    std::size_t bases = 0;
+    for (auto at = run.out.find("\ntrack "); at != std::string::npos;
+         at = run.out.find("\ntrack ", at + 1))
+      ++bases;
+    EXPECT_EQ(bases, 3U) << run.out;
+    const auto found = throughBranches(run);
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_LT(std::abs(found[i].first - wanted[i].first), 1e-7 * std::abs(wanted[i].first));
+      EXPECT_LT(std::abs(found[i].second - wanted[i].second), 1e-7 * std::abs(wanted[i].second));
+    }
+    const CsvTable others = readCsv(run.folder / "critical.csv");
+    EXPECT_EQ(others.column("active_set"), criticals.column("active_set"));
+    for (const char* column : {"friction", "frequency_hz"}) {
+      const auto here = others.column(column), there = criticals.column(column);
+      ASSERT_EQ(here.size(), there.size());
+      for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i] / there[i], 1, 1e-7);
+    }
+    // Each point is listed once, and one line is followed through all active sets.
+    EXPECT_EQ(readCsv(run.folder / "eigenvalues.csv").column("friction"), eigenvalues);
+    const auto sets = findingsOf(run).summary.at("active_sets"),
+               expected = findingsOf(one).summary.at("active_sets");
+    ASSERT_EQ(sets.size(), expected.size());
+    const auto &line = sets.at(0).at("followed").at(0), &same = expected.at(0).at("followed").at(0);
+    for (const char* key : {"branches", "active_sets", "sturm_count_exact", "complete"})
+      EXPECT_EQ(line.at(key), same.at(key)) << key;
+    ASSERT_EQ(line.at("uncertain").size(), same.at("uncertain").size());
+    for (std::size_t k = 0; k < line.at("uncertain").size(); ++k)
+      EXPECT_EQ(line.at("uncertain").at(k).at("what"), same.at("uncertain").at(k).at("what"));
+    for (std::size_t k = 1; k < sets.size(); ++k) EXPECT_FALSE(sets.at(k).contains("followed"));
+  }
+}
+
+// A coefficient that falls with the speed gives each friction terms of its own. The eigenvalues are
+// tracked at both ends of the interval of each set, where its state is that of the next set too,
+// and so is every change of stability that a sweep through points within the intervals finds.
+TEST(Tracking, EachSetHasTermsOfItsOwn) {
+  const std::string falling = block +
+                              "-modes_count 21 -flutter_track on -friction_law exponential "
+                              "-friction_decay_speed 1 -friction_static_ratio 1.1 ";
+  const ProgramRun points = runProgram("active_set/terms_at_points", 1,
+                                       falling + "-flutter_friction 0,0.1,0.25,0.35,0.5,0.6");
+  ASSERT_EQ(points.exitCode, 0) << points.error;
+  const CsvTable wanted = readCsv(points.folder / "critical.csv");
+  ASSERT_GE(wanted.column("friction").size(), 10U);
+  for (const int ranks : {1, 2}) {
+    const ProgramRun run = runProgram("active_set/terms_np" + std::to_string(ranks), ranks,
+                                      falling + "-flutter_friction 0,0.6");
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    const auto line = findingsOf(run).summary.at("active_sets").at(0).at("followed").at(0);
+    EXPECT_EQ(line.at("active_sets").size(), 4U);  // three nodes open, one after the other
+    for (const auto& gap : line.at("uncertain"))
+      EXPECT_EQ(gap.at("what").get<std::string>().find("no reduced problem"), std::string::npos)
+          << gap;
+    const CsvTable branches = readCsv(run.folder / "branches.csv");
+    const auto friction = branches.column("friction"), set = branches.column("active_set");
+    for (const double event : readCsv(run.folder / "contact_path.csv").column("friction")) {
+      std::set<double> sets;  // those that occur only between two points have the number 0
+      for (std::size_t i = 0; i < friction.size(); ++i)
+        if (std::abs(friction[i] - event) < 1e-9) sets.insert(set[i]);
+      EXPECT_FALSE(sets.empty()) << event;
+    }
+    const CsvTable found = readCsv(run.folder / "critical.csv");
+    const auto here = found.column("friction"), there = wanted.column("friction");
+    ASSERT_EQ(here.size(), there.size());
+    // The tolerance of a critical friction is 1e-8; contact events are known to 1e-11 of a step.
+    for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i], there[i], 1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace squeal::test
