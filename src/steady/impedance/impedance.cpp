@@ -200,7 +200,9 @@ DenseMatrix Impedance::responsesToUnits(const std::vector<PetscInt>& released) c
   const PetscInt n = nodes(), m = std::ssize(nodeOf_), count = std::ssize(released);
   const PetscInt all = mpi::sum(comm(), m), first = mpi::sumBefore(comm(), m);
   units_ += count;
-  if (!isCondensed_ && !refused_ && units_ > after_ && all <= mostCondensed) condense();
+  if (!isCondensed_ && !refused_ && units_ > after_.value_or(worthwhile(all)) &&
+      all <= mostCondensed)
+    condense();
   if (!isCondensed_) {
     DenseMatrix units(n + m, count);
     for (PetscInt j = 0; j < count; ++j)

@@ -18,7 +18,9 @@
 ///   S_c = K_ww − K_wy K0⁻¹ K_yw,   F = S_c w,   R = F in the rows of the gaps.
 /// One factorisation of K with all contact open gives S_c. Its cost is given at
 /// Impedance::worthwhile.
+#include <algorithm>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "algebra/linalg/block.hpp"
@@ -37,16 +39,16 @@ class Impedance {
   /// and held. Borrows `closed` and `contact` during the lifetime of the object.
   Impedance(const contact::Contact& contact, const contact::Transformation& open, Mat stiffness,
             Mat slipRows, const contact::CoupledSystem& closed);
-  /// Number of requested responses to w after which the Schur complement is computed. The
-  /// complement costs as much as 600 to 1,100 solves (for 1,300 to 3,500 unknowns of the contact).
-  /// This threshold is half of the lower figure. The total cost is then at most 3 to 5 times that
-  /// of the cheaper choice: only solves, or the complement from the start.
-  static constexpr long worthwhile = 300;
+  /// Returns the number of requested responses to w after which the Schur complement is computed,
+  /// for this number of unknowns w. The complement costs as much as 600, 790, 1,100 and 2,740
+  /// solves for 1,300, 2,000, 3,500 and 8,000 unknowns, so it pays if about a third of them is
+  /// needed; the first request is for the unknowns that are free on the first active set.
+  static long worthwhile(PetscInt unknowns) { return std::max<long>(300, unknowns / 4); }
   /// Collective. Takes a function that returns TᵀKT with all contact open and no sticking node
   /// held, in the unknowns of `open`. Once more than `after` responses to unit vectors of w have
-  /// been requested, further ones are taken from the Schur complement of this matrix, if w has at
-  /// most 8,000 entries and the complement passes a check of its accuracy.
-  void offer(std::function<Mat()> openStiffness, long after = worthwhile) {
+  /// been requested (by default worthwhile()), further ones are taken from the Schur complement of
+  /// this matrix, if w has at most 8,000 entries and the complement passes a check of its accuracy.
+  void offer(std::function<Mat()> openStiffness, std::optional<long> after = {}) {
     openStiffness_ = std::move(openStiffness);
     after_ = after;
   }
@@ -98,8 +100,8 @@ class Impedance {
   OwnedVec work_;                                        // y
   std::function<Mat()> openStiffness_;                   // empty: not offered
   mutable long solves_ = 0;
-  mutable long units_ = 0;  // number of requested responses to units of w
-  long after_ = worthwhile;
+  mutable long units_ = 0;             // number of requested responses to units of w
+  std::optional<long> after_;          // none: worthwhile()
   mutable linalg::DenseMatrix schur_;  // S_c, own rows × all columns
   mutable bool isCondensed_ = false;   // S_c is in use
   mutable bool refused_ = false;       // S_c was too inaccurate
