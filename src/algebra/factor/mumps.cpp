@@ -24,8 +24,9 @@ constexpr int atOnce = 64;
 /// MUMPS estimates its workspace and its message buffers from the pattern, but pivoting may need
 /// more. A failed factorisation is repeated with these additional percentages (ICNTL(14)).
 constexpr int workspaces[] = {100, 400};
-/// Values of INFOG(1) if the workspace, or a buffer for messages between ranks, is too small.
-constexpr int tooSmall[] = {-8, -9, -17, -20};
+/// Values of INFOG(1) if the workspace of a factorisation, or a buffer for messages between ranks,
+/// is too small, and if the workspace of a solve is.
+constexpr int tooSmall[] = {-8, -9, -17, -20}, tooSmallToSolve[] = {-11, -14, -15};
 
 /// Ratio of estimated to free memory above which the factorisation is not attempted.
 constexpr double hopeless = 2;
@@ -273,15 +274,15 @@ std::string MumpsFactor::failure() const {
   if (code >= 0) return "";
   const std::string numbers =
       formatted(" (INFOG(1) = %d, INFOG(2) = %d)", code, static_cast<int>(id_.infog[1]));
-  constexpr int allocations[] = {-5, -7, -13, -19, -22},
-                workspace[] = {-8, -9, -11, -14, -15, -17, -20}, overflow[] = {-51, -52};
+  constexpr int allocations[] = {-5, -7, -13, -19, -22}, overflow[] = {-51, -52};
   const auto among = [&](const auto& codes) {
     return std::find(std::begin(codes), std::end(codes), code) != std::end(codes);
   };
   if (among(allocations)) return "MUMPS is out of memory" + numbers + ": " + lessMemory;
-  if (among(workspace))
+  if (among(tooSmall) || among(tooSmallToSolve))
     return "MUMPS needs a larger workspace than estimated" + numbers +
-           ": raise -…_mat_mumps_icntl_14, percent, above 400";
+           formatted(": raise -…_mat_mumps_icntl_14, percent, above %d",
+                     static_cast<int>(id_.icntl[13]));
   if (among(overflow))
     return "the factor has more entries than a 32-bit integer can count" + numbers +
            ": use more ranks";

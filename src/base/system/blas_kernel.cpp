@@ -14,13 +14,17 @@ namespace {
 
 constexpr const char* variable = "OPENBLAS_CORETYPE";
 
-/// Returns true if the processor has the instructions of a Haswell (2013).
-bool canRunHaswell() {
+/// Returns the fastest code of OpenBLAS that the processor can run, of those with AVX-512 (2017)
+/// and with AVX2 (2013); null if it can run neither.
+const char* fastest() {
 #ifdef __x86_64__
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#else
-  return false;
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
+                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512vl");
+  if (avx512) return "SkylakeX";
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
 #endif
+  return nullptr;
 }
 
 }  // namespace
@@ -31,16 +35,17 @@ std::string blasKernel() {
 }
 
 void restartWithBlasKernel(char** arguments) {
-  if (std::getenv(variable) || blasKernel() != "Prescott" || !canRunHaswell()) return;
+  const char* const code = fastest();
+  if (std::getenv(variable) || blasKernel() != "Prescott" || !code) return;
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  setenv(variable, "Haswell", 1);  // OpenBLAS reads it when it is loaded
+  setenv(variable, code, 1);  // OpenBLAS reads it when it is loaded
   if (!error) execv(program.c_str(), arguments);
   unsetenv(variable);
   std::fprintf(stderr,
                "squeal: warning: OpenBLAS does not know this processor, and dense products are "
-               "slow; %s=Haswell makes them fast\n",
-               variable);
+               "slow; %s=%s makes them fast\n",
+               variable, code);
 }
 
 }  // namespace squeal

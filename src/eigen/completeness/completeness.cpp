@@ -285,7 +285,7 @@ void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& s
       if (!theta) point->completeness->reason = "the number of free modes is not confirmed";
     }
   if (!theta) return;
-  const auto associated = reduction::associatedTerms(sets.front().problems.front().pencil);
+  const auto associated = sets.front().problems.front().pencil.associated();
   const KnownModes known{reduced.basis().boundarySize(), PetscInt(std::ssize(modes.lambda)), *theta,
                          errorOfModes(reduced, modes, associated)};
   const auto projected =

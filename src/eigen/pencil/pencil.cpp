@@ -81,6 +81,15 @@ Pencil Pencil::with(std::vector<Term> pointTerms) const {
   return pencil;
 }
 
+Pencil Pencil::associated() const {
+  Pencil pencil({});
+  for (const auto& term : std::span(terms_).first(affineCount_))
+    if (term.isAssociated()) pencil.terms_.push_back(term.share());
+  pencil.affineCount_ = pencil.terms_.size();
+  pencil.singular_ = singular_;
+  return pencil;
+}
+
 std::vector<Term> Pencil::pointSums(const sweep::Parameters& at) const {
   std::vector<std::vector<const Term*>> groups;
   for (const Term& term : std::span(terms_).subspan(affineCount_)) {

@@ -55,6 +55,9 @@ class Pencil {
   /// Returns a pencil with the terms of this one, whose matrices it shares, and with `pointTerms`,
   /// which hold only at one point of the sweep. Collective unless `pointTerms` is empty.
   Pencil with(std::vector<Term> pointTerms) const;
+  /// Returns a pencil with the terms of K0 and M0 that hold for all parameters, whose matrices it
+  /// shares.
+  Pencil associated() const;
   /// Collective. Returns sums of the terms that hold only at the point with these parameters. Terms
   /// with the same power of s and the same isAssociated() are added, with their coefficients, to
   /// one term. A term that is the only one of its kind is returned as it is and shares its matrix.
@@ -81,7 +84,7 @@ class Pencil {
   std::size_t affineCount_;
   std::shared_ptr<std::array<OwnedVec, 3>>
       singular_;  // [power] start vector of the next power iteration, shared with the pencils that
-                  // with() returns
+                  // with() and associated() return
 };
 
 /// The side of an eigenvector: right with P(s) d = 0, or left with P(s)ᴴ d = 0.

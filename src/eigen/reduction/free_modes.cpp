@@ -5,32 +5,23 @@
 #include <cmath>
 
 #include "algebra/linalg/columns.hpp"
-#include "base/petsc/arrays.hpp"
 
 namespace squeal::reduction {
 namespace {
 
-/// Returns the vectors of the band as columns of all unknowns, by this rank's rows.
+/// Returns the vectors of the band, which are real, as columns of all unknowns, by this rank's
+/// rows.
 linalg::Block shapesOf(const Basis& basis, const PointState& state) {
-  std::vector<std::vector<Complex>> lifted;
-  for (const auto& pair : state.solution.spectrum.band)
-    lifted.push_back(state.set->space.lifted(pair.q));
-  linalg::Block shapes(basis.localRows());
-  for (const auto& shape : basis.expand(lifted)) {
-    const ReadArray entries(shape.real);
-    shapes.append(std::span(entries.begin(), entries.end()));
+  const auto& band = state.solution.spectrum.band;
+  linalg::DenseMatrix coordinates(basis.size(), std::ssize(band));
+  for (PetscInt j = 0; j < coordinates.columns(); ++j) {
+    const auto lifted = state.set->space.lifted(band[j].q);
+    for (std::size_t i = 0; i < lifted.size(); ++i) coordinates(i, j) = lifted[i].real();
   }
-  return shapes;
+  return linalg::product(basis.columns(), coordinates);
 }
 
 }  // namespace
-
-pencil::Pencil associatedTerms(const pencil::Pencil& pencil) {
-  std::vector<pencil::Term> terms;
-  for (std::size_t t = 0; t < pencil.affineCount(); ++t)
-    if (pencil.terms()[t].isAssociated()) terms.push_back(pencil.terms()[t].share());
-  return pencil::Pencil(std::move(terms));
-}
 
 modes::Modes freeModes(const Basis& basis, const PointState& state,
                        const pencil::Pencil& associated) {

@@ -11,9 +11,6 @@
 
 namespace squeal::reduction {
 
-/// Returns a pencil that contains only the terms of K and M.
-pencil::Pencil associatedTerms(const pencil::Pencil& pencil);
-
 /// Collective. Returns the free modes of a solved point, M-orthonormal, as vectors of all unknowns.
 /// `associated` has the terms of K and M.
 modes::Modes freeModes(const Basis& basis, const PointState& state,

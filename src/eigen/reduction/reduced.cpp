@@ -58,7 +58,7 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const factor::Assoc
   if (band_.top == 0) estimator_.acceptAll();
   const PetscInt boundary = basis().boundarySize();
   addSet(pencil, std::vector<unsigned char>(boundary, 0));
-  if (boundary > 0) count_.emplace(basis_.basis(), modes, associatedTerms(pencil).assembled(2, {}));
+  if (boundary > 0) count_.emplace(basis_.basis(), modes, pencil.associated().assembled(2, {}));
 }
 
 int ReducedProblem::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
@@ -281,7 +281,7 @@ void ReducedProblem::confirmCounts(const std::vector<PointState>& states,
 
 std::vector<modes::Modes> ReducedProblem::freeModes(const std::vector<int>& sets,
                                                     const pencil::Pencil& pencil) {
-  const pencil::Pencil associated = associatedTerms(pencil);
+  const pencil::Pencil associated = pencil.associated();
   std::vector<PointProblem> points;
   for (const int set : sets) points.push_back({{}, associated.with({}), set});
   const auto states = associatedStates(points);

@@ -54,6 +54,22 @@ TEST(Norm, IsJustBelowTheLargestSingularValue) {
     }
 }
 
+// K0 and M0 have no friction. Their power iteration is the start of that at a point.
+TEST(Norm, ContinuesThatOfTheAssociatedMatrices) {
+  const Layers layers;
+  const auto pencil = terms::affineTerms(layers.model.contact, *layers.system);
+  const auto associated = pencil.associated();
+  ASSERT_LT(associated.terms().size(), pencil.terms().size());
+  for (const auto& term : associated.terms()) EXPECT_TRUE(term.isAssociated());
+  for (const int power : {0, 2})
+    for (const auto* one : {&associated, &pencil}) {
+      const double exact = largestSingularValue(test::fullMatrix(*one, power, {0.5})),
+                   estimate = one->norm(power, {0.5});
+      EXPECT_LE(estimate, (1 + 1e-12) * exact);
+      EXPECT_GE(estimate, 0.95 * exact);
+    }
+}
+
 // A term that is zero at the first friction of a sweep, as friction-induced damping is at f = 0,
 // has a norm at the next.
 TEST(Norm, RecoversFromAVanishingTerm) {

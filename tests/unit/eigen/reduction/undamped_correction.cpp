@@ -51,7 +51,8 @@ std::optional<std::vector<DensePair>> improved(const DenseProblem& problem,
 }
 
 // Each call leaves a tenth of the residuals, until they are rounding: first with all eigenvalues
-// imaginary, then with unstable ones, whose pairs −s̄ are listed with them.
+// imaginary, then with unstable ones, whose pairs −s̄ are listed with them. Rounding is below 1e-13
+// with OpenBLAS's code for Haswell, and 1.8e-13 with that for SkylakeX.
 TEST(UndampedCorrection, ImprovesPairsOfASmallerBasis) {
   for (const double friction : {0.01, 0.05}) {
     const DenseProblem problem = brake(60, friction);
@@ -62,7 +63,7 @@ TEST(UndampedCorrection, ImprovesPairsOfASmallerBasis) {
       const auto next = improved(problem, pairs, 0.1);
       ASSERT_TRUE(next) << "round " << round;
       pairs = *next;
-      EXPECT_LT(worstResidual(problem, bandOf(pairs)), 0.1 * before + 1e-13) << "round " << round;
+      EXPECT_LT(worstResidual(problem, bandOf(pairs)), 0.1 * before + 1e-12) << "round " << round;
     }
     const auto found = bandOf(pairs), exact = bandOf(pairsOf(problem));
     EXPECT_LT(worstLeftResidual(problem, found), 1e-12);
