@@ -196,11 +196,15 @@ std::string MumpsFactor::factorise(Mat matrix) {
   call(factorisation);
   for (const int percent : workspaces) {
     if (std::ranges::find(tooSmall, infog(1)) == std::end(tooSmall)) break;
-    icntl(14) = std::max<MUMPS_INT>(icntl(14), percent);
+    if (icntl(14) >= percent) continue;
+    icntl(14) = percent;
     call(factorisation);
   }
-  // MUMPS no longer needs the entries.
-  rows_ = {}, columns_ = {}, entries_ = {};
+  // Only iterative refinement and error analysis of solves still need the entries.
+  if (icntl(10) == 0 && icntl(11) == 0) {  // assigning {} would retain the memory
+    rows_ = std::vector<MUMPS_INT>(), columns_ = std::vector<MUMPS_INT>();
+    entries_ = std::vector<double>();
+  }
   hasEntries_ = false;
   solutionRows_.clear();
   return failure();

@@ -55,6 +55,21 @@ bool isNegligible(const linalg::DenseMatrix& along) {
   return true;
 }
 
+/// Replaces X by X C, where C has at most as many columns as rows, without a copy of X.
+void combineColumns(linalg::Block& x, const linalg::DenseMatrix& combinations) {
+  constexpr PetscInt panel = 1024;  // rows; large enough for fast products
+  const PetscInt rows = x.rows(), count = combinations.columns();
+  ensure(count <= combinations.rows(), "combinations are at most as many as the columns");
+  for (PetscInt first = 0; first < rows; first += panel) {
+    const PetscInt last = std::min(first + panel, rows);
+    const linalg::DenseMatrix part =
+        linalg::product(linalg::rowRange(x, first, last), combinations);
+    for (PetscInt j = 0; j < count; ++j)
+      std::ranges::copy(part.column(j), x.column(j).begin() + first);
+  }
+  x.resizeColumns(count);
+}
+
 /// Sets the components along the constraint modes to zero: all other vectors are orthogonal to
 /// these.
 void clearConstraintModes(linalg::DenseMatrix& parts, PetscInt count) {
@@ -156,11 +171,19 @@ void Basis::appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Bl
 linalg::Block Basis::responses(const linalg::Block& forces) {
   solves_ += forces.columns();
   if (isPlain_) return linalg::solved(solver_, forces);
+  constexpr PetscInt atOnce = 256;  // limits the memory of the copies
   const auto& interior = substructure_.interior;
-  linalg::Block some(std::ssize(interior), forces.columns());
-  for (PetscInt j = 0; j < forces.columns(); ++j)
-    for (PetscInt i = 0; i < some.rows(); ++i) some(i, j) = forces(interior[i], j);
-  return prolonged(linalg::solved(solver_, some));
+  linalg::Block all(localRows(), forces.columns());
+  for (PetscInt first = 0; first < forces.columns(); first += atOnce) {
+    const PetscInt count = std::min(atOnce, forces.columns() - first);
+    linalg::Block some(std::ssize(interior), count);
+    for (PetscInt j = 0; j < count; ++j)
+      for (PetscInt i = 0; i < some.rows(); ++i) some(i, j) = forces(interior[i], first + j);
+    const linalg::Block solutions = linalg::solved(solver_, some);
+    for (PetscInt j = 0; j < count; ++j)
+      for (PetscInt i = 0; i < some.rows(); ++i) all(interior[i], first + j) = solutions(i, j);
+  }
+  return all;
 }
 
 linalg::DenseMatrix Basis::flexibility(const linalg::Block& forces) {
@@ -213,14 +236,16 @@ void Basis::restore(const linalg::DenseView& columns, double lastEnergyRatio, lo
 
 /// Collective. Adds z = K0⁻¹ R if it is nearly orthogonal to V: K0 z, VᵀK0z and zᵀK0z are then R,
 /// VᵀR and zᵀR. Returns false, without adding anything, if z is not nearly orthogonal or K0⁻¹ is
-/// not accurate enough.
-bool Basis::addOrthogonal(const linalg::Block& z, const linalg::Block& residuals,
+/// not accurate enough; otherwise it has used z and R.
+bool Basis::addOrthogonal(linalg::Block& z, linalg::Block& residuals,
                           const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
   const linalg::DenseMatrix combinations = orthonormalising(energy, independent),
                             along = linalg::product(parts, combinations);
   if (combinations.empty() || !isNegligible(along) || !(solutionError(z, residuals) <= 1e-12))
     return false;
-  append(linalg::product(z, combinations), linalg::product(residuals, combinations), along);
+  combineColumns(z, combinations);
+  combineColumns(residuals, combinations);
+  append(z, std::move(residuals), along);
   return true;
 }
 
@@ -257,7 +282,9 @@ void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts
                               along = linalg::product(rest, combinations);
     if (combinations.empty()) return;
     if (!isNegligible(along)) continue;
-    append(linalg::product(z, combinations), linalg::product(forces, combinations), along);
+    combineColumns(z, combinations);
+    combineColumns(forces, combinations);
+    append(z, std::move(forces), along);
     return;
   }
 }
@@ -291,11 +318,16 @@ void Basis::combine(const linalg::DenseMatrix& combinations) {
 /// Returns the largest ratio of the energy norm to that of the diagonal among all combinations of
 /// the columns, where `energy` is RᵀK0⁻¹R.
 double Basis::ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const {
-  linalg::Block scaled = residuals;
-  for (PetscInt j = 0; j < scaled.columns(); ++j)
-    for (PetscInt i = 0; i < scaled.rows(); ++i) scaled(i, j) *= inverseDiagonal_[i];
-  const linalg::DenseMatrix combinations =
-      orthonormalising(linalg::transposedProduct(comm_, residuals, scaled), 1e-8);
+  constexpr PetscInt atOnce = 128;  // limits the memory of the copy
+  linalg::DenseMatrix gram(residuals.columns());
+  for (PetscInt first = 0; first < residuals.columns(); first += atOnce) {
+    linalg::Block scaled(
+        residuals.columnRange(first, std::min(first + atOnce, residuals.columns())));
+    for (PetscInt j = 0; j < scaled.columns(); ++j)
+      for (PetscInt i = 0; i < scaled.rows(); ++i) scaled(i, j) *= inverseDiagonal_[i];
+    gram.append(linalg::transposedProduct(comm_, residuals, scaled));
+  }
+  const linalg::DenseMatrix combinations = orthonormalising(std::move(gram), 1e-8);
   if (combinations.empty()) return 0;
   return std::sqrt(linalg::symmetricEigenvalues(linalg::congruent(energy, combinations)).back());
 }

@@ -51,9 +51,9 @@ class Basis {
   /// zeros at the boundary unknowns. Argument and result have this rank's rows.
   linalg::Block prolonged(const linalg::DenseView& interior) const;
 
-  /// Collective. Adds K0⁻¹ times the columns of `residuals`, by a block solve; combinations that
-  /// depend linearly on others or on V are omitted. The rows of the boundary unknowns are ignored,
-  /// since the constraint modes represent them. Returns the number of columns added.
+  /// Collective. Adds K0⁻¹ times the columns of `residuals`, by a block solve. Omits what depends
+  /// linearly on V or on the other columns. The rows of the boundary unknowns are ignored, since
+  /// the constraint modes represent them. Returns the number of columns added.
   PetscInt add(linalg::Block residuals);
   /// Collective. Does the same for static forces F. Returns FᵀK0⁻¹F, from the interior rows of F.
   linalg::DenseMatrix addResponses(linalg::Block forces);
@@ -63,26 +63,27 @@ class Basis {
   /// Collective. Returns K0⁻¹ times the interior rows of the columns, by a block solve. The result
   /// is zero at the boundary.
   linalg::Block responses(const linalg::Block& forces);
-  /// Collective. Returns FᵀK0⁻¹F, from the interior rows of F, the same on all ranks. It computes
-  /// one half, in panels of columns, which limits the memory.
+  /// Collective. Returns FᵀK0⁻¹F, from the interior rows of F, the same on all ranks. Since this is
+  /// symmetric, computes only one half of it, in panels of columns to limit the memory.
   linalg::DenseMatrix flexibility(const linalg::Block& forces);
   /// Collective. Replaces V by V · combinations. `combinations` is former size × new size and must
   /// have orthonormal columns.
   void combine(const linalg::DenseMatrix& combinations);
 
-  /// Collective. Appends A times the columns [first, last) of V to the columns of `result`, which
-  /// has this rank's rows of A.
+  /// Collective. Appends the product of `matrix` and the columns [first, last) of V to the columns
+  /// of `result`, which has this rank's rows of `matrix`.
   void appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
   /// Return this rank's rows of K0 times the columns last added, and VᵀK0 times these columns,
   /// size() × columns. Both have no columns after combine() and restore(), since they would need
   /// further products.
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
-  /// Collective. Returns V q, n entries, for several q, [q]. If a q has too few entries, the
-  /// missing ones at its end are treated as zero.
+  /// Collective. Returns the vectors V q, of n entries each, for all q of the list. If a q has too
+  /// few entries, the missing ones at its end are treated as zero.
   std::vector<linalg::ComplexVector> expand(const std::vector<std::vector<Complex>>& list) const;
-  /// Returns the random signs Ω for columns with n entries [M.39]. The weighted norm that sketches
-  /// estimate is √(rᵀ diag(K0)⁻¹ r).
+  /// Returns the random signs Ω for columns with n entries [M.39]. The sketch of some columns is
+  /// their product with Ω, which has few rows; it serves to estimate their norms. A weighted sketch
+  /// serves to estimate √(rᵀ diag(K0)⁻¹ r).
   const Sketch& sketch() const { return *sketch_; }
   /// Returns the unweighted sketch of V.
   const linalg::DenseMatrix& sketched() const { return sketched_; }
@@ -102,8 +103,8 @@ class Basis {
 
  private:
   double ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const;
-  bool addOrthogonal(const linalg::Block& z, const linalg::Block& residuals,
-                     const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts);
+  bool addOrthogonal(linalg::Block& z, linalg::Block& residuals, const linalg::DenseMatrix& energy,
+                     const linalg::DenseMatrix& parts);
   void append(const linalg::Block& z, linalg::Block forces, const linalg::DenseMatrix& along);
   void addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts);
   double solutionError(const linalg::Block& z, const linalg::Block& residuals) const;

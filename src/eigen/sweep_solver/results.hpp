@@ -16,8 +16,9 @@ namespace squeal::sweep_solver {
 struct ModalSegment {
   PetscInt openNodes = 0;  ///< contact nodes that are not active, over all ranks
   PetscInt unknowns = 0;   ///< n, number of unknowns
-  modes::Modes modes;  ///< empty with the direct method; only the modes in the band if other active
-                       ///< sets share the basis
+  /// Empty with the direct method; only the modes in the band if other active sets share the basis.
+  /// Their vectors are dropped when the results of the segment are complete.
+  modes::Modes modes;
   /// The first Request::reportedModes modes in nodal displacements, N entries each, with a largest
   /// entry of magnitude 1.
   std::vector<OwnedVec> shapes;

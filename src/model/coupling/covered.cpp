@@ -167,7 +167,8 @@ std::vector<CoveredFace> cover(MPI_Comm comm, const Surfaces& surfaces, const st
       failure = formatted("surface '%s' near (%g, %g, %g): %s", slave.c_str(), face.points[0][0],
                           face.points[0][1], face.points[0][2], error.what());
     }
-    if (!isPartial(found)) found.moments.points = {};  // the points take most of the memory
+    if (!isPartial(found))  // the points take most of the memory, which {} would retain
+      found.moments.points = decltype(found.moments.points)();
   }
   failTogether(comm, failure);
   return faces;

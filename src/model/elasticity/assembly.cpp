@@ -78,7 +78,7 @@ NodePattern::NodePattern(const mesh::Mesh& mesh, const CellFilter& uses)
       rows.push_back(mesh.globalNode[node]);
       columns.push_back(mesh.globalNode[neighbour]);
     }
-    list = {};
+    list = std::vector<PetscInt>();  // {} would retain the memory
   }
   for (PetscInt i = 0; i < mesh.ownedNodes; ++i) {  // springs are on the diagonal
     rows.push_back(mesh.firstNode + i);

@@ -153,6 +153,7 @@ Flutter meshFlutter(const SlidingBrake& brake, const sweep_solver::Request& requ
       exportPencil(brake, problem);
       Flutter found = solveGroup(brake, problem, request, checkpoint);
       if (found.complete) followAfterFlutter(brake, problem, current, found);
+      for (auto& segment : found.segments) segment.modes.vectors = OwnedBV();  // no longer used
       all.append(std::move(found));
     };
     try {
