@@ -72,11 +72,12 @@ int run(const squeal::Session& session) try {
                                       settings.mesh.has_value(), settings.output.eventLog);
   squeal::setQuiet(settings.output.quiet);
   for (const auto& line : squeal::replacedSettings()) squeal::printLine(session.comm(), line);
+  if (!settings.dryRun) squeal::beginEvents(session.comm(), settings.output);
+  squeal::warnIfBlasDiffers(session.comm());
   if (settings.dryRun) {
     squeal::analysis::dryRun(session.comm(), settings);
     return 0;
   }
-  squeal::beginEvents(session.comm(), settings.output);
   squeal::report::Directory directory(session.comm(), reporting,
                                       squeal::sweep::grid(settings.sweep).points());
   if (settings.matrixExport.wanted())

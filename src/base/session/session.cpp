@@ -16,6 +16,7 @@
 #include "base/options/settings.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/log_events.hpp"
+#include "base/session/stages.hpp"
 #include "base/system/blas_kernel.hpp"
 #include "base/system/process_memory.hpp"
 #include "base/system/termination.hpp"
@@ -125,6 +126,20 @@ std::string versions() {
       firstPart(mpi).c_str(), hdf5[0], hdf5[1], hdf5[2], GMSH_API_VERSION, VTK_VERSION,
       kernel.empty() ? "" : ("OpenBLAS with the code for " + kernel + "\n").c_str(),
       PetscDefined(USE_COMPLEX) ? "complex" : "real", 8 * sizeof(PetscReal), 8 * sizeof(PetscInt));
+}
+
+void warnIfBlasDiffers(MPI_Comm comm) {
+  const std::string own = blasKernel();
+  std::string first = own;
+  mpi::broadcast(comm, first);
+  const int ranks = mpi::size(comm), odd = mpi::min(comm, own == first ? ranks : mpi::rank(comm));
+  if (odd == ranks) return;
+  std::string other = own;
+  mpi::broadcast(comm, other, odd);
+  printWarning(comm, formatted("OpenBLAS uses the code for %s on rank 0, but that for %s on rank "
+                               "%d; their round-off differs, and ranks that decide differently "
+                               "hang; set OPENBLAS_CORETYPE=Haswell for all ranks",
+                               first.c_str(), other.c_str(), odd));
 }
 
 }  // namespace squeal

@@ -43,5 +43,8 @@ const char* version();
 /// Returns the versions of this program and of its libraries, one per line. Call it during a
 /// session.
 std::string versions();
+/// Collective. Prints a warning if OpenBLAS uses different code on the ranks, for different
+/// processors: ranks whose round-off differs may decide differently, and then wait for each other.
+void warnIfBlasDiffers(MPI_Comm comm);
 
 }  // namespace squeal

@@ -18,7 +18,6 @@
 #include "eigen/proof/enclosure.hpp"
 #include "eigen/proof/reason.hpp"
 #include "eigen/reduction/factored_friction.hpp"
-#include "eigen/reduction/free_modes.hpp"
 
 namespace squeal::completeness {
 namespace {

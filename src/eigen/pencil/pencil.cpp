@@ -72,22 +72,26 @@ void Pencil::add(std::vector<Term> terms) {
   affineCount_ = terms_.size();
 }
 
-Pencil Pencil::with(std::vector<Term> pointTerms) const {
+/// Returns a pencil with the terms for which `included` returns true, whose matrices it shares.
+Pencil Pencil::part(const std::function<bool(std::size_t)>& included) const {
   Pencil pencil({});
-  for (const auto& term : terms_) pencil.terms_.push_back(term.share());
-  std::ranges::move(withoutZeros(std::move(pointTerms)), std::back_inserter(pencil.terms_));
-  pencil.affineCount_ = affineCount_;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (!included(i)) continue;
+    pencil.terms_.push_back(terms_[i].share());
+    if (i < affineCount_) ++pencil.affineCount_;
+  }
   pencil.singular_ = singular_;
   return pencil;
 }
 
-Pencil Pencil::associated() const {
-  Pencil pencil({});
-  for (const auto& term : std::span(terms_).first(affineCount_))
-    if (term.isAssociated()) pencil.terms_.push_back(term.share());
-  pencil.affineCount_ = pencil.terms_.size();
-  pencil.singular_ = singular_;
+Pencil Pencil::with(std::vector<Term> pointTerms) const {
+  Pencil pencil = part([](std::size_t) { return true; });
+  std::ranges::move(withoutZeros(std::move(pointTerms)), std::back_inserter(pencil.terms_));
   return pencil;
+}
+
+Pencil Pencil::associated() const {
+  return part([&](std::size_t i) { return i < affineCount_ && terms_[i].isAssociated(); });
 }
 
 std::vector<Term> Pencil::pointSums(const sweep::Parameters& at) const {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// The friction-perturbed eigenproblem whose P is a sum of terms [M.23],
-///   P(s; f, v, c) d = 0,   P = Σ_t α_t f^a_t v^b_t c^d_t s^k_t A_t,
+///   P(s; f, v, c) d = 0,   P = Σ_t α_t f^a_t v^b_t c^e_t s^k_t A_t,
 /// with the friction f, the factor v on the base velocities of the bodies, and the factor c on
 /// their damping. The pencil does not depend on finite elements: the matrices of [4.15–4.16] enter
-/// as terms.
+/// as terms. Numbers in brackets refer to equations in docs/method.md.
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -22,9 +23,10 @@ struct Term {
   int frictionExponent = 0;  ///< a
   double factor = 1;         ///< α
   int speedExponent = 0;     ///< b
-  int dampingExponent = 0;   ///< d
-  /// True if the term contains friction; a term with a friction exponent does so in any case. The
-  /// basis starts with responses to such terms, and K0 and M0 exclude them.
+  int dampingExponent = 0;   ///< e
+  /// True for a term that depends on friction although its friction exponent is 0. If the exponent
+  /// is not 0, this flag makes no difference. The basis starts with responses to all terms that
+  /// contain friction; K0 and M0 exclude these terms.
   bool ofFriction = false;
 
   bool containsFriction() const { return ofFriction || frictionExponent != 0; }
@@ -58,9 +60,9 @@ class Pencil {
   /// Returns a pencil with the terms of K0 and M0 that hold for all parameters, whose matrices it
   /// shares.
   Pencil associated() const;
-  /// Collective. Returns sums of the terms that hold only at the point with these parameters. Terms
-  /// with the same power of s and the same isAssociated() are added, with their coefficients, to
-  /// one term. A term that is the only one of its kind is returned as it is and shares its matrix.
+  /// Collective. Returns sums of the terms that hold only at the point with these parameters: one
+  /// sum, weighted by the coefficients, for each power of s and each value of isAssociated(). A
+  /// term that is the only one of its kind is returned as it is and shares its matrix.
   std::vector<Term> pointSums(const sweep::Parameters& at) const;
   /// Returns true if there are terms with this power of s.
   bool hasPower(int power) const;
@@ -80,11 +82,13 @@ class Pencil {
   double norm(int power, const sweep::Parameters& at) const;
 
  private:
+  Pencil part(const std::function<bool(std::size_t)>& included) const;
+
   std::vector<Term> terms_;
   std::size_t affineCount_;
   std::shared_ptr<std::array<OwnedVec, 3>>
-      singular_;  // [power] start vector of the next power iteration, shared with the pencils that
-                  // with() and associated() return
+      singular_;  // for each power of s, the start vector of the next iteration in norm(); shared
+                  // with the pencils that with() and associated() return
 };
 
 /// The side of an eigenvector: right with P(s) d = 0, or left with P(s)ᴴ d = 0.
