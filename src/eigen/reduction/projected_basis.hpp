@@ -38,7 +38,8 @@ class ProjectedBasis {
   /// terms of all points; the terms after these that belong to no single point become those of the
   /// set. Throws Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
-  /// Collective. Sets the friction terms, as factors, of the nodes that slide in some sets only.
+  /// Collective. Sets the friction terms of the nodes that slide in some sets but not in all, as
+  /// products of matrices.
   /// Must be called before addPassedSet().
   void setFactors(pencil::FrictionFactors factors) {
     friction_.emplace(basis_, std::move(factors));

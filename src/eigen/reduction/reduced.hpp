@@ -27,15 +27,17 @@
 
 namespace squeal::reduction {
 
-/// The result of ReducedProblem::improve(). Each of its lists has one entry per point.
+/// The result of ReducedProblem::improve(), and of tracking::Family::improve(): a family is a
+/// problem with one active set, whose eigenvalues are tracked over friction. The lists have one
+/// entry per point.
 struct Improvement {
   /// True if the pairs must be computed again: the basis has grown or, in the result of
   /// tracking::Family::improve(), the interpolation of the terms between frictions was refined.
   bool changed = false;
   /// For each point, the largest backward error of its pairs in the full problem. NaN means that no
   /// steady state with the active set of the family exists at this friction; `roundOff` is then NaN
-  /// as well. Only tracking::Family::improve() returns NaN. The list is empty if the family does
-  /// not override Family::improve(), since the dense problem of such a family is the full problem.
+  /// as well. Only tracking::Family::improve() returns NaN. Exception: the list is empty if the
+  /// family does not override Family::improve(), since its dense problem is the full problem.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
   /// reduced problem.
@@ -65,17 +67,17 @@ class ReducedProblem {
   /// all of its points; the object and `pencil` share their matrices. Throws Error if the stiffness
   /// is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
-  /// Collective. Sets the friction terms, as factors, of the nodes that slide in some sets only.
+  /// Collective. Sets the friction terms of the nodes that slide in some sets but not in all, as
+  /// products of matrices.
   void setFactors(pencil::FrictionFactors factors) { basis_.setFactors(std::move(factors)); }
-  /// Collective. Adds a set that contains no point of the sweep: an active set that the contact
-  /// passes through between two points. Its friction terms are projected by the factors, of which
-  /// it uses `slidingRows`, the rows of the nodes that slide; improve() also calls `pencil`, on all
-  /// ranks. The rest is as for addSet().
+  /// Collective. Adds a set without points of the sweep, for an active set that occurs only between
+  /// two points. Of the friction factors (setFactors()), it uses `slidingRows`, the rows of
+  /// the nodes that slide. Only improve() calls `pencil`, on all ranks. See addSet() for the rest.
   int addPassedSet(std::function<pencil::Pencil()> pencil, const std::vector<unsigned char>& has,
                    std::vector<PetscInt> slidingRows) {
     return withBand(basis_.addPassedSet(std::move(pencil), has, std::move(slidingRows)));
   }
-  /// Collective. Returns the free modes in the band for each of these sets, [set]. They are
+  /// Collective. Returns, for each of these sets, the free modes in the band. They are
   /// corrected together, in the same way as the complex modes. Their vectors have the entries of
   /// all unknowns. Their countConfirmed is true if two conditions hold: the number of interior
   /// modes is confirmed, and there is a frequency below which the number of modes found equals both
@@ -84,7 +86,7 @@ class ReducedProblem {
   /// eigenvalues that solve() lists at these points thus do not depend on the other sets of the
   /// basis. Only K and M of `pencil` are used.
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
-  /// Collective. Solves all points together and returns their complex modes, [point]. The dense
+  /// Collective. Solves all points together and returns the complex modes of each. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
   /// responses are computed at the first point of the first batch. `trial` (T) maps vectors of the
   /// unknowns to nodal displacements.

@@ -86,8 +86,9 @@ std::string TrackedLine::statement() const {
         "not examined",
         branches.omitted);
   if (const auto open = std::ranges::count(criticals, false, &Critical::converged); open > 0)
-    text += formatted("; %td of %zu changes of stability %s located only within their bounds", open,
-                      criticals.size(), open == 1 ? "is" : "are");
+    text +=
+        formatted("; for %td of %zu changes of stability, only an interval of friction is known",
+                  open, criticals.size());
   return wholeSpace
              ? text
              : text +

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// A damped eigenvalue that is neutral at one end of a step, as all are at friction 0 if only
-/// friction damps the system. Its slope gives the sign of its growth rate near that end, which may
-/// differ from the sign at the other end.
+/// An eigenvalue of a damped system that is neutral at one end of a step. At friction 0 all
+/// eigenvalues are neutral if only friction damps the system. The slope of the eigenvalue gives the
+/// sign of its growth rate near that end, which may differ from the sign at the other end.
 #include <functional>
 #include <optional>
 #include <vector>
@@ -13,23 +13,25 @@ namespace squeal::tracking {
 
 /// An eigenvalue over a step with an end where it is neutral.
 struct NeutralStep {
-  Event event;                    ///< with branch, ends of the step, pairs there, and isolation
+  /// The branch, the ends of the step, the pairs there, and their distance to other eigenvalues.
+  Event event;
   double slopeBelow, slopeAbove;  ///< d Re s/df at the lower and at the upper end, 1/s
   /// Collective. Returns the pair at a friction of the step; empty if it is not found.
   std::function<std::vector<linalg::DensePair>(double)> pairAt;
 };
 
 /// Collective. Returns true if the sign of the growth rate near the neutral end differs from that
-/// at the other end, so that crossing() is wrong. Also false if neither or both ends are neutral,
-/// or if the eigenvalue is real at an end. The same on all ranks.
+/// at the other end. (The function crossing() compares only the ends and misses this change.)
+/// Returns false if neither or both ends are neutral, or if the eigenvalue is real at an end. The
+/// result is the same on all ranks.
 bool turnsWithin(MPI_Comm comm, const NeutralStep& step);
 
 /// Collective. Returns the changes of stability of a step for which turnsWithin() holds: one within
-/// the step, and one at the neutral end if the eigenvalue grows near it. Returns none if the sign
-/// near the neutral end cannot be confirmed.
+/// the step, and one at the neutral end if the eigenvalue grows near it. Returns nullopt if the
+/// sign near the neutral end cannot be confirmed.
 std::optional<std::vector<Event>> turnOf(const NeutralStep& step);
 
-/// Returns the gap of a step for which turnOf() returns none.
+/// Returns a step whose turnOf() is nullopt as one with uncertain tracking.
 Gap notExamined(const NeutralStep& step);
 
 /// One end of a step.

@@ -3,6 +3,9 @@
 /// The coupled problem: each matrix X of the bodies, projected on the unknowns of the contact
 /// [M.11],
 ///   L(f)ᵀ X T = Tᵀ X T + Sᵀ N X T,   S = S_0 + f S_1.
+/// T maps the unknowns to nodal displacements; the columns of L are the test vectors. N maps nodal
+/// forces to the normal forces at the gaps, which the slip rows S turn into friction forces: S_0
+/// with fixed coefficients of friction, S_1 with the coefficient f of the sweep.
 #include "algebra/factor/associated_system.hpp"
 #include "model/contact/contact.hpp"
 #include "model/elasticity/elasticity.hpp"
@@ -12,7 +15,7 @@ namespace squeal::contact {
 /// The projections of one matrix X of the bodies on the unknowns. Both are null if X is null.
 struct Projection {
   OwnedMat matrix;    ///< Tᵀ X T, n×n
-  OwnedMat reaction;  ///< N X T, N×n: the normal forces that X exerts, in the rows of the gaps
+  OwnedMat reaction;  ///< N X T: its rows are the normal forces that X exerts at the gaps
 
   explicit operator bool() const { return matrix.get() != nullptr; }
   /// Collective. Returns Sᵀ N X T, n×n, for the slip rows S: the friction forces due to these
@@ -23,7 +26,7 @@ struct Projection {
   OwnedMat tested(Mat slipRows) const;
 };
 
-/// Collective. Returns the projections of X, which may be null, by a transformation.
+/// Collective. Returns the projections of X by a transformation. X may be null.
 Projection project(const Contact& contact, const Transformation& transformation, Mat x);
 
 /// The matrices of the bodies in the unknowns of one active set.
@@ -58,9 +61,9 @@ class OpenProjections {
 /// set.
 class CoupledSystem : public factor::AssociatedSystem {
  public:
-  /// Collective. Projects the matrices of the bodies. Sticking nodes can move along the surface if
-  /// they are open, or released in `set`. `prestress`, which may be null, is added to K; it must
-  /// have the pattern of geometricStiffness(). It is borrowed during this call.
+  /// Collective. Projects the matrices of the bodies. A node of a sticking interface can move along
+  /// the surface if it is open, or if `set` releases it. `prestress`, which may be null, is added
+  /// to K; it must have the pattern of geometricStiffness(). It is borrowed during this call.
   CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact, ActiveSet set,
                 Mat prestress = nullptr);
   /// Collective. Takes the projected matrices from known projections, without prestress, instead of

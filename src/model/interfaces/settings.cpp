@@ -53,12 +53,13 @@ const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveName
                                "if the two meshes match, otherwise the side with the finer mesh");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance at which the program pairs two faces if the two "
-                              "meshes do not match; 0 = automatic (half the size of each face)");
+                              "meshes do not match; 0 = automatic (for each slave face, half its "
+                              "size)");
 const FlagOption separationOption(
     "contact", "contact_<interface>_separation", true,
-    "whether the two sides can separate; off: they stay together "
-    "even under tension, but a point of the sweep fails if a node with "
-    "friction comes under tension");
+    "whether the two sides can separate; off: they stay together, also "
+    "under tension; a run has no result for a friction of the sweep at "
+    "which a node with friction is under tension");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
@@ -73,7 +74,7 @@ const TextOption tieMasterOption("tie", "tie_<name>_master", "",
                                  "master surface group of a tie, to which the slave is bonded");
 const RealOption toleranceOption("tie", "tie_<name>_tolerance", 0.0, "m", nonNegative,
                                  "largest distance at which two faces of a tie are bonded; 0 = "
-                                 "automatic (half the size of each face)");
+                                 "automatic (for each slave face, half its size)");
 const FlagOption adjustOption(
     "tie", "tie_<name>_adjust", true,
     "whether the slave nodes of the mesh are first moved onto the master, so that the two bodies "
