@@ -103,12 +103,13 @@ TEST(Tracking, EachSetHasTermsOfItsOwn) {
       EXPECT_EQ(gap.at("what").get<std::string>().find("no reduced problem"), std::string::npos)
           << gap;
     const CsvTable branches = readCsv(run.folder / "branches.csv");
-    const auto friction = branches.column("friction"), set = branches.column("active_set");
+    const auto friction = branches.column("friction"), branch = branches.column("branch");
     for (const double event : readCsv(run.folder / "contact_path.csv").column("friction")) {
-      std::set<double> sets;  // those that occur only between two points have the number 0
+      std::map<double, int> rows;  // [branch]
       for (std::size_t i = 0; i < friction.size(); ++i)
-        if (std::abs(friction[i] - event) < 1e-9) sets.insert(set[i]);
-      EXPECT_FALSE(sets.empty()) << event;
+        if (std::abs(friction[i] - event) < 1e-9) ++rows[branch[i]];
+      EXPECT_EQ(rows.size(), std::set<double>(branch.begin(), branch.end()).size()) << event;
+      for (const auto& [number, count] : rows) EXPECT_EQ(count, 2) << "branch " << number;
     }
     const CsvTable found = readCsv(run.folder / "critical.csv");
     const auto here = found.column("friction"), there = wanted.column("friction");

@@ -15,9 +15,10 @@ import scipy.io
 import scipy.linalg
 
 repository = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(repository / "tests/support/steady"))
+sys.path[:0] = [str(repository / "tests/support" / folder) for folder in ("harness", "steady")]
 sys.dont_write_bytecode = True
 from pressed_block import pressed_block
+from watched_run import WatchedRun
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 MPIEXEC = sys.argv.pop(1) if len(sys.argv) > 1 else "mpirun -n"
@@ -192,6 +193,32 @@ class Proof(unittest.TestCase):
             proof = pd.read_csv(folder / "proof.csv")
             self.assertTrue((proof.complete == 1).all())
             self.assertTrue((proof.left_1_per_s > 0).all())
+
+    def test_damped_proofs_are_kept(self):
+        """A run that is killed after a proof and resumed proves only the other points."""
+        damped = [*BRAKE, *DAMPED, "-flutter_friction", "0.2,0.4,0.6", "-checkpoint_interval", "0"]
+        command = [*MPIEXEC.split(), "1", PROGRAM]
+        whole = WatchedRun(self.place / "proved", command, damped).finish_well()
+        run = WatchedRun(self.place / "killed", command, damped)
+        run.wait_for(
+            lambda event: event["event"] == "checkpoint" and "_proofs_0000" in event["file"]
+        )
+        run.kill_ranks()
+        self.assertNotEqual(run.finish(), 0)
+        kept = len(list(run.folder.rglob("*_proofs_*.entry")))
+        self.assertIn(kept, (1, 2))
+        again = WatchedRun(run.folder, command, [*damped, "-resume"]).finish_well()
+        ours, theirs = (one.text().count(" proved, ratio ") for one in (again, whole))
+        self.assertEqual((ours, theirs), (3 - kept, 3))
+        ours, theirs = (pd.read_csv(one.folder / "proof.csv") for one in (again, whole))
+        self.assertEqual(list(theirs["complete"]), [1, 1, 1])
+        for column in ("complete", "eigenvalues", "discs"):
+            self.assertEqual(list(ours[column]), list(theirs[column]))
+        ours, theirs = (
+            pd.read_csv(one.folder / "eigenvalues.csv")["radius_1_per_s"].notna()
+            for one in (again, whole)
+        )
+        self.assertEqual(list(ours), list(theirs))
 
     def test_reasons(self):
         """What is not covered is named."""

@@ -18,13 +18,16 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / "python"), str(repository / "tests/support/steady")]
+sys.path[:0] = [
+    str(repository / folder)
+    for folder in ("python", "tests/support/harness", "tests/support/steady")
+]
 sys.dont_write_bytecode = True
 import squeal
 from pressed_block import pressed_block
+from watched_run import WatchedRun
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 MPIEXEC = sys.argv.pop(1) if len(sys.argv) > 1 else "mpirun -n"
@@ -52,68 +55,12 @@ BLOCK = pressed_block("nx=12,ny=24", modes=60, frictions="0:0.5:0.02")
 BELT = ["-options_file", repository / "options/external.yaml", "-report_fields", "off"]
 
 
-class Run:
-    """A run of the program in a folder of its own, with its events."""
-
-    def __init__(self, folder, options, ranks=2):
-        self.folder, self.log = Path(folder), Path(f"{folder}.jsonl")
-        self.output = Path(f"{folder}.log")
-        self.log.unlink(missing_ok=True)
-        words = [
-            *MPIEXEC.split(),
-            str(ranks),
-            PROGRAM,
-            *options,
-            "-report_dir",
-            folder,
-            "-log_json",
-            self.log,
-        ]
-        with open(self.output, "w") as output:
-            self.process = subprocess.Popen(
-                [str(word) for word in words], stdout=output, stderr=subprocess.STDOUT
-            )
-
-    def events(self):
-        lines = self.log.read_text().split("\n")[:-1] if self.log.exists() else []
-        return [json.loads(line) for line in lines]
-
-    def wait_for(self, wanted, seconds=60):
-        """Returns once an event is as wanted."""
-        end = time.monotonic() + seconds
-        while time.monotonic() < end and self.process.poll() is None:
-            if any(wanted(event) for event in self.events()):
-                return
-            time.sleep(0.002)
-        raise AssertionError(f"the event did not come: {self.text()}")
-
-    def kill_ranks(self):
-        """Kills the ranks outright, as a machine does that has no memory left."""
-        children = subprocess.run(
-            ["pgrep", "-P", str(self.process.pid)], capture_output=True, text=True
-        ).stdout.split()
-        for child in children:
-            try:
-                os.kill(int(child), signal.SIGKILL)
-            except ProcessLookupError:
-                pass
-
-    def finish(self, seconds=300):
-        return self.process.wait(seconds)
-
-    def text(self):
-        return self.output.read_text()
-
-    def stages(self):
-        return {event["stage"] for event in self.events() if event["event"] == "stage_end"}
+def start(folder, options, ranks=2):
+    return WatchedRun(folder, [*MPIEXEC.split(), str(ranks), PROGRAM], options)
 
 
 def done(folder, options, ranks=2):
-    run = Run(folder, options, ranks)
-    code = run.finish()
-    if code != 0:
-        raise AssertionError(run.text())
-    return run
+    return start(folder, options, ranks).finish_well()
 
 
 def files_of(folder):
@@ -139,7 +86,7 @@ class Resumed(unittest.TestCase):
         # earlier run.
         cls.cut_off = cls.place / "cut_off"
         shutil.copytree(cls.whole.folder, cls.cut_off)
-        run = Run(cls.cut_off, [*BRAKE, "-checkpoint_interval", "0"])
+        run = start(cls.cut_off, [*BRAKE, "-checkpoint_interval", "0"])
         run.wait_for(
             lambda event: event["event"] == "checkpoint" and "_points_0003" in event["file"]
         )
@@ -200,7 +147,7 @@ class Resumed(unittest.TestCase):
         shutil.copytree(self.whole.folder, self.folder)
         before = files_of(self.folder)
         # A minute to the first entry: what is asked to stop writes it at once
-        run = Run(self.folder, BRAKE)
+        run = start(self.folder, BRAKE)
         run.wait_for(lambda event: event["event"] == "points" and event["done"] >= 5)
         run.process.send_signal(signal.SIGUSR1)
         self.assertEqual(run.finish(), 3, run.text())
@@ -229,7 +176,7 @@ class Resumed(unittest.TestCase):
         # mpirun asks its whole process group, and so the process in which gmsh reads the geometry.
         for stage, kept in (("mesh", False), ("track", True)):
             folder = self.place / f"stop_in_{stage}"
-            run = Run(folder, BRAKE)
+            run = start(folder, BRAKE)
             run.wait_for(
                 lambda event, stage=stage: event["event"] == "stage_begin"
                 and event["stage"] == stage
@@ -240,48 +187,12 @@ class Resumed(unittest.TestCase):
 
     def test_a_killed_run_leaves_all_its_options(self):
         folder = self.place / "options"
-        run = Run(folder, BRAKE)
+        run = start(folder, BRAKE)
         run.wait_for(lambda event: event["event"] == "stage_begin")
         run.kill_ranks()
         self.assertNotEqual(run.finish(), 0)
         left = (folder / ".partial" / "options.txt").read_text()
         self.assertEqual(left, (self.place / "whole" / "options.txt").read_text())
-
-    def test_proofs_of_damped_points_are_kept(self):
-        damped = [
-            *BRAKE,
-            "-flutter_friction",
-            "0.2,0.4,0.6",
-            "-flutter_track",
-            "off",
-            "-flutter_proof",
-            "-flutter_friction_damping",
-            "-material_lining_rayleigh_mass",
-            "20",
-            "-checkpoint_interval",
-            "0",
-        ]
-        whole = done(self.place / "proved", damped, 1)
-        run = Run(self.folder, damped, 1)
-        run.wait_for(
-            lambda event: event["event"] == "checkpoint" and "_proofs_0000" in event["file"]
-        )
-        run.kill_ranks()
-        self.assertNotEqual(run.finish(), 0)
-        again = done(self.folder, [*damped, "-resume"], 1)
-
-        def proofs(of):
-            return of.text().count(" proved, ratio ")
-
-        self.assertEqual((proofs(whole), proofs(again)), (3, 2))
-        ours, theirs = (pd.read_csv(one.folder / "proof.csv") for one in (again, whole))
-        self.assertEqual(list(theirs["complete"]), [1, 1, 1])
-        for column in ("complete", "eigenvalues", "discs"):
-            self.assertEqual(list(ours[column]), list(theirs[column]))
-        radii = [
-            squeal.open(one.folder).eigenvalues["radius_1_per_s"].notna() for one in (again, whole)
-        ]
-        self.assertEqual(list(radii[0]), list(radii[1]))
 
     def test_what_cannot_be_continued(self):
         shutil.copytree(self.cut_off, self.folder)
@@ -300,7 +211,7 @@ class Resumed(unittest.TestCase):
                 "option -mesh_scale was not given and is '1.0000001'",
             ),
         ):
-            run = Run(self.folder, [*BRAKE, "-resume", *words], ranks)
+            run = start(self.folder, [*BRAKE, "-resume", *words], ranks)
             self.assertEqual(run.finish(), 1)
             self.assertIn(
                 (
@@ -313,7 +224,7 @@ class Resumed(unittest.TestCase):
         damaged = bytearray(entry.read_bytes())
         damaged[-100] ^= 1
         entry.write_bytes(damaged)
-        run = Run(self.folder, [*BRAKE, "-resume"])
+        run = start(self.folder, [*BRAKE, "-resume"])
         self.assertEqual(run.finish(), 1)
         self.assertIn(f"squeal: error: the checkpoint is damaged: {entry}", run.text())
 
@@ -422,7 +333,7 @@ class Resumed(unittest.TestCase):
             for number in range(5):
                 with self.subTest(kind=name, number=number, seed=seed):
                     folder = self.place / f"random_{name}_{number}"
-                    run = Run(folder, [*options, "-checkpoint_interval", "0"], ranks)
+                    run = start(folder, [*options, "-checkpoint_interval", "0"], ranks)
                     time.sleep(random.uniform(0.1, 0.9) * takes)
                     run.kill_ranks()
                     run.finish()

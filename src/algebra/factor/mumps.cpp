@@ -107,6 +107,8 @@ void MumpsFactor::keep(const std::vector<PetscInt>& rows) {
   for (const PetscInt row : rows) kept_.push_back(row + 1);
   schur_.assign(rows.size() * rows.size(), 0.0);
   icntl(19) = 1;  // centralised, by rows
+  // From three ranks on, blocks of the last front exceed the message buffers that MUMPS plans.
+  if (ranks_ > 2) icntl(14) = std::max<MUMPS_INT>(icntl(14), workspaces[0]);
   id_.size_schur = std::ssize(kept_);
   id_.listvar_schur = kept_.data();
   id_.schur = schur_.data();
@@ -190,8 +192,6 @@ void MumpsFactor::fitIntoMemory() {
 std::string MumpsFactor::factorise(Mat matrix) {
   if (matrix && !hasEntries_) setEntries(matrix);
   fitIntoMemory();
-  // From three ranks on, blocks of the last front exceed the message buffers that MUMPS plans.
-  if (!schur_.empty() && ranks_ > 2) icntl(14) = std::max<MUMPS_INT>(icntl(14), workspaces[0]);
   ++sparseWork().factorisations;
   call(factorisation);
   for (const int percent : workspaces) {

@@ -36,8 +36,8 @@ class MumpsFactor {
   /// (about 1e-21).
   void enableInertia(double zero = 0);
   /// Makes the next analyse() and factorise() eliminate all rows except `rows`, which are 0-based
-  /// and given on rank 0. schurComplement() then returns the Schur complement of `rows` on rank 0,
-  /// and solve() must not be called.
+  /// and given on rank 0; all ranks must call it. schurComplement() then returns the Schur
+  /// complement of `rows` on rank 0, and solve() must not be called.
   void keep(const std::vector<PetscInt>& rows);
   /// Not collective. Returns, on rank 0, the Schur complement of the rows given to keep(), in the
   /// same order. The entry (i, j) with j ≤ i is at [i · size + j]; all other entries are undefined.
@@ -49,9 +49,10 @@ class MumpsFactor {
   /// Not collective. Returns the memory estimate of analyse() in bytes, summed over all ranks.
   double memory() const { return 1e6 * id_.infog[16]; }
   /// Collective. Factorises the matrix or, without an argument, the matrix of the preceding
-  /// analyse(). If memory is short, stores the factor on disk; if pivoting needs more workspace,
-  /// enlarges it. Throws Error if MUMPS estimates more than twice the free memory even with the
-  /// factor on disk. Returns the reason for any other failure, or an empty text on success.
+  /// analyse(). If memory is short, stores the factor on disk; if pivoting or messages need more
+  /// workspace, enlarges it. Throws Error if MUMPS estimates more than twice the free memory even
+  /// with the factor on disk. Returns the reason for any other failure, or an empty text on
+  /// success.
   std::string factorise(Mat matrix = nullptr);
   /// Collective. Computes X = A⁻¹ B. `b` and `x` contain this rank's rows, column by column. Throws
   /// Error if MUMPS fails.
@@ -75,7 +76,7 @@ class MumpsFactor {
   int ranks_ = 1;
   DMUMPS_STRUC_C id_{};
   PetscInt localRows_ = 0;
-  bool hasEntries_ = false;  // analyse() has set the entries, which factorise() drops
+  bool hasEntries_ = false;  // analyse() has set the entries for factorise()
   std::vector<MUMPS_INT> rows_, columns_, ownRows_, solutionRows_, order_;
   std::vector<MUMPS_INT> kept_;  // 1-based rows of the Schur complement, on rank 0
   std::vector<double> entries_, solution_, byRows_, schur_;

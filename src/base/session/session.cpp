@@ -138,7 +138,8 @@ void warnIfBlasDiffers(MPI_Comm comm) {
   mpi::broadcast(comm, other, odd);
   printWarning(comm, formatted("OpenBLAS uses the code for %s on rank 0, but that for %s on rank "
                                "%d; their round-off differs, and ranks that decide differently "
-                               "hang; set OPENBLAS_CORETYPE=Haswell for all ranks",
+                               "hang; set OPENBLAS_CORETYPE for all ranks to the name of one that "
+                               "all processors can run (Haswell: those since 2013)",
                                first.c_str(), other.c_str(), odd));
 }
 

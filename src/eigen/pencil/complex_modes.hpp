@@ -169,7 +169,10 @@ struct MissingEigenvalue {
 struct Completeness {
   bool proved = false;  ///< the number of eigenvalues of the full problem with |s| < top is proved
   int count = 0;        ///< number of these eigenvalues, with multiplicities and conjugates
-  double top = 0;       ///< radius of the region of the proof, rad/s
+  /// Returns the number of pairs of conjugates, as lists have one entry for each; a real eigenvalue
+  /// counts as half a pair.
+  double pairs() const { return count / 2.0; }
+  double top = 0;  ///< radius of the region of the proof, rad/s
   /// If this is finite, the region ends on the left at Re s = −left, 1/s.
   double left = std::numeric_limits<double>::infinity();
   double definiteness = 0;  ///< δ of section 13

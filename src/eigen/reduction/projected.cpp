@@ -2,6 +2,7 @@
 #include "eigen/reduction/projected.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "base/petsc/matrix.hpp"
 
@@ -10,6 +11,9 @@ namespace {
 
 /// Returns s^power without the rounding of std::pow: the square of an imaginary number is real.
 Complex powerOf(Complex s, int power) { return power == 0 ? 1.0 : power == 1 ? s : s * s; }
+
+/// Columns of the basis per product: enough for fast products, and few enough for the memory.
+constexpr PetscInt atOnce = 64;
 
 bool isReal(const std::vector<Complex>& vector) {
   return std::all_of(vector.begin(), vector.end(),
@@ -100,7 +104,6 @@ void ProjectedTerms::extend() {
 
 /// Extends all parts by the new columns of V, in blocks large enough for fast matrix products.
 void ProjectedTerms::extend(Part& part) const {
-  constexpr PetscInt atOnce = 64;
   const PetscInt old = part.sketch.columns(), size = basis_.size();
   if (old == size) return;
   const bool known = hasProductsFrom(part, old), thin = !part.rows.all();
@@ -180,9 +183,15 @@ void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
       continue;
     }
     const linalg::DenseView known = basis_.columns().columnRange(0, coefficients.rows());
-    linalg::Block forces(result.rows());
-    linalg::appendProduct(part.matrix, linalg::product(known, coefficients), forces);
-    linalg::addScaled(result, 1, forces);
+    for (PetscInt begin = 0; begin < result.columns(); begin += atOnce) {
+      const PetscInt end = std::min(begin + atOnce, result.columns());
+      linalg::Block forces(result.rows());
+      linalg::appendProduct(part.matrix,
+                            linalg::product(known, coefficients.columnRange(begin, end)), forces);
+      for (PetscInt j = begin; j < end; ++j)
+        std::ranges::transform(result.column(j), forces.column(j - begin), result.column(j).begin(),
+                               std::plus());
+    }
   }
 }
 

@@ -308,7 +308,7 @@ double Basis::solutionError(const linalg::Block& z, const linalg::Block& residua
 }
 
 void Basis::combine(const linalg::DenseMatrix& combinations) {
-  columns_ = linalg::product(columns_, combinations);
+  combineColumns(columns_, combinations);
   forces_ = {};
   sketched_ = linalg::product(sketched_, combinations);
   rigidity_ = linalg::product(rigidity_, combinations);

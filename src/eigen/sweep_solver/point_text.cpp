@@ -28,7 +28,7 @@ std::string completenessText(const pencil::ComplexModes& point) {
   const auto& found = *point.completeness;
   std::string text = sweep::parameterText(point.at) + ": ";
   if (!found.proved) return text + "not proved: " + found.reason;
-  text += formatted("%g eigenvalues below ", found.count / 2.0) +
+  text += formatted("%g eigenvalues below ", found.pairs()) +
           roundedDown(found.top / (2 * M_PI), 6) + " Hz";
   if (std::isfinite(found.left)) text += " with Re s > -" + roundedDown(found.left, 4) + "/s";
   text += formatted(" proved, ratio %.2g, %d discs", found.ratio, found.discs);

@@ -17,7 +17,7 @@ struct ModalSegment {
   PetscInt openNodes = 0;  ///< contact nodes that are not active, over all ranks
   PetscInt unknowns = 0;   ///< n, number of unknowns
   /// Empty with the direct method; only the modes in the band if other active sets share the basis.
-  /// Their vectors are dropped when the results of the segment are complete.
+  /// A run with a mesh drops their vectors when it begins the next group of points.
   modes::Modes modes;
   /// The first Request::reportedModes modes in nodal displacements, N entries each, with a largest
   /// entry of magnitude 1.

@@ -54,20 +54,19 @@ class SweepSolver {
       state_.segments[k].openNodes = problem_.ranges[k].openNodes;
     }
     bool complete = true;
+    std::string failure;
     try {
       solveAll();
-      dropRepeated();
     } catch (const Interrupted&) {
       record();  // before it stops: all results that the checkpoint lacks
-      dropRepeated();
       complete = false;
     } catch (const Error& error) {
-      dropRepeated();
-      if (std::ranges::none_of(state_.segments, hasResults)) throw;
-      state_.failures.push_back(error.what());
+      failure = error.what();
     }
+    dropRepeated();
     if (complete && std::ranges::none_of(state_.segments, hasResults))
-      throw Error(state_.failures.front());
+      throw Error(failure.empty() ? state_.failures.front() : failure);
+    if (!failure.empty()) state_.failures.push_back(failure);
     for (auto& segment : state_.segments) std::erase_if(segment.points, std::not_fn(isSolved));
     keepTrackedLines(state_.segments);
     std::erase_if(state_.segments, [](const auto& segment) { return segment.points.empty(); });

@@ -29,12 +29,10 @@ int signFar(const NeutralStep& step) {
 
 }  // namespace
 
-bool turnsWithin(MPI_Comm comm, const NeutralStep& step) {
+bool turnsWithin(const NeutralStep& step) {
   if (isNeutralBelow(step) == neutral(high(step), true)) return false;
   if (real(low(step)) || real(high(step))) return false;
-  int turns = signNear(step) != 0 && signNear(step) != signFar(step) ? 1 : 0;
-  mpi::broadcast(comm, turns, 0);  // the ranks may differ in round-off
-  return turns != 0;
+  return signNear(step) != 0 && signNear(step) != signFar(step);
 }
 
 std::optional<std::vector<Event>> turnOf(const NeutralStep& step) {
@@ -72,7 +70,7 @@ Gap notExamined(const NeutralStep& step) {
                     low(step).imag() / (2 * M_PI))};
 }
 
-std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low,
+std::vector<Complex> slopes(MPI_Comm comm, const linalg::Spectrum& spectrum, const StepEnd& low,
                             const StepEnd& high) {
   const auto& pairs = spectrum.pairs();
   const auto change = [&](const linalg::DenseMatrix& a, const linalg::DenseMatrix& b) {
@@ -91,6 +89,7 @@ std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low
       sum += std::conj(y[i]) * (stiffness(i, j) + s * damping(i, j) + s * s * mass(i, j));
     list.push_back(-sum / (high.friction - low.friction) / spectrum.derivative(j));
   }
+  mpi::broadcast(comm, list);  // the ranks may differ in round-off, and decide by these values
   return list;
 }
 

@@ -20,11 +20,10 @@ struct NeutralStep {
   std::function<std::vector<linalg::DensePair>(double)> pairAt;
 };
 
-/// Collective. Returns true if the sign of the growth rate near the neutral end differs from that
-/// at the other end. (The function crossing() compares only the ends and misses this change.)
-/// Returns false if neither or both ends are neutral, or if the eigenvalue is real at an end. The
-/// result is the same on all ranks.
-bool turnsWithin(MPI_Comm comm, const NeutralStep& step);
+/// Returns true if the sign of the growth rate near the neutral end differs from that at the other
+/// end. (The function crossing() compares only the ends and misses this change.) Returns false if
+/// neither or both ends are neutral, or if the eigenvalue is real at an end.
+bool turnsWithin(const NeutralStep& step);
 
 /// Collective. Returns the changes of stability of a step for which turnsWithin() holds: one within
 /// the step, and one at the neutral end if the eigenvalue grows near it. Returns nullopt if the
@@ -40,10 +39,10 @@ struct StepEnd {
   const linalg::DenseProblem& problem;
 };
 
-/// Returns the slopes ds/df of the eigenvalues at one end of a step from `low` to `high`, with P_f
-/// from the difference over the step. This is exact where P is linear in f, and elsewhere good
-/// enough to look for candidates.
-std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low,
+/// Collective. Returns the slopes ds/df of the eigenvalues at one end of a step from `low` to
+/// `high`, with P_f from the difference over the step. This is exact where P is linear in f, and
+/// elsewhere good enough to look for candidates. The result is the same on all ranks.
+std::vector<Complex> slopes(MPI_Comm comm, const linalg::Spectrum& spectrum, const StepEnd& low,
                             const StepEnd& high);
 
 }  // namespace squeal::tracking

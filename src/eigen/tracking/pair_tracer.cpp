@@ -128,12 +128,14 @@ Trace PairTracer::separate(const TraceRequest& request, std::vector<std::size_t>
 /// stability of an eigenvalue that is neutral at one of them, and appends these changes.
 bool PairTracer::turns(const Event& event, Trace& trace) const {
   if (neutral(event.below[0].s, true) == neutral(event.above[0].s, true)) return false;
-  const auto below = family_.near(event.low), above = family_.near(event.high);
+  const auto below = family_.at(event.low), above = family_.at(event.high);
   if (!below || !above) return false;
   const StepEnd low{event.low, *below}, high{event.high, *above};
   const linalg::Spectrum from(*below, event.below), to(*above, event.above);
-  const NeutralStep step{event, slopes(from, low, high)[0].real(), slopes(to, low, high)[0].real(),
-                         [&](double friction) {
+  const auto slopeOf = [&](const linalg::Spectrum& spectrum) {
+    return slopes(family_.comm(), spectrum, low, high)[0].real();
+  };
+  const NeutralStep step{event, slopeOf(from), slopeOf(to), [&](double friction) {
                            const double part = (friction - event.low) / (event.high - event.low);
                            const auto found =
                                continuedTo(family_, friction, part < 0.5 ? from : to,
@@ -141,7 +143,7 @@ bool PairTracer::turns(const Event& event, Trace& trace) const {
                                            event.isolation);
                            return found ? found->pairs() : std::vector<linalg::DensePair>();
                          }};
-  if (!turnsWithin(family_.comm(), step)) return false;
+  if (!turnsWithin(step)) return false;
   auto found = turnOf(step);
   if (!found) {
     trace.gaps.push_back(notExamined(step));

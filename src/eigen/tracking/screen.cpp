@@ -94,8 +94,8 @@ class Screening {
       below.push_back(single.below);
       above.push_back(single.above);
     }
-    below_ = slopes(linalg::Spectrum(low.problem, below), low, high);
-    above_ = slopes(linalg::Spectrum(high.problem, above), low, high);
+    below_ = slopes(family.comm(), linalg::Spectrum(low.problem, below), low, high);
+    above_ = slopes(family.comm(), linalg::Spectrum(high.problem, above), low, high);
   }
 
   void run() {
@@ -229,7 +229,7 @@ class Screening {
                                         ? std::vector<linalg::DensePair>()
                                         : found_;
                            }};
-    if (!turnsWithin(family_.comm(), step)) return;
+    if (!turnsWithin(step)) return;
     auto found = turnOf(step);
     if (!found) return gaps_.push_back(notExamined(step));
     std::erase_if(events_, [&](const Event& event) {  // that of crossing()

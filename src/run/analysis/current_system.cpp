@@ -17,6 +17,11 @@ const contact::OpenProjections& CurrentSystem::open() {
   return *open_;
 }
 
+void CurrentSystem::dropOpen() {
+  open_.reset();
+  made_ = 0;
+}
+
 const contact::CoupledSystem& CurrentSystem::of(const contact::ActiveSet& active) {
   const MPI_Comm comm = model_.mesh->comm;
   if (system_ && contact::sameOnAllRanks(comm, system_->activeSet(), active)) return *system_;

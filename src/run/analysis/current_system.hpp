@@ -13,7 +13,8 @@ namespace squeal::analysis {
 /// Makes the systems of active sets. It stores the latest system, so that steady states and
 /// vibrations share its factorisation. From the second set on, it also stores the projections with
 /// all contact open, and takes the projections of each set from these as submatrices. This saves
-/// time, since a product TᵀKT takes more than half as long as a factorisation.
+/// time, since a product TᵀKT takes more than half as long as a factorisation. dropOpen() frees
+/// these projections until they are needed again.
 class CurrentSystem {
  public:
   /// Borrows the model during the life of the object.
@@ -21,8 +22,10 @@ class CurrentSystem {
   /// Collective. Returns the system of an active set, borrowed until the next call. Its K0 is
   /// factorised on first use.
   const contact::CoupledSystem& of(const contact::ActiveSet& active);
-  /// Collective. Returns the projections with all contact open, borrowed.
+  /// Collective. Returns the projections with all contact open, borrowed until dropOpen().
   const contact::OpenProjections& open();
+  /// Collective. Frees the projections with all contact open.
+  void dropOpen();
   /// Collective. Returns a new system of an active set.
   std::unique_ptr<contact::CoupledSystem> make(const contact::ActiveSet& active);
 

@@ -43,13 +43,18 @@ MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, int seg
   for (const auto& one : sets_) hull.add(one.set);
   anywhere_ = hull.anywhere;
   const contact::ActiveSet& everywhere = hull.everywhere;
-  if (prestress_) stressed_ = systemOf(anywhere_);
+  const bool differ = !contact::sameOnAllRanks(brake.comm(), anywhere_, everywhere);
+  if (prestress_)
+    stressed_ = systemOf(anywhere_);
+  else if (differ)
+    current.open();  // for both systems
   all_ = interior_ = stressed_ ? stressed_.get() : &current.of(anywhere_);
-  if (!contact::sameOnAllRanks(brake.comm(), anywhere_, everywhere)) {
+  if (differ) {
     Stage stage(brake.comm(), "contact");
     released_ = systemOf(everywhere);
     all_ = released_.get();
     substructure = substructureOf(*all_, *interior_);
+    current.dropOpen();  // the basis needs the memory; making them again takes a few seconds
     stage.finish(formatted(
         "%" PetscInt_FMT " nodes open or slide in some of %zu active sets that share a basis",
         contact::countDifferent(brake.comm(), anywhere_, everywhere), sets_.size()));

@@ -34,7 +34,7 @@ std::string proofTable(const analysis::Analysis& analysis) {
     const auto& found = *point->completeness;
     table += sweep::parameterValues(point->at) +
              formatted(",%d,%d,%g,%.15e,", point->listIsProved() ? 1 : 0, found.proved ? 1 : 0,
-                       found.count / 2.0, found.top / (2 * M_PI)) +
+                       found.pairs(), found.top / (2 * M_PI)) +
              (std::isfinite(found.left) ? formatted("%.15e", found.left) : "") +
              formatted(",%.6e,%.6e,%d,%d,%zu,%zu,%zu,", found.ratio, found.definiteness,
                        found.discs, point->withoutDisc(), found.missing.size(),
@@ -48,7 +48,7 @@ nlohmann::json proofEntry(const pencil::ComplexModes& point) {
   const auto& found = *point.completeness;
   nlohmann::json entry = {{"complete", point.listIsProved()},
                           {"count_proved", found.proved},
-                          {"eigenvalues", found.count / 2.0},
+                          {"eigenvalues", found.pairs()},
                           {"top_hz", found.top / (2 * M_PI)},
                           {"left_1_per_s", nullptr},
                           {"ratio", found.ratio},
