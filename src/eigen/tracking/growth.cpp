@@ -13,6 +13,10 @@ int growthOf(const std::vector<linalg::DensePair>& pairs, std::size_t k, bool da
   return sign(coincide(pairs) ? mean(pairs) : pairs[k].s, damped);
 }
 
+bool damped(const linalg::Spectrum& low, const linalg::Spectrum& high) {
+  return low.damped() || high.damped();
+}
+
 bool changes(int before, int after) { return before != after && std::max(before, after) == 1; }
 
 bool meetingPoint(Complex s, bool damped) { return neutral(s, damped) || (!damped && real(s)); }

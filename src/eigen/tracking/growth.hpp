@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/rayleigh_ritz.hpp"
 
 namespace squeal::tracking {
 
@@ -12,6 +13,9 @@ int sign(Complex s, bool damped);
 /// Returns the sign of the growth of pair k. If all eigenvalues are equal, it is the sign for their
 /// mean, since a round-off δ separates equal eigenvalues by about √δ.
 int growthOf(const std::vector<linalg::DensePair>& pairs, std::size_t k, bool damped);
+/// Returns true if the problem at one of the two ends of a step has a term in s. That at friction 0
+/// may have none although the system is damped: if only friction damps it.
+bool damped(const linalg::Spectrum& low, const linalg::Spectrum& high);
 /// Returns true if exactly one of these two signs is that of an unstable eigenvalue.
 bool changes(int before, int after);
 /// Returns true if two eigenvalues equal to s may split into a growing and a decaying one: if s is

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/system/mpi.hpp"
-#include "base/system/text.hpp"
 #include "eigen/tracking/growth.hpp"
 #include "eigen/tracking/join.hpp"
 
@@ -62,12 +61,6 @@ std::optional<std::vector<Event>> turnOf(const NeutralStep& step) {
     return events;
   }
   return {};
-}
-
-Gap notExamined(const NeutralStep& step) {
-  return {step.event.low, step.event.high,
-          formatted("an eigenvalue near %.6g Hz could not be examined in between",
-                    low(step).imag() / (2 * M_PI))};
 }
 
 std::vector<Complex> slopes(MPI_Comm comm, const linalg::Spectrum& spectrum, const StepEnd& low,

@@ -30,9 +30,6 @@ bool turnsWithin(const NeutralStep& step);
 /// sign near the neutral end cannot be confirmed.
 std::optional<std::vector<Event>> turnOf(const NeutralStep& step);
 
-/// Returns a step whose turnOf() is nullopt as one with uncertain tracking.
-Gap notExamined(const NeutralStep& step);
-
 /// One end of a step.
 struct StepEnd {
   double friction;

@@ -19,9 +19,8 @@ constexpr double least = 1. / 65536;  // of `smallest`, to look for a change of 
 
 double width(const TraceRequest& request) { return request.high.friction - request.low.friction; }
 
-/// At friction 0 there may be no damping matrix yet.
 bool isDamped(const TraceRequest& request) {
-  return request.low.spectrum.damped() || request.high.spectrum.damped();
+  return damped(request.low.spectrum, request.high.spectrum);
 }
 
 /// Returns true if the eigenvalues have different stability at both ends.
@@ -146,7 +145,7 @@ bool PairTracer::turns(const Event& event, Trace& trace) const {
   if (!turnsWithin(step)) return false;
   auto found = turnOf(step);
   if (!found) {
-    trace.gaps.push_back(notExamined(step));
+    trace.gaps.push_back(notExamined(event.low, event.high, event.below));
     return false;
   }
   std::ranges::move(*found, std::back_inserter(trace.events));

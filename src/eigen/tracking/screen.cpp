@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "algebra/linalg/rayleigh_ritz.hpp"
-#include "base/system/text.hpp"
 #include "eigen/tracking/join.hpp"
+#include "eigen/tracking/step.hpp"
 
 namespace squeal::tracking {
 namespace {
@@ -138,9 +138,7 @@ class Screening {
   void record(Dip::Result result, const Dip& dip, Event event) {
     if (result == Dip::Result::positive) return;
     if (result == Dip::Result::unknown) {
-      gaps_.push_back({low_.friction, high_.friction,
-                       formatted("eigenvalues near %.6g Hz could not be examined in between",
-                                 mean(event.below).imag() / (2 * M_PI))});
+      gaps_.push_back(notExamined(low_.friction, high_.friction, event.below));
       return;
     }
     Event second = event;
@@ -231,7 +229,7 @@ class Screening {
                            }};
     if (!turnsWithin(step)) return;
     auto found = turnOf(step);
-    if (!found) return gaps_.push_back(notExamined(step));
+    if (!found) return gaps_.push_back(notExamined(low_.friction, high_.friction, below));
     std::erase_if(events_, [&](const Event& event) {  // that of crossing()
       return event.kind == Event::Kind::crossing && event.branch == a.branch;
     });

@@ -48,4 +48,7 @@ std::optional<Event> crossing(Event event, int before, int after);
 /// it.
 Event splitting(Event event, bool loss, double friction);
 
+/// Returns a step over which changes of stability of these eigenvalues may have been missed.
+Gap notExamined(double low, double high, const std::vector<linalg::DensePair>& pairs);
+
 }  // namespace squeal::tracking

@@ -88,7 +88,7 @@ void StepJoiner::joinSingle(const Ends& ends, const Group& group, StepResult& st
   if (!matters(ends, group)) return;
   const linalg::DensePair &p = here.pairs()[i], &q = there.pairs()[j];
   step.singles.push_back({branch, p, q, isolation(ends, group)});
-  const bool damped = here.damped() || there.damped();
+  const bool damped = tracking::damped(here, there);
   if (auto event = crossing({.branch = branch,
                              .low = a.station.friction,
                              .high = b.station.friction,
@@ -120,7 +120,7 @@ void StepJoiner::joinUncertain(const Ends& ends, const Group& group, bool counts
 /// Joins a group across a jump of the eigenvalues.
 void StepJoiner::joinAcrossJump(const Ends& ends, const Group& group, StepResult& step) const {
   const auto& [a, b, here, there] = ends;
-  const bool damped = there.damped();
+  const bool damped = tracking::damped(here, there);
   const auto from = chosen(here.pairs(), group.here), to = chosen(there.pairs(), group.there);
   const bool single = from.size() == 1;
   const auto mate = single ? std::vector<std::size_t>{0} : ordered(from, to);
@@ -168,7 +168,7 @@ std::optional<std::vector<Event>> StepJoiner::splittings(
   const auto& [a, b, spectrumHere, spectrumThere] = ends;
   const auto here = chosen(spectrumHere.pairs(), group.here),
              there = chosen(spectrumThere.pairs(), group.there);
-  const bool damped = spectrumThere.damped(), equalBelow = coincide(here);
+  const bool damped = tracking::damped(spectrumHere, spectrumThere), equalBelow = coincide(here);
   const SolvedStation& apart = equalBelow ? b : a;
   const Complex s = mean(equalBelow ? here : there);
   const double equalAt = (equalBelow ? a : b).station.friction,
