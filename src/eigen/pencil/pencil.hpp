@@ -25,8 +25,8 @@ struct Term {
   int speedExponent = 0;     ///< b
   int dampingExponent = 0;   ///< e
   /// True for a term that depends on friction although its friction exponent is 0. If the exponent
-  /// is not 0, this flag makes no difference. The basis starts with responses to all terms that
-  /// contain friction; K0 and M0 exclude these terms.
+  /// is not 0, this flag makes no difference. A term that contains friction is not part of K0 or
+  /// M0. After the free modes, the basis gets static responses to the forces of such terms.
   bool ofFriction = false;
 
   bool containsFriction() const { return ofFriction || frictionExponent != 0; }

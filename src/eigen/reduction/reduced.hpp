@@ -29,15 +29,15 @@ namespace squeal::reduction {
 
 /// The result of ReducedProblem::improve(), and of tracking::Family::improve(): a family is a
 /// problem with one active set, whose eigenvalues are tracked over friction. The lists have one
-/// entry per point.
+/// entry per point. They are empty if the family does not override Family::improve(): its dense
+/// problem is then the full problem.
 struct Improvement {
   /// True if the pairs must be computed again: the basis has grown or, in the result of
   /// tracking::Family::improve(), the interpolation of the terms between frictions was refined.
   bool changed = false;
   /// For each point, the largest backward error of its pairs in the full problem. NaN means that no
   /// steady state with the active set of the family exists at this friction; `roundOff` is then NaN
-  /// as well. Only tracking::Family::improve() returns NaN. Exception: the list is empty if the
-  /// family does not override Family::improve(), since its dense problem is the full problem.
+  /// as well. Only tracking::Family::improve() returns NaN.
   std::vector<double> backwardError;
   /// Upper bound of the round-off in yᴴP(s)x, for the pencil P(s) and unit vectors x and y of the
   /// reduced problem.
@@ -77,14 +77,14 @@ class ReducedProblem {
                    std::vector<PetscInt> slidingRows) {
     return withBand(basis_.addPassedSet(std::move(pencil), has, std::move(slidingRows)));
   }
-  /// Collective. Returns, for each of these sets, the free modes in the band. They are
-  /// corrected together, in the same way as the complex modes. Their vectors have the entries of
-  /// all unknowns. Their countConfirmed is true if two conditions hold: the number of interior
-  /// modes is confirmed, and there is a frequency below which the number of modes found equals both
-  /// the lower and the upper bound by subspace::ModeCount. After this call, whether or not the
-  /// count is confirmed, these modes determine the top of the band at the points of the set. The
-  /// eigenvalues that solve() lists at these points thus do not depend on the other sets of the
-  /// basis. Only K and M of `pencil` are used.
+  /// Collective. Returns, for each of these sets, the free modes in the band. They are corrected
+  /// together, in the same way as the complex modes. Their vectors have the entries of all
+  /// unknowns. Their countConfirmed is true if two conditions hold: the number of interior modes is
+  /// confirmed, and below some frequency above the band the number of modes found equals both the
+  /// lower and the upper bound by subspace::ModeCount. After this call, whether or not the count is
+  /// confirmed, these modes determine the top of the band at the points of the set. The eigenvalues
+  /// that solve() lists at these points thus do not depend on the other sets of the basis. Only K
+  /// and M of `pencil` are used.
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns the complex modes of each. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 within
+/// The growing basis V of the reduced problem, orthonormal in the energy of the stiffness K0 within
 /// about a thousandth [M.28]:
 ///   VᵀK0V ≈ I.
 /// Boundary unknowns are those that exist only at some points of the sweep, such as the gaps of
-/// nodes that open (Substructure). If there are any, their constraint modes come first. They are
-/// orthogonal to all other vectors but not to each other.
+/// nodes that open (Substructure); all others are interior, and K0 is their stiffness. If there are
+/// boundary unknowns, their constraint modes come first. In the energy of the stiffness K of all
+/// unknowns, these are orthogonal to the other vectors, which are zero at the boundary, but not to
+/// each other.
 ///
-/// A free mode d of angular frequency ω enters as d/ω, a correction as z = K0⁻¹ r [M.31]. The
-/// residuals r of a Galerkin solution on V have Vᵀr = 0, so their corrections are orthogonal to V
-/// in energy. The following quantities therefore need no product with K0 [M.32]; the relations hold
-/// up to the errors of solves with K0:
+/// A free mode d of angular frequency ω enters as d/ω, a correction as z = K0⁻¹ r [M.31]. Since
+/// K0z = r up to the error of the solve, these quantities need no product with K0 [M.32]:
 ///   VᵀK0z = Vᵀr,   zᵀK0z = zᵀr,   K0z = r.
+/// If r is the residual of a Galerkin solution on V, then Vᵀr = 0, and z is orthogonal to V in
+/// energy.
 #include <optional>
 #include <vector>
 
@@ -57,8 +59,8 @@ class Basis {
   PetscInt add(linalg::Block residuals);
   /// Collective. Does the same for static forces F. Returns FᵀK0⁻¹F, from the interior rows of F.
   linalg::DenseMatrix addResponses(linalg::Block forces);
-  /// Collective. Appends this rank's rows of the vectors that add() found in an earlier run, with
-  /// the energy ratio of its last add() and its number of solves.
+  /// Collective. Appends this rank's rows of the vectors that add() found in an earlier run. Also
+  /// sets the values of lastEnergyRatio() and solves() to those of that run.
   void restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves);
   /// Collective. Returns K0⁻¹ times the interior rows of the columns, by a block solve. The result
   /// is zero at the boundary.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// An eigenvalue of a damped system that is neutral at one end of a step. At friction 0 all
-/// eigenvalues are neutral if only friction damps the system. The slope of the eigenvalue gives the
-/// sign of its growth rate near that end, which may differ from the sign at the other end.
+/// In a damped system, an eigenvalue that is neutral at one end of a step between two frictions: it
+/// neither grows nor decays there. At friction 0 all are neutral if only friction damps the system.
+/// The slope of the eigenvalue gives the sign of its growth rate near that end, which may differ
+/// from the sign at the other end.
 #include <functional>
 #include <optional>
 #include <vector>
@@ -36,9 +37,11 @@ struct StepEnd {
   const linalg::DenseProblem& problem;
 };
 
-/// Collective. Returns the slopes ds/df of the eigenvalues at one end of a step from `low` to
-/// `high`, with P_f from the difference over the step. This is exact where P is linear in f, and
-/// elsewhere good enough to look for candidates. The result is the same on all ranks.
+/// Collective. Returns the slopes ds/df of the eigenvalues in `spectrum`, which belongs to the
+/// problem at `low` or at `high`. The derivative of P with respect to f is approximated by the
+/// difference of these two problems, divided by that of their frictions. This is exact where P is
+/// linear in f, and elsewhere good enough to select the steps to examine. The result is the same on
+/// all ranks.
 std::vector<Complex> slopes(MPI_Comm comm, const linalg::Spectrum& spectrum, const StepEnd& low,
                             const StepEnd& high);
 

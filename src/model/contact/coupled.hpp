@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The coupled problem: each matrix X of the bodies, projected on the unknowns of the contact
-/// [M.11],
+/// The coupled problem: each matrix X of the bodies, projected on the unknowns that remain under
+/// the conditions of contact [M.11],
 ///   L(f)ᵀ X T = Tᵀ X T + Sᵀ N X T,   S = S_0 + f S_1.
 /// T maps the unknowns to nodal displacements; the columns of L are the test vectors. N maps nodal
 /// forces to the normal forces at the gaps, which the slip rows S turn into friction forces: S_0

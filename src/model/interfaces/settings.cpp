@@ -58,8 +58,8 @@ const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m",
 const FlagOption separationOption(
     "contact", "contact_<interface>_separation", true,
     "whether the two sides can separate; off: they stay together, also "
-    "under tension; a run has no result for a friction of the sweep at "
-    "which a node with friction is under tension");
+    "under tension (but if a node with friction is under tension at a "
+    "point of the sweep, that point fails)");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
