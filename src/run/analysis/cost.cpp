@@ -58,6 +58,8 @@ double denseSpeed(MPI_Comm comm) {
   return mpi::sum(comm, times * 2.0 * order * order * order / (MPI_Wtime() - begin));
 }
 
+double changesOnStep(double contactUnknowns) { return 0.03 * contactUnknowns; }
+
 RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double speed) {
   const double basis = basisSize(size, setsDiffer), n = size.unknowns,
                contact = size.contactUnknowns;
@@ -69,9 +71,8 @@ RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double spee
   const double dense = 200 * (size.points + 8) * basis * basis * basis / speed;
   const double steady = 6 * contact * contact * contact / speed + 5 * solve;
   // The responses to changes of contact on a step, and two spectra for each set on it.
-  constexpr double setsPerUnknown = 0.03;
   const double path = 50 * size.followedSteps * contact * contact * contact / speed,
-               spectra = 2 * setsPerUnknown * contact * size.trackedSteps,
+               spectra = 2 * changesOnStep(contact) * size.trackedSteps,
                tracking = spectrumWork * spectra * basis * basis * basis / speed;
   RunCost cost;
   cost.seconds = 1.2 * size.secondsSoFar + 2e-5 * n + (1 + 2 * groups) * factor +

@@ -46,6 +46,10 @@ struct GroupSize {
   double spectra = 0;    ///< number of spectra between the points that tracking takes
 };
 
+/// Returns an estimate of the number of contact nodes that open or close on a step of the friction,
+/// as measured for floating_caliper.
+double changesOnStep(double contactUnknowns);
+
 /// Returns an estimate of the work on a group without damping: the number of operations of dense
 /// products that take the same time.
 double groupWork(const GroupSize& size);

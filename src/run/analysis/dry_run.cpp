@@ -193,7 +193,8 @@ RunSize withContact(RunSize size, const Model& model, const Settings& settings,
   size.contactUnknowns = contactUnknowns(model);
   const double steps =
       (sweep.frictions.size() - 1.0) * sweep.speeds.size() * sweep.pressures.size();
-  if (!settings.mesh->steady.full && settings.mesh->steady.path > 0) {
+  const int most = settings.mesh->steady.path;  // steps with more changes are not followed
+  if (!settings.mesh->steady.full && most > 0 && changesOnStep(size.contactUnknowns) <= most) {
     size.followedSteps = steps;
     if (areTracked(settings, model, sweep.frictions.back()))
       size.trackedSteps = steps * sweep.dampings.size();
