@@ -107,7 +107,7 @@ TEST(Notes, AllModesOfASmallMesh) {
       runProgram("notes/small", 1, commandLine(without(spoken, {"modes_count"})));
   ASSERT_EQ(run.exitCode, 0) << run.error;
   EXPECT_TRUE(says(run, "30 modes to ")) << run.out;
-  EXPECT_TRUE(says(run, "All eigenvalues, of the full-order problem")) << run.out;
+  EXPECT_TRUE(says(run, "All eigenvalues: backward errors in the full-order problem")) << run.out;
 }
 
 TEST(Notes, OneModeIsCounted) {

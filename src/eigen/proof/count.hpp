@@ -26,7 +26,7 @@ struct CountProof {
   /// Distance of the boundary from the nearest eigenvalue, as a fraction of the top.
   double edgeDistance = 0;
   PetscInt discs = 0;        ///< number of discs on the upper half of the boundary
-  PetscInt evaluations = 0;  ///< expansions: for discs, and at points where a disc did not fit
+  PetscInt evaluations = 0;  ///< expansions: one for each disc, and one for each failed attempt
 };
 
 /// Not collective. Proves the count for the region, if the bounds suffice, with at most `largest`

@@ -15,8 +15,8 @@ namespace squeal::proof {
 /// the couplings have odd powers of s. L has the eigenvalues of P_VV with their multiplicities. The
 /// majorants F and E of the couplings give
 ///   F(s) P_VV(s)⁻¹ E(s) = a(z) (D(z) + Δ(z))⁻¹ b(z)
-/// with polynomials a and b. X and Y, computed by LAPACK, may be inaccurate, since Δ is computed
-/// from them. Not collective.
+/// with polynomials a and b. X and Y come from LAPACK and need not be accurate: Δ is computed from
+/// them as they are, and so contains their errors. Not collective.
 class DiagonalForm {
  public:
   /// Computes the form for regions with tops near `top`, rad/s. Throws Error if LAPACK fails.

@@ -28,7 +28,7 @@ struct Enclosure {
 /// Not collective. Returns an enclosure for each wanted eigenvalue of P_VV in the region, by
 /// default for all; none if the form is not regular. If `count` is proved for this region, an
 /// eigenvalue whose vectors are hardly coupled to C takes almost no time. Any other eigenvalue
-/// takes as long as a disc on the boundary.
+/// takes as much time as one disc of proveCount().
 std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
                                const Region& region, const CountProof& count = {},
                                const linalg::EigenvalueFilter& wanted = {});
@@ -36,12 +36,12 @@ std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
 /// Agreement of an entry of a list with the eigenvalues of P. If the count is proved and all
 /// enclosures are single, the discs of the inner radii contain all eigenvalues in the region.
 enum class Agreement {
-  right,     ///< at most the inner radius plus the tolerance from the centre of a disc
+  right,     ///< its distance from a centre is at most the inner radius plus the tolerance
   inexact,   ///< farther from the centre, but in the disc of the outer radius
   repeated,  ///< as close as `right` or `inexact`, but another entry is closer to the same centre
   wrong,     ///< in none of the discs
   unproved,  ///< the enclosure of the nearest eigenvalue of P_VV is not single
-  outside,   ///< neither in the region nor right
+  outside,   ///< not in the region, and not `right`
 };
 
 struct JudgedEntry {

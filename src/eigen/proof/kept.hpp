@@ -24,8 +24,8 @@ struct Coupling {
 };
 
 /// The blocks of P(s) on V and between V and C. C is orthogonal to V in the energy K0, and its
-/// basis is orthonormal in this energy. The coordinates of V are arbitrary; the remainders
-/// of couplings refer to them. Each part of a coupling has its own W.
+/// basis is orthonormal in this energy. V may have any basis; the bounds e_k hold in that basis.
+/// Each part of a coupling has its own W.
 struct KeptProblem {
   Coefficients matrices;              ///< of P_VV, N × N
   std::vector<Coupling> toLeftOut;    ///< parts of P_CV, rows × N
@@ -37,7 +37,8 @@ struct KeptProblem {
 ///   P_CC(s) = 1 + (s² − σ) M + s² M_a + s (D + G) + rest,
 /// where M and D are the symmetric parts of mass and damping, and M_a and G the antisymmetric ones.
 struct LeftOut {
-  /// Upper bound of M ≥ 0, s²: 1/θ if V contains all modes of K0 d = λ M d with λ < θ.
+  /// Upper bound of M ≥ 0, unit second²; it is 1/θ if V contains all modes of K0 d = λ M d with
+  /// λ < θ.
   double mass = 0;
   double shift = 0;       ///< σ ≥ 0 of K0 = K + σ M, rad²/s²
   double skewMass = 0;    ///< ‖M_a‖, s²
@@ -56,8 +57,8 @@ double definiteness(const LeftOut& bounds, double reach, double left);
 /// Returns a majorant of P_CV from an upper bound of the Gram matrix of its coefficients C_k, for
 /// the listed powers of s:
 ///   gram ≥ [C_0, C_1, …]ᵀ [C_0, C_1, …]   in the sense of quadratic forms.
-/// `gram` has N rows and N columns for each power. Directions within round-off are dropped and
-/// counted in the error. `top`, rad/s, sets the relative weights of the powers.
+/// `gram` is square, of order N times the number of powers. Directions within round-off are dropped
+/// and counted in the error. `top`, rad/s, sets the relative weights of the powers.
 Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top);
 
 /// Returns the majorant of P_VC from `coupling`, the result of couplingFromGram() for the

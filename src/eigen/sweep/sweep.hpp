@@ -16,8 +16,8 @@ namespace squeal::sweep {
 /// steady state.
 struct Sweep {
   std::vector<double> frictions, speeds, pressures, dampings;  ///< ascending
-  /// Returns the points of the steady states, with damping 1. The friction varies fastest, the
-  /// speed slowest.
+  /// Returns one point for each steady state; its damping factor is 1. The friction varies
+  /// fastest, the speed slowest.
   std::vector<Parameters> steadyPoints() const;
   /// Returns all points: for each damping, the points of all steady states.
   std::vector<Parameters> points() const;
@@ -39,8 +39,8 @@ void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
 /// Returns the indices of the points in the order in which they are solved with one growing basis,
 /// in batches of 5, 16, 16, … points. The first point has the largest friction. Each next point is
 /// the one farthest from all preceding points, with every parameter scaled to its range. If only
-/// the friction is swept, in equal steps, the first batch is the ends, the middle and the quarters.
-/// The order does not depend on the number of ranks.
+/// the friction is swept, in equal steps, the first batch is the ends, the middle and the quarter
+/// points. The order does not depend on the number of ranks.
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
 
 }  // namespace squeal::sweep

@@ -113,7 +113,7 @@ void StepJoiner::joinUncertain(const Ends& ends, const Group& group, bool counts
                                         : chosen(a.spectrum.pairs(), group.here);
   step.gaps.push_back(
       {a.station.friction, b.station.friction,
-       formatted("%zu eigenvalues near %.6g Hz before and %zu after are joined without certainty",
+       formatted("uncertain match of %zu eigenvalues near %.6g Hz at the start and %zu at the end",
                  group.here.size(), mean(pairs).imag() / (2 * M_PI), group.there.size())});
 }
 

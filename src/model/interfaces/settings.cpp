@@ -49,17 +49,17 @@ const WordOrRealOption gapOption(
     "initial gap, without load; measured: the distance between the two "
     "surfaces of the mesh; negative: interference fit");
 const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
-                               "slave side, at whose nodes the gaps are unknowns; finer: the pad "
-                               "if the two meshes match, otherwise the side with the finer mesh");
+                               "which side is the slave (its nodes carry the gap unknowns); finer: "
+                               "the side with the finer mesh, or the pad if the meshes match");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance at which the program pairs two faces if the two "
                               "meshes do not match; 0 = automatic (for each slave face, half its "
                               "size)");
 const FlagOption separationOption(
     "contact", "contact_<interface>_separation", true,
-    "whether the two sides can separate; off: they stay together, also "
-    "under tension (but if a node with friction is under tension at a "
-    "point of the sweep, that point fails)");
+    "whether the two sides can separate; off: they cannot, and can carry "
+    "tension; if a node with friction is under tension at a point of the "
+    "sweep, the run reports that this point has no solution");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");

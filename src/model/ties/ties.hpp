@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// Ties, and the moves of tied nodes onto their masters. Ties are coupled before the elements are
+/// Ties, and the moves of tied nodes onto their masters. Ties are found before the elements are
 /// assembled, because these moves change the mesh. A tie u_i = Σ P_il u_l is exact for a rotation
 /// of both sides together only if its nodes satisfy
 ///   x_i = Σ P_il x_l   [M.55].
@@ -11,10 +11,11 @@ namespace squeal::ties {
 
 /// Collective. Returns the options of all interfaces, the supports, the tied nodes and the coupled
 /// nodes. A node belongs to only one tie. Among ties whose meshes do not match, it belongs to the
-/// first one that claims it; for ties with matching meshes, see tieMatched(). The nodes of adjusted
-/// ties are moved to satisfy the equation above within round-off with the returned P. Warns of ties
-/// if less than half of the slave is covered. Throws Error for surfaces that do not meet, for ties
-/// that depend on each other in a circle, and for a tie that folds a cell.
+/// first one that claims it; for ties with matching meshes, see tieMatched(). Unless
+/// adjusting is off for a tie, its slave nodes are moved: they then satisfy the equation above with
+/// the returned P, within round-off. Warns of a tie if less than half of its slave surface is
+/// covered. Throws Error for surfaces that do not meet, for ties that depend on each other in a
+/// circle, and for a tie that folds a cell.
 interfaces::Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings,
                                 const constraints::Settings& supports);
 

@@ -34,7 +34,7 @@ struct Node {
   double friction = 0;               ///< coefficient of friction in steady sliding
   double lawCoefficient = 0;         ///< factor on the friction law φ; 0: not used at this node
   double frictionSlope = 0;          ///< derivative of `friction` with respect to the speed, s/m
-  double sweptFriction = 0;          ///< derivative of `friction` by the swept coefficient
+  double sweptFriction = 0;          ///< derivative with respect to the swept coefficient
   double area = 0;                   ///< m²
   double gap = 0;                    ///< steady gap, m; 0 if the node is closed
   double normalForce = 0;            ///< steady R_N, N, ≥ 0
@@ -93,7 +93,7 @@ LinearMode nearestMode(const ReducedModel& model, Complex s,
 /// highest angular frequency in this state.
 double stableStep(const ReducedModel& model);
 /// Not collective. Returns the largest stable time step, in seconds, with all nodes free. Contact
-/// makes the model stiffer, so a longer step is unstable in every state of the contact.
+/// only makes the model stiffer, so a step longer than this is unstable in every state of contact.
 double longestStep(const ReducedModel& model);
 
 }  // namespace squeal::march

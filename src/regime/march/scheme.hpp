@@ -13,10 +13,12 @@ namespace squeal::march {
 
 /// The motion at one instant.
 struct State {
-  double time = 0;            ///< s
-  std::vector<double> q, v;   ///< modal coordinates and velocities
-  std::vector<double> jump;   ///< y, [row]
-  std::vector<double> rate;   ///< [row] rate of the gap; slip velocity w with steady part, m/s
+  double time = 0;           ///< s
+  std::vector<double> q, v;  ///< modal coordinates and velocities
+  std::vector<double> jump;  ///< y, [row]
+  /// [row] m/s. In the row of a gap: its rate. In the row of a slip: the slip velocity w, which
+  /// includes that of steady sliding.
+  std::vector<double> rate;
   std::vector<double> force;  ///< R, [row], N
   double kinetic = 0;         ///< kinetic energy, J
 };
@@ -44,7 +46,7 @@ class Scheme {
   int sweeps() const { return sweeps_; }  ///< Gauss–Seidel sweeps of the last step
   /// Returns the kinetic and elastic energy of the motion about steady sliding, J.
   virtual double energy() const = 0;
-  /// Returns d of StepSolver in the last step, [row], m.
+  /// Returns the increments of the jump in the last step (d of StepSolver), [row], m.
   const std::vector<double>& increments() const { return increments_; }
   /// Returns the coefficients of friction in the last step, [node].
   const std::vector<double>& friction() const { return friction_; }
@@ -53,7 +55,7 @@ class Scheme {
 
  protected:
   /// The accuracy of the contact forces of a step, relative to the mean normal force of steady
-  /// sliding. The documentation states ten times this value.
+  /// sliding.
   static constexpr double accuracy = 1e-6;
   /// The swept coefficient of friction is that of the model plus `sweptChange`.
   explicit Scheme(const ReducedModel& model, double sweptChange = 0);
@@ -68,7 +70,7 @@ class Scheme {
   std::vector<double> friction_;                                  // [node] coefficients in the step
   std::vector<double> steadyForce_, steadyVelocity_, steadyGap_;  // [row], zero if undefined
   std::vector<double> increments_;                                // d of the last step
-  std::vector<double> stiffness_;  // [node] weight of gaps in a defect, N/m
+  std::vector<double> stiffness_;  // [node] turns an error of a gap into one of a force, N/m
   StopRequested stopRequested_;    // empty: never
 };
 

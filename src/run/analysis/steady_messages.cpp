@@ -21,9 +21,10 @@ void reportSticking(const steady::Solution& solution, MPI_Comm comm) {
     const std::string head =
         sweep::parameterText(solution.at) + ": interface '" + resultant.interface + "': ";
     if (resultant.released + resultant.unheld > 0)
-      printLine(comm, head + formatted("after %d revisions of the active set, %" PetscInt_FMT
-                                       " nodes slide; nodes left free, since they separate if held "
-                                       "and close if free: %" PetscInt_FMT,
+      printLine(comm, head + formatted("after %d revisions of the active set, nodes that slide: "
+                                       "%" PetscInt_FMT
+                                       "; nodes without a consistent state (held, they separate; "
+                                       "free, they close), which are left free: %" PetscInt_FMT,
                                        solution.revisions, resultant.released, resultant.unheld));
     if (const PetscInt pressed = resultant.overLimit - resultant.pulled; pressed > 0)
       printWarning(

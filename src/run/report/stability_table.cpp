@@ -158,8 +158,8 @@ std::string errorText(const analysis::Analysis& analysis) {
       (std::isfinite(top) ? formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI))
                           : "\nAll eigenvalues") +
       formatted(
-          ", of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up "
-          "to %.1e.",
+          ": backward errors in the full-order problem up to %.1e, estimated errors |ds|/|s| up to "
+          "%.1e.",
           backward, estimate);
   return text;
 }

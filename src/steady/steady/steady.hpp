@@ -23,7 +23,8 @@ namespace squeal::steady {
 /// The steady state of one contact node.
 struct ContactState {
   double gap = 0;  ///< g = n·(u_P − u_D) plus the initial gap, m
-  /// Gap unknown h, m, ≥ 0. It differs from the gap only on tri6 and quad8 faces (gap_basis.hpp).
+  /// The unknown h ≥ 0 that describes the gap, m. It differs from g only on tri6 and quad8 faces
+  /// (gap_basis.hpp).
   double coefficient = 0;
   double normalForce = 0;  ///< R_N in newtons, ≥ 0 in compression
   double pressure = 0;     ///< R_N over the nodal area, Pa
@@ -55,8 +56,8 @@ struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< why SNES, PETSc's nonlinear solver, stopped, or why no solution exists
-  /// The parameters at which a path of solutions, followed from other parameters, ends before it
-  /// reaches this point. Set only if no solution was found here.
+  /// The last parameters on a path of solutions that started at another point and did not reach
+  /// this one. Set only if no solution was found here.
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES
   int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
@@ -90,9 +91,10 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
 /// The matrix T maps the unknowns x to displacements, and N extracts normal forces from nodal
-/// forces. S contains the coefficients of friction: it is the f S of contact.hpp. The factors v and
-/// p scale speed and pressure. The loads are b_p, which scale with p, the constant loads b_0 and
-/// the centrifugal forces b_c. u_g closes the initial gaps [M.54] and shortens tightened bolts.
+/// forces. This S contains the coefficients of friction; contact.hpp writes the same matrix as f S.
+/// The factors v and p scale speed and pressure. The loads are b_p, which scale with p, the
+/// constant loads b_0 and the centrifugal forces b_c. u_g closes the initial gaps [M.54] and
+/// shortens tightened bolts.
 ///
 /// Convective terms arise because moving matter carries its displacement along. Without them
 /// (-motion_convective off, approximation A of Moirot and Nguyen) the problem is linear except for
