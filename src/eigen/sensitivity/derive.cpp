@@ -43,8 +43,8 @@ std::optional<Neighbour> neighbour(const pencil::ComplexModes& point, std::size_
   auto vectors = linalg::nullVectors(start.projected, nearest, true);
   for (auto* vector : {&vectors.right, &vectors.left})
     mpi::broadcastEntries<Complex>(pencil.comm(), *vector, 0);
-  return Neighbour{nearest, expanded(start.columns, vectors.right),
-                   expanded(start.columns, vectors.left)};
+  return Neighbour{nearest, expanded(pencil, start.columns, vectors.right),
+                   expanded(pencil, start.columns, vectors.left)};
 }
 
 /// Collective. Adds the second derivatives by one neighbour [M.90],

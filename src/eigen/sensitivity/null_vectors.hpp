@@ -26,14 +26,17 @@ struct NullVector {
 
 /// The start space of the search for null vectors.
 struct StartSpace {
-  OwnedBV columns;      ///< V: the free modes, or the basis of the reduced problem
+  /// This rank's rows of V: the free modes, or the basis of the reduced problem; borrowed.
+  linalg::DenseView columns{nullptr, 0, 0};
   Mat inner = nullptr;  ///< the matrix in which V is nearly orthonormal, M0 or K0; borrowed
   linalg::DenseProblem projected;  ///< Vᵀ P V at the point, which saves products with V; empty
                                    ///< if unknown
 };
 
-/// Collective. Returns V c, scaled to the 2-norm 1.
-linalg::ComplexVector expanded(BV columns, const std::vector<Complex>& c);
+/// Collective. Returns V c, scaled to the 2-norm 1, as a vector of the unknowns of the pencil.
+/// `columns` contains this rank's rows of V.
+linalg::ComplexVector expanded(const pencil::Pencil& pencil, const linalg::DenseView& columns,
+                               const std::vector<Complex>& c);
 
 /// The settings of the search for null vectors.
 struct Search {
@@ -46,9 +49,9 @@ struct Search {
 /// starts with V and the right vectors. Each round extends it by
 ///   K0⁻¹ Re l, K0⁻¹ Im l,   l = P(s)ᴴ y,
 /// for the left residuals l of all inaccurate pairs together, with `solver`, a borrowed
-/// factorisation of K0. A round reduces the errors about tenfold. The rounds end when all backward
-/// errors are at most `search.accuracy`, when the basis no longer grows, or after 20 rounds. The
-/// caller must check the remaining errors.
+/// factorisation of K0. A round reduces the errors about tenfold. The rounds end when each backward
+/// error is at most `search.accuracy`, or is below 1e-10 and no longer halves; when the basis no
+/// longer grows; or after 20 rounds. The caller must check the remaining errors.
 std::vector<NullVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                     const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs, const Search& search);

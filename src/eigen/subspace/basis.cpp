@@ -162,8 +162,6 @@ void Basis::setBoundaryReactions(const linalg::DenseMatrix& answers,
       residuals(boundary[i], j) = -answers(firstBoundary_ + i, j);
 }
 
-OwnedBV Basis::vectors() const { return linalg::copiedColumns(stiffness(), columns_); }
-
 void Basis::appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const {
   linalg::appendProduct(matrix, columns_.columnRange(first, last), result);
 }

@@ -48,7 +48,6 @@ class Basis {
   const linalg::DenseMatrix& boundaryStiffness() const { return boundaryStiffness_; }
   /// Sets the rows of the boundary unknowns to zero. Not collective.
   void clearBoundary(linalg::Block& columns) const;
-  OwnedBV vectors() const;
   /// Not collective. Returns the columns `interior`, which have only interior unknowns, padded with
   /// zeros at the boundary unknowns. Argument and result have this rank's rows.
   linalg::Block prolonged(const linalg::DenseView& interior) const;

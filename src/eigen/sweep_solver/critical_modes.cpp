@@ -93,7 +93,7 @@ void addCriticalModes(SweepProblem& problem, reduction::ReducedProblem& reduced,
       auto& mode = tracked.criticalModes[index] = std::move(found[i]);
       if (!forms) continue;
       progress(formatted("derivatives of the critical friction %.6g", point.at.friction));
-      const sensitivity::StartSpace start{reduced.basis().vectors(), problem.system->k0(),
+      const sensitivity::StartSpace start{reduced.basis().columns(), problem.system->k0(),
                                           std::move(projected)};
       sensitivity::deriveCritical(point, at.pencil, start, *problem.system, forms(at.pencil), mode);
     }

@@ -6,8 +6,10 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "algebra/factor/symmetric_solver.hpp"
+#include "algebra/linalg/columns.hpp"
 #include "base/session/events.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
@@ -138,6 +140,7 @@ class SweepSolver {
     if (!modes) modes = modes::compute(*problem_.system, *settings.modes);
     if (!settings.direct) return modes;
     forLeftVectors_ = std::move(*modes);
+    leftColumns_.emplace(forLeftVectors_.vectors);
     return {};
   }
 
@@ -357,8 +360,8 @@ class SweepSolver {
   sensitivity::StartSpace startSpace(const reduction::PointProblem& problem,
                                      const pencil::ComplexModes& point) const {
     if (!request_.settings.sensitivity.wanted || point.shapes.empty()) return {};
-    if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.system->m0(), {}};
-    return {reduced_->basis().vectors(), problem_.system->k0(), reduced_->project(problem)};
+    if (!reduced_) return {leftColumns_->view(), problem_.system->m0(), {}};
+    return {reduced_->basis().columns(), problem_.system->k0(), reduced_->project(problem)};
   }
 
   SweepProblem& problem_;
@@ -369,7 +372,8 @@ class SweepSolver {
   Journal journal_;
   std::vector<Set> sets_;        // [range]
   modes::Modes forLeftVectors_;  // for the direct method, which computes no modes itself
-  modes::Modes interiorModes_;   // if several active sets share the basis
+  std::optional<linalg::ReadColumns> leftColumns_;  // of these modes
+  modes::Modes interiorModes_;                      // if several active sets share the basis
   std::unique_ptr<reduction::ReducedProblem> reduced_;
 };
 

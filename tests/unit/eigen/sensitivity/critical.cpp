@@ -11,21 +11,13 @@
 namespace squeal::test {
 namespace {
 
-/// Returns the unit vectors, distributed like the matrix.
-OwnedBV unitVectors(Mat like) {
-  PetscInt size = 0;
+/// Returns this rank's rows of the unit vectors, distributed like the matrix.
+linalg::Block unitVectors(Mat like) {
+  PetscInt first = 0, end = 0, size = 0;
   check(MatGetSize(like, &size, nullptr));
-  OwnedBV whole;
-  OwnedVec layout;
-  check(MatCreateVecs(like, layout.out(), nullptr));
-  check(BVCreate(PETSC_COMM_WORLD, whole.out()));
-  check(BVSetType(whole, BVSVEC));
-  check(BVSetSizesFromVec(whole, layout, size));
-  for (PetscInt j = 0; j < size; ++j) {
-    std::vector<double> unit(size, 0.0);
-    unit[j] = 1;
-    check(BVInsertVec(whole, j, vectorOf(like, true, unit)));
-  }
+  check(MatGetOwnershipRange(like, &first, &end));
+  linalg::Block whole(end - first, size);
+  for (PetscInt i = first; i < end; ++i) whole(i - first, i) = 1;
   return whole;
 }
 
@@ -33,9 +25,9 @@ OwnedBV unitVectors(Mat like) {
 double bySpeed(std::vector<pencil::Term> terms, const sensitivity::CriticalPoint& point,
                pencil::CriticalMode& mode) {
   const factor::AssociatedSystem system(terms[0].matrix.share(), terms[1].matrix.share(), "K0");
-  const OwnedBV whole = unitVectors(system.k0());
+  const linalg::Block whole = unitVectors(system.k0());
   const pencil::Pencil pencil(std::move(terms));
-  sensitivity::deriveCritical(point, pencil, {whole.share(), system.m0(), {}}, system,
+  sensitivity::deriveCritical(point, pencil, {whole, system.m0(), {}}, system,
                               sensitivity::parameterForms(pencil, point.at), mode);
   for (const auto& [parameter, value] : mode.derivatives)
     if (parameter == "speed") return value;
@@ -130,8 +122,8 @@ TEST(SecondDerivative, OfTwoOscillatorsThatHaveMerged) {
                                          k(0, 1) += f * k3, k(1, 0) -= f * k3;
                                          return k;
                                        }()};
-  sensitivity::deriveParameters(point, pencil, {unitVectors(system.k0()), system.m0(), projected},
-                                system);
+  const linalg::Block whole = unitVectors(system.k0());
+  sensitivity::deriveParameters(point, pencil, {whole, system.m0(), projected}, system);
   const auto& found = point.sensitivities.at(0).derivatives.at(0);
   ASSERT_EQ(found.parameter, "friction");
   const Complex slope = -f * k3 * k3 / r, first = slope / (2.0 * s),

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "algebra/linalg/columns.hpp"
 #include "eigen/modes/modes.hpp"
 #include "model/contact/coupled.hpp"
 #include "problem/terms/terms.hpp"
@@ -65,7 +66,7 @@ TEST(Influences, AreSharesOfTheEnergies) {
   terms::Influences influences(*model.mesh, model.bodies, model.contact,
                                {.frictionDamping = false});
   influences.derive(point, pencil, {point.at, system, solution},
-                    {free.vectors.share(), system.m0(), {}});
+                    {linalg::ReadColumns(free.vectors).view(), system.m0(), {}});
   ASSERT_EQ(point.sensitivities.size(), 4u);
   const auto& groups = model.mesh->materialGroups;
   for (std::size_t i = 0; i < 4; ++i) {
