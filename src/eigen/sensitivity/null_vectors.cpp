@@ -10,6 +10,7 @@
 #include "algebra/linalg/block.hpp"
 #include "algebra/linalg/null_vectors.hpp"
 #include "algebra/linalg/spread.hpp"
+#include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
 #include "eigen/sweep/parameters.hpp"
@@ -66,7 +67,12 @@ class NullIteration {
         start_(start.columns),
         added_(start.columns.rows()),
         projected_(start.projected) {
-    if (projected_.order() == 0) border(start_, 0);
+    for (int power = 0; power <= 2; ++power)
+      if (pencil.hasPower(power)) powers_.push_back(power);
+    if (projected_.order() > 0) return;
+    for (const int power : powers_)
+      projected_.*matrices[power] =
+          linalg::transposedProduct(comm(), start_, products(power, start_, false));
   }
 
   /// Returns the vectors of these eigenvalues; the search also starts from `more`.
@@ -105,6 +111,9 @@ class NullIteration {
   }
 
  private:
+  static constexpr std::array matrices{&linalg::DenseProblem::stiffness,
+                                       &linalg::DenseProblem::damping,
+                                       &linalg::DenseProblem::mass};  // [power of s]
   MPI_Comm comm() const { return pencil_.comm(); }
   PetscInt size() const { return start_.columns() + added_.columns(); }
 
@@ -113,69 +122,59 @@ class NullIteration {
     return norms_[0] + size * norms_[1] + size * size * norms_[2];
   }
 
-  /// Returns the norms of the columns in the inner product of the start space.
-  std::vector<double> norms(const linalg::Block& x) const {
-    const auto gram = linalg::transposedProduct(comm(), x, innerProducts(x));
-    std::vector<double> lengths;
+  /// Adds vectors to the basis, except those that depend on it. Returns true if the basis has
+  /// grown.
+  bool add(linalg::Block x) {
+    constexpr double dependent = 1e-6;  // of the length of a vector
+    if (x.columns() == 0) return false;
+    auto products = timesInner(x);
+    const auto gram = linalg::transposedProduct(comm(), x, products);
     for (PetscInt j = 0; j < x.columns(); ++j)
-      lengths.push_back(std::sqrt(std::max(0.0, gram(j, j))));
-    return lengths;
+      for (auto* block : {&x, &products})
+        for (double& entry : block->column(j)) entry /= gram(j, j) > 0 ? std::sqrt(gram(j, j)) : 1;
+    const auto along = linalg::transposedProduct(comm(), added_, products);
+    linalg::multiplyAdd(start_, linalg::transposedProduct(comm(), start_, products), x, -1);
+    linalg::multiplyAdd(added_, along, x, -1);
+    // Once more, for round-off; W is orthonormal, so its part leaves the inner products like this.
+    products = timesInner(x);
+    const auto left = linalg::transposedProduct(comm(), added_, products);
+    auto directions = linalg::transposedProduct(comm(), x, products);
+    linalg::multiplyAdd(added_, left, x, -1);
+    linalg::addScaled(directions, -1, linalg::transposedProduct(left, left));
+    const auto squares = linalg::symmetricEigen(directions);  // ascending
+    PetscInt first = 0;
+    while (first < x.columns() && !(squares[first] > dependent * dependent)) ++first;
+    if (first == x.columns()) return false;
+    for (PetscInt j = first; j < x.columns(); ++j)
+      for (double& entry : directions.column(j)) entry /= std::sqrt(squares[j]);
+    const auto news = linalg::product(x, directions.columnRange(first, x.columns()));
+    border(news);
+    return true;
   }
 
-  linalg::Block innerProducts(const linalg::Block& x) const {
+  linalg::Block timesInner(const linalg::Block& x) const {
     linalg::Block products(x.rows());
     linalg::appendProduct(inner_, x, products);
     return products;
   }
 
-  /// Makes X orthogonal to columns that are orthonormal.
-  void orthogonalise(const linalg::DenseView& columns, linalg::Block& x) const {
-    if (columns.columns() == 0) return;
-    for (int pass = 0; pass < 2; ++pass)
-      linalg::multiplyAdd(columns, linalg::transposedProduct(comm(), columns, innerProducts(x)), x,
-                          -1);
-  }
-
-  /// Adds vectors to the basis, except those that depend on it. Returns true if the basis has
-  /// grown.
-  bool add(linalg::Block x) {
-    constexpr double dependent = 1e-6;
-    if (x.columns() == 0) return false;
-    const PetscInt before = size();
-    const auto lengths = norms(x);
-    orthogonalise(start_, x);
-    for (PetscInt j = 0; j < x.columns(); ++j) {
-      linalg::Block column(x.columnRange(j, j + 1));
-      orthogonalise(added_, column);
-      const double rest = norms(column)[0];
-      if (!(rest > dependent * lengths[j])) continue;
-      for (double& entry : column.entries()) entry /= rest;
-      added_.append(column);
+  /// Adds columns to W, and to the projected pencil. V is read only once for all products.
+  void border(const linalg::Block& columns) {
+    const PetscInt known = size(), count = columns.columns();
+    added_.append(columns);
+    linalg::Block all(columns.rows());
+    for (const bool transposed : {false, true})
+      for (const int power : powers_) all.append(products(power, columns, transposed));
+    auto rows = linalg::transposedProduct(comm(), all, start_);
+    rows.append(linalg::transposedProduct(comm(), all, added_));
+    const auto part = [&](std::size_t i) {
+      return linalg::rowRange(rows, i * count, (i + 1) * count);
+    };
+    for (std::size_t i = 0; i < powers_.size(); ++i) {
+      auto& matrix = projected_.*matrices[powers_[i]];
+      matrix = linalg::bordered(matrix, linalg::transposed(part(i)),
+                                part(powers_.size() + i).columnRange(0, known));
     }
-    if (size() == before) return false;
-    border(added_.columnRange(before - start_.columns(), added_.columns()), before);
-    return true;
-  }
-
-  /// Extends the projected pencil by the last columns of the basis, which follow after `known`.
-  void border(const linalg::DenseView& columns, PetscInt known) {
-    constexpr std::array matrices{&linalg::DenseProblem::stiffness, &linalg::DenseProblem::damping,
-                                  &linalg::DenseProblem::mass};  // [power of s]
-    for (int power = 0; power <= 2; ++power) {
-      if (!pencil_.hasPower(power)) continue;
-      const auto right = linalg::transposed(timesBasis(products(power, columns, false))),
-                 below = known == 0 ? linalg::DenseMatrix(columns.columns(), 0)
-                                    : timesBasis(products(power, columns, true));
-      auto& matrix = projected_.*matrices[power];
-      matrix = linalg::bordered(matrix, right, below.columnRange(0, known));
-    }
-  }
-
-  /// Returns Yᵀ times the basis.
-  linalg::DenseMatrix timesBasis(const linalg::Block& y) const {
-    auto result = linalg::transposedProduct(comm(), y, start_);
-    if (added_.columns() > 0) result.append(linalg::transposedProduct(comm(), y, added_));
-    return result;
   }
 
   /// Returns this rank's rows of A X, or of Aᵀ X.
@@ -216,6 +215,7 @@ class NullIteration {
   const std::array<double, 3> norms_;  // [power of s] 2-norms of the full matrices
   KSP solver_;
   Mat inner_;
+  std::vector<int> powers_;         // of s, with terms
   const linalg::DenseView start_;   // V
   linalg::Block added_;             // W
   linalg::DenseProblem projected_;  // [V W]ᵀ P [V W]
