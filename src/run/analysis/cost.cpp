@@ -10,6 +10,9 @@
 namespace squeal::analysis {
 namespace {
 
+/// Returns an estimate of the number of contact nodes that open or close on a step of the friction.
+double changesOnStep(double contactUnknowns) { return 0.03 * contactUnknowns; }
+
 // Operations of sparse factors are slower than those of dense products.
 constexpr double factorSpeed = 0.24, solveSpeed = 0.12;
 /// Work on an unsymmetric spectrum in a basis of m vectors, in m³ operations of dense products.
@@ -58,7 +61,9 @@ double denseSpeed(MPI_Comm comm) {
   return mpi::sum(comm, times * 2.0 * order * order * order / (MPI_Wtime() - begin));
 }
 
-double changesOnStep(double contactUnknowns) { return 0.03 * contactUnknowns; }
+double followedSteps(double steps, double contactUnknowns, int most) {
+  return most > 0 && changesOnStep(contactUnknowns) <= most ? steps : 0;
+}
 
 RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double speed) {
   const double basis = basisSize(size, setsDiffer), n = size.unknowns,

@@ -46,9 +46,11 @@ struct GroupSize {
   double spectra = 0;    ///< number of spectra between the points that tracking takes
 };
 
-/// Returns an estimate of the number of contact nodes that open or close on a step of the friction,
-/// as measured for floating_caliper.
-double changesOnStep(double contactUnknowns);
+/// Returns how many of `steps` between two frictions a run is expected to follow from one change of
+/// the contact to the next: all or none. `most` is the largest number of changes on a step that it
+/// follows; 0: it follows none. The number of changes is estimated as measured for
+/// floating_caliper.
+double followedSteps(double steps, double contactUnknowns, int most);
 
 /// Returns an estimate of the work on a group without damping: the number of operations of dense
 /// products that take the same time.

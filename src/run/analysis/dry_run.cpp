@@ -193,12 +193,10 @@ RunSize withContact(RunSize size, const Model& model, const Settings& settings,
   size.contactUnknowns = contactUnknowns(model);
   const double steps =
       (sweep.frictions.size() - 1.0) * sweep.speeds.size() * sweep.pressures.size();
-  const int most = settings.mesh->steady.path;  // steps with more changes are not followed
-  if (!settings.mesh->steady.full && most > 0 && changesOnStep(size.contactUnknowns) <= most) {
-    size.followedSteps = steps;
-    if (areTracked(settings, model, sweep.frictions.back()))
-      size.trackedSteps = steps * sweep.dampings.size();
-  }
+  if (!settings.mesh->steady.full)
+    size.followedSteps = followedSteps(steps, size.contactUnknowns, settings.mesh->steady.path);
+  if (size.followedSteps > 0 && areTracked(settings, model, sweep.frictions.back()))
+    size.trackedSteps = size.followedSteps * sweep.dampings.size();
   size.varied = model.bodies.gyroscopic || model.bodies.damping;
   size.damped = size.damped || size.varied || frictionDamping;
   // K̄ and M̄ have friction terms; Z̄ has them with damping.

@@ -118,6 +118,15 @@ TEST(RunCost, FollowsTheStepsOfTheContact) {
   EXPECT_EQ(seconds(false), same);
 }
 
+// With 3542 unknowns of the contact, 106 nodes are expected to change on a step.
+TEST(RunCost, CountsNoStepWithMoreChangesThanAreFollowed) {
+  EXPECT_EQ(followedSteps(6, 3542, 1000), 6);
+  EXPECT_EQ(followedSteps(6, 3542, 20), 0);
+  EXPECT_EQ(followedSteps(6, 100, 20), 6);
+  EXPECT_EQ(followedSteps(6, 100, 0), 0);
+  EXPECT_EQ(followedSteps(6, 0, 0), 0);
+}
+
 // Two groups or one: what was measured decides. Without tracking, a second group of a large model
 // costs more than a larger basis. With it, the spectra of many sets between the points of a brake
 // with many contact nodes cost more than a second group.
