@@ -288,8 +288,8 @@ TEST(CommandLine, OpenBlasFitsTheProcessor) {
   const fs::path place = placeFor("command_line/blas");
   writeText(place / "out", "");
   const auto version = [&](const std::string& variable) {
-    const int code = shell(place, "env -u OPENBLAS_CORETYPE '" SQUEAL_MPIEXEC "' serial " + variable +
-                                      " '" SQUEAL_EXECUTABLE "' -version >out 2>&1");
+    const int code = shell(place, "env -u OPENBLAS_CORETYPE '" SQUEAL_MPIEXEC "' serial " +
+                                      variable + " '" SQUEAL_EXECUTABLE "' -version >out 2>&1");
     EXPECT_EQ(code, 0);
     return contentOf(place / "out");
   };

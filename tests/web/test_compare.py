@@ -29,9 +29,7 @@ from squeal import compare, variants
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 COMMAND = repository / "scripts/squeal-compare"
-MESH = (
-    "n_pad_theta={},n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"
-)
+MESH = "n_pad_theta={},n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"
 LOSS = ["-material_lining_loss_factor", "0.1", "-material_lining_loss_frequency", "6000"]
 VARIANTS = {
     "base": ["-mesh_set", MESH.format(8), "-flutter_friction", "0.3,0.5"],
@@ -231,9 +229,7 @@ class Compare(unittest.TestCase):
             {row[0] for row in options},
             {word for word in LOSS if word.startswith("-")} | {"-mesh_set", "-flutter_friction"},
         )
-        self.assertIn(
-            ["-material_lining_loss_factor", "not given", "0.1", "not given"], options
-        )
+        self.assertIn(["-material_lining_loss_factor", "not given", "0.1", "not given"], options)
         base, damped, coarser = self.runs.values()
         growing = base.eigenvalues.query(f"{COMMON} and grows")
         row = growing.sort_values("growth_rate_1_per_s").iloc[-1]

@@ -212,9 +212,7 @@ std::string manual(const std::string& wanted) {
       "Lengths in m, masses in kg, times in s, unless the case uses another consistent system. <…> "
       "is a name that you choose or that the mesh contains.\n"
       "Numbers are zero or have a magnitude between 1e-50 and 1e50. Commas separate the entries of "
-      "a "
-      "list; "
-      "quote a list that contains blanks.\n";
+      "a list; quote a list that contains blanks.\n";
   const auto options = Option::all();
   const auto solvers = SolverPrefix::all();
   for (const auto& stage : all) {

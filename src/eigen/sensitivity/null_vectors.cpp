@@ -93,14 +93,15 @@ class NullIteration {
       std::vector<std::size_t> bad;
       linalg::Block residuals(start_.rows());
       for (std::size_t k = 0; k < open.size(); ++k) {
-        auto& [vector, backwardError] = found[open[k]];
+        auto& [vector, backwardError, rounds] = found[open[k]];
         vector = combination(pencil_, {start_, added_}, coordinates[k]);
         const auto residual = pencil::residual(pencil_, at_, values[k], vector, side_);
         const double size = length(residual);
-        backwardError = size > 0 ? size / (scale(values[k]) * length(vector)) : 0;
+        backwardError = size == 0 ? 0 : size / (scale(values[k]) * length(vector));
+        rounds = round;
         const double before = std::exchange(previous[open[k]], backwardError);
         const bool stalls = backwardError <= settled && backwardError > before / 2;
-        if (backwardError <= search.accuracy || stalls) continue;
+        if (backwardError <= search.accuracy || stalls || !std::isfinite(backwardError)) continue;
         bad.push_back(open[k]);
         appendParts(residual, size, residuals);
       }
@@ -126,21 +127,30 @@ class NullIteration {
   /// grown.
   bool add(linalg::Block x) {
     constexpr double dependent = 1e-6;  // of the length of a vector
+    constexpr int mostPasses = 6;
     if (x.columns() == 0) return false;
     auto products = timesInner(x);
-    const auto gram = linalg::transposedProduct(comm(), x, products);
-    for (PetscInt j = 0; j < x.columns(); ++j)
-      for (auto* block : {&x, &products})
-        for (double& entry : block->column(j)) entry /= gram(j, j) > 0 ? std::sqrt(gram(j, j)) : 1;
-    const auto along = linalg::transposedProduct(comm(), added_, products);
-    linalg::multiplyAdd(start_, linalg::transposedProduct(comm(), start_, products), x, -1);
-    linalg::multiplyAdd(added_, along, x, -1);
-    // Once more, for round-off; W is orthonormal, so its part leaves the inner products like this.
-    products = timesInner(x);
-    const auto left = linalg::transposedProduct(comm(), added_, products);
     auto directions = linalg::transposedProduct(comm(), x, products);
-    linalg::multiplyAdd(added_, left, x, -1);
-    linalg::addScaled(directions, -1, linalg::transposedProduct(left, left));
+    for (PetscInt j = 0; j < x.columns(); ++j)
+      if (const double square = directions(j, j); square > 0)
+        for (auto* block : {&x, &products})
+          for (double& entry : block->column(j)) entry /= std::sqrt(square);
+    // V is orthonormal only within about a thousandth, so a pass leaves as much of the part along
+    // V. The passes end when they remove less than counts among nearly parallel vectors.
+    constexpr double negligible = 1e-10;  // square of a length
+    double removed = INFINITY;
+    for (int pass = 0; pass < mostPasses && removed > negligible; ++pass) {
+      const auto ofStart = linalg::transposedProduct(comm(), start_, products),
+                 ofAdded = linalg::transposedProduct(comm(), added_, products);
+      linalg::multiplyAdd(start_, ofStart, x, -1);
+      linalg::multiplyAdd(added_, ofAdded, x, -1);
+      products = timesInner(x);
+      removed = 0;
+      for (PetscInt j = 0; j < x.columns(); ++j)
+        removed = std::max(removed, linalg::squaredLength(ofStart.column(j)) +
+                                        linalg::squaredLength(ofAdded.column(j)));
+    }
+    directions = linalg::transposedProduct(comm(), x, products);
     const auto squares = linalg::symmetricEigen(directions);  // ascending
     PetscInt first = 0;
     while (first < x.columns() && !(squares[first] > dependent * dependent)) ++first;

@@ -22,6 +22,7 @@ struct NullVector {
   /// The backward error (with P(s)ᴴ in place of P(s) for a left vector),
   ///   ‖P(s) z‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖z‖).
   double backwardError = 0;
+  int rounds = 0;  ///< number of rounds of the search
 };
 
 /// The start space of the search for null vectors.

@@ -73,6 +73,64 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
   }
 }
 
+/// Returns V (1 + `change` N), where the entries of N are of the order of 1/√columns.
+linalg::Block mixed(const linalg::DenseView& v, double change) {
+  linalg::DenseMatrix combinations(v.columns(), v.columns());
+  for (PetscInt j = 0; j < v.columns(); ++j)
+    for (PetscInt i = 0; i < v.columns(); ++i)
+      combinations(i, j) = (i == j) + change * std::sin(i + 7.0 * j) / std::sqrt(v.columns());
+  return linalg::product(v, combinations);
+}
+
+// V as the solver makes it, orthonormal within a thousandth, and right vectors that lie in V: they
+// add nothing. If what round-off leaves of them were added, the projected problem would be singular
+// at every s, the more so as s is wrong by 1e-11.
+TEST(Left, VectorsInAStartSpaceThatIsNearlyOrthonormal) {
+  const test::Layers layers("-modes_count 60");
+  const auto& system = *layers.system;
+  const auto pencil = terms::affineTerms(layers.model.contact, system);
+  const auto modes = layers.modes();
+  const linalg::ReadColumns read(modes.vectors);
+  const linalg::Block start = mixed(read.view(), 1e-3);
+  const sweep::Parameters at{0.4};
+  const auto full = linalg::solveQuadratic(test::fullProblem(pencil, at), linalg::Vectors::right);
+  std::vector<linalg::ComplexVector> right;
+  std::vector<sensitivity::RightPair> pairs;
+  for (std::size_t i = 0; i < 24; i += 4) {
+    std::vector<Complex> c(start.columns());
+    for (std::size_t k = 0; k < c.size(); ++k) c[k] = {std::cos(k + i), std::sin(2.0 * k + i)};
+    right.push_back(sensitivity::expanded(pencil, start, c));
+  }
+  for (std::size_t i = 0; i < right.size(); ++i)
+    pairs.push_back({full[4 * i].s * (1 + 1e-11), &right[i]});
+  const auto found =
+      sensitivity::leftVectors(pencil, at, {start, system.m0(), {}}, system.solver(), pairs, {});
+  for (const auto& one : found) {
+    test::print("backward error %.0e after %d rounds\n", one.backwardError, one.rounds);
+    EXPECT_LE(one.backwardError, 1e-10);
+    EXPECT_LE(one.rounds, 10);
+  }
+}
+
+// Round-off limits the backward error, and the corrections of what it leaves always find something
+// new: an accuracy beyond that is not sought for all 20 rounds.
+TEST(Left, SearchEndsWhereRoundOffLimitsIt) {
+  const test::Layers layers("-modes_count 60");
+  const auto& system = *layers.system;
+  const auto pencil = terms::affineTerms(layers.model.contact, system);
+  const auto modes = layers.modes();
+  const linalg::ReadColumns start(modes.vectors);
+  const sweep::Parameters at{0.4};
+  const auto full = linalg::solveQuadratic(test::fullProblem(pencil, at), linalg::Vectors::right);
+  const auto right = vectorOf(system.k0(), full[4].q);
+  const auto found =
+      sensitivity::leftVectors(pencil, at, {start.view(), system.m0(), {}}, system.solver(),
+                               {{full[4].s, &right}}, {.accuracy = 0, .simple = false});
+  test::print("backward error %.0e after %d rounds\n", found[0].backwardError, found[0].rounds);
+  EXPECT_LT(found[0].backwardError, 1e-14);
+  EXPECT_LT(found[0].rounds, 20);
+}
+
 OwnedMat matrix2(double a, double b, double c, double d) {
   OwnedMat result;
   check(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 2, 2, 2, nullptr, 2, nullptr,
