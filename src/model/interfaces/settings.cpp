@@ -66,7 +66,8 @@ const RealOption stiffnessOption(
 const RealOption tangentialStiffnessOption(
     "contact", "contact_<interface>_stiffness_tangential", 0.0, "N/m3", nonNegative,
     "tangential stiffness of a soft layer on a sticking interface: shear stress per tangential "
-    "displacement of the layer; required there if -contact_<interface>_stiffness is given");
+    "displacement of the layer; must be > 0 there if "
+    "-contact_<interface>_stiffness is given");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
     "slave surface group of a tie, preferably the one with the finer mesh");
