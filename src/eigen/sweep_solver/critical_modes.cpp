@@ -42,10 +42,10 @@ std::vector<Place> nextPlaces(SweepProblem& problem, reduction::ReducedProblem& 
     if (derives || !source.local) between = problem.between(at, piece.range);
     if (!between) {
       if (derives)
-        printLine(reduced.basis().comm(),
-                  formatted("track: no derivatives of the critical friction %.6g, since no steady "
-                            "state with its active set was found",
-                            at.friction));
+        printWarning(reduced.basis().comm(),
+                     formatted("no derivatives of the critical friction %.6g, since no steady "
+                               "state with its active set was found",
+                               at.friction));
       if (!source.local) continue;
       between.emplace();
     }
