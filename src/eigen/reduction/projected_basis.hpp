@@ -39,8 +39,7 @@ class ProjectedBasis {
   /// set. Throws Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
   /// Collective. Sets the friction terms of the nodes that slide in some sets but not in all, as
-  /// products of matrices.
-  /// Must be called before addPassedSet().
+  /// products of matrices. Must be called before addPassedSet().
   void setFactors(pencil::FrictionFactors factors) {
     friction_.emplace(basis_, std::move(factors));
   }

@@ -28,27 +28,27 @@ int signFar(const NeutralStep& step) {
 
 }  // namespace
 
-bool turnsWithin(const NeutralStep& step) {
+bool changesSignWithin(const NeutralStep& step) {
   if (isNeutralBelow(step) == neutral(high(step), true)) return false;
   if (real(low(step)) || real(high(step))) return false;
   return signNear(step) != 0 && signNear(step) != signFar(step);
 }
 
-std::optional<std::vector<Event>> turnOf(const NeutralStep& step) {
+std::optional<std::vector<Event>> changesOf(const NeutralStep& step) {
   const bool atLow = isNeutralBelow(step);
   const int near = signNear(step);
-  Event turn = step.event;
-  turn.kind = Event::Kind::crossing;
-  turn.loss = atLow ? near < 0 : near > 0;
-  const double width = turn.high - turn.low, end = atLow ? turn.low : turn.high;
+  Event change = step.event;
+  change.kind = Event::Kind::crossing;
+  change.loss = atLow ? near < 0 : near > 0;
+  const double width = change.high - change.low, end = atLow ? change.low : change.high;
   // Close to the neutral end the sign is certain, but the growth rate is small.
   for (double part = 0.25; part > 1e-4; part *= 0.25) {
     const double inside = atLow ? end + part * width : end - part * width;
     const auto found = step.pairAt(inside);
     if (found.size() != 1 || sign(found[0].s, true) != near) continue;
     std::vector<Event> events;
-    (atLow ? turn.low : turn.high) = inside;
-    (atLow ? turn.below : turn.above) = found;
+    (atLow ? change.low : change.high) = inside;
+    (atLow ? change.below : change.above) = found;
     if (near > 0) {
       Event there = step.event;
       there.kind = Event::Kind::crossing;
@@ -57,7 +57,7 @@ std::optional<std::vector<Event>> turnOf(const NeutralStep& step) {
       (atLow ? there.above : there.below) = atLow ? there.below : there.above;
       events.push_back(std::move(there));
     }
-    events.push_back(std::move(turn));
+    events.push_back(std::move(change));
     return events;
   }
   return {};

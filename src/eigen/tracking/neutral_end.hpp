@@ -24,12 +24,12 @@ struct NeutralStep {
 /// Returns true if the sign of the growth rate near the neutral end differs from that at the other
 /// end. (The function crossing() compares only the ends and misses this change.) Returns false if
 /// neither or both ends are neutral, or if the eigenvalue is real at an end.
-bool turnsWithin(const NeutralStep& step);
+bool changesSignWithin(const NeutralStep& step);
 
-/// Collective. Returns the changes of stability of a step for which turnsWithin() holds: one within
-/// the step, and one at the neutral end if the eigenvalue grows near it. Returns nullopt if the
-/// sign near the neutral end cannot be confirmed.
-std::optional<std::vector<Event>> turnOf(const NeutralStep& step);
+/// Collective. Returns the changes of stability of a step for which changesSignWithin() holds: one
+/// within the step, and one at the neutral end if the eigenvalue grows near it. Returns nullopt if
+/// the sign near the neutral end cannot be confirmed.
+std::optional<std::vector<Event>> changesOf(const NeutralStep& step);
 
 /// One end of a step.
 struct StepEnd {

@@ -110,7 +110,7 @@ Trace PairTracer::separate(const TraceRequest& request, std::vector<std::size_t>
                .below = {a[i]},
                .above = {end},
                .isolation = std::min(isolation, 2 * std::abs(a[0].s - mean(a)))};
-    if (clear && damped && turns(step, trace)) continue;
+    if (clear && damped && appendChanges(step, trace)) continue;
     if (auto event = crossing(std::move(step), sign(a[i].s, damped), sign(end.s, damped)))
       trace.events.push_back(std::move(*event));
   }
@@ -125,7 +125,7 @@ Trace PairTracer::separate(const TraceRequest& request, std::vector<std::size_t>
 
 /// Collective. Returns true if the signs at both ends of a step do not show the changes of
 /// stability of an eigenvalue that is neutral at one of them, and appends these changes.
-bool PairTracer::turns(const Event& event, Trace& trace) const {
+bool PairTracer::appendChanges(const Event& event, Trace& trace) const {
   if (neutral(event.below[0].s, true) == neutral(event.above[0].s, true)) return false;
   const auto below = family_.at(event.low), above = family_.at(event.high);
   if (!below || !above) return false;
@@ -142,8 +142,8 @@ bool PairTracer::turns(const Event& event, Trace& trace) const {
                                            event.isolation);
                            return found ? found->pairs() : std::vector<linalg::DensePair>();
                          }};
-  if (!turnsWithin(step)) return false;
-  auto found = turnOf(step);
+  if (!changesSignWithin(step)) return false;
+  auto found = changesOf(step);
   if (!found) {
     trace.gaps.push_back(notExamined(event.low, event.high, event.below));
     return false;

@@ -47,7 +47,7 @@ class PairTracer {
   struct Approach;
   Trace coalesced(const TraceRequest& request, bool merging) const;
   Trace separate(const TraceRequest& request, std::vector<std::size_t> mate, bool clear) const;
-  bool turns(const Event& event, Trace& trace) const;
+  bool appendChanges(const Event& event, Trace& trace) const;
   std::optional<Trace> traceBy(const PairAt& between, const TraceRequest& request) const;
   std::optional<Trace> traceFromEqual(const TraceRequest& request) const;
   std::optional<PairAt> within(const PairAt& equal, const PairAt& apart, double part,

@@ -227,8 +227,8 @@ class Screening {
                                         ? std::vector<linalg::DensePair>()
                                         : found_;
                            }};
-    if (!turnsWithin(step)) return;
-    auto found = turnOf(step);
+    if (!changesSignWithin(step)) return;
+    auto found = changesOf(step);
     if (!found) return gaps_.push_back(notExamined(low_.friction, high_.friction, below));
     std::erase_if(events_, [&](const Event& event) {  // that of crossing()
       return event.kind == Event::Kind::crossing && event.branch == a.branch;
