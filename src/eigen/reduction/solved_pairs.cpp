@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/reduction/solved_pairs.hpp"
 
+#include <ranges>
+
 #include "algebra/linalg/serialization.hpp"
 #include "algebra/linalg/spread.hpp"
 
@@ -26,7 +28,7 @@ void SolvedPairs::store(const std::vector<PointState>& states, PetscInt basisSiz
 
 std::optional<std::vector<linalg::DensePair>> SolvedPairs::at(const sweep::Parameters& at,
                                                               int set) const {
-  for (const auto& entry : entries_)
+  for (const auto& entry : entries_ | std::views::reverse)  // a point may have been solved again
     if (entry.at == at && entry.set == set) {
       auto pairs = entry.pairs;
       linalg::shareFrom(entry.owner, comm_, pairs, linalg::Vectors::both);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/sweep_solver/journal.hpp"
 
+#include <algorithm>
+
 #include "base/session/events.hpp"
 #include "eigen/modes/serialization.hpp"
 #include "eigen/pencil/serialization.hpp"
@@ -67,8 +69,22 @@ pencil::ComplexModes& Journal::pointAt(std::size_t k) {
 void Journal::serialiseProofs(checkpoint::Archive& archive, std::vector<std::size_t> points) {
   archive.common(points);
   for (const std::size_t k : points) {
-    pencil::serialiseProof(archive, pointAt(k));
+    bool whole = replaced_.contains(k);
+    archive.common(whole);
+    if (whole && archive.reads()) pointAt(k) = {};
+    if (whole)
+      pencil::serialise(archive, pointAt(k));
+    else
+      pencil::serialiseProof(archive, pointAt(k));
     proofs_.insert(k);
+  }
+}
+
+void Journal::replace(const std::vector<std::size_t>& points) {
+  for (std::size_t k = 0; k < plan_.order.size(); ++k) {
+    if (std::ranges::find(points, plan_.order[k]) == points.end()) continue;
+    proofs_.erase(k);
+    replaced_.insert(k);
   }
 }
 

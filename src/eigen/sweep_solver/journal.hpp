@@ -39,6 +39,9 @@ class Journal {
   /// Collective. Records the results since the last entry, if an entry is due: first the free modes
   /// of the interior unknowns, then points and basis, then proofs of points recorded earlier.
   void record(modes::Modes& freeModes, reduction::ReducedProblem* basis);
+  /// Not collective. Announces that these points of the plan have been solved once more: the proofs
+  /// that follow are recorded together with the new results.
+  void replace(const std::vector<std::size_t>& points);
   /// Collective. Saves the finished segments if their cost justifies an entry, so that an
   /// interrupted run need not repeat them.
   void recordFinished();
@@ -58,8 +61,10 @@ class Journal {
   SweepState& state_;
   double begin_;  // s
   bool modesRecorded_ = false, setModesRecorded_ = false;
-  std::size_t serialised_ = 0;    // number of solved points that the checkpoint contains
-  std::set<std::size_t> proofs_;  // points, in the order of the solution, whose proofs it contains
+  std::size_t serialised_ = 0;  // number of solved points that the checkpoint contains
+  // Points by their place in the order of the solution:
+  std::set<std::size_t> proofs_;    // those whose proofs it contains
+  std::set<std::size_t> replaced_;  // those solved once more after they were recorded
 };
 
 }  // namespace squeal::sweep_solver

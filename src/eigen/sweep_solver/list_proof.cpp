@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/sweep_solver/list_proof.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -25,13 +26,12 @@ std::string whyNothing(const reduction::ReducedProblem& reduced) {
 
 }  // namespace
 
-std::vector<std::string> proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
-                                    const modes::Modes& modes, std::vector<ListedPoint> points,
-                                    const ProofRequest& request) {
+void proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
+                const modes::Modes& modes, std::vector<ListedPoint> points,
+                const ProofRequest& request) {
   const MPI_Comm comm = reduced.basis().comm();
   if (const std::string why = whyNothing(reduced); !why.empty()) {
-    printLine(comm, "proof: nothing to prove (" + why + ")");
-    return {};
+    return printLine(comm, "proof: nothing to prove (" + why + ")");
   }
   const auto [factors, rowsOf] = problem.frictionFactors();
   std::map<std::size_t, completeness::ProvedSet> byRange;
@@ -58,28 +58,34 @@ std::vector<std::string> proveLists(const SweepProblem& problem, reduction::Redu
     for (const auto& set : sets)
       for (const auto* list : set.points) stage->printLine(completenessText(*list));
   }
-  std::size_t proved = 0;
-  std::vector<std::string> failures;
-  for (const auto& point : points) {
-    proved += point.list->listIsProved();
-    const auto& found = *point.list->completeness;
-    const std::string at = sweep::parameterText(point.list->at);
-    if (const auto count = found.missing.size(); count > 0)
-      failures.push_back(
-          formatted("%s: the list lacks %zu eigenvalues of the full problem", at.c_str(), count));
-    if (const auto count = found.spurious.size(); count > 0)
-      failures.push_back(
-          formatted("%s: %zu values of the list are not eigenvalues of the full "
-                    "problem",
-                    at.c_str(), count));
-  }
+  const auto proved =
+      std::ranges::count_if(points, [](const auto& point) { return point.list->listIsProved(); });
   const std::string text =
-      formatted("%zu of %zu lists proved to be complete", proved, points.size());
+      formatted("%td of %zu lists proved to be complete", proved, points.size());
   if (stage)
     stage->finish(text + formatted(", basis of %" PetscInt_FMT, reduced.basisSize()));
   else
     printLine(comm, "proof: " + text);
-  return failures;
+}
+
+std::vector<std::string> faultsOf(const pencil::ComplexModes& point) {
+  std::vector<std::string> faults;
+  if (!point.completeness) return faults;
+  const std::string at = sweep::parameterText(point.at);
+  if (const auto count = point.completeness->missing.size(); count > 0)
+    faults.push_back(
+        formatted("%s: the list lacks %zu eigenvalues of the full problem", at.c_str(), count));
+  if (const auto count = point.completeness->spurious.size(); count > 0)
+    faults.push_back(formatted("%s: %zu values of the list are not eigenvalues of the full problem",
+                               at.c_str(), count));
+  return faults;
+}
+
+bool mayLackEigenvalues(const pencil::ComplexModes& point) {
+  return !faultsOf(point).empty() ||
+         (point.completeness && std::ranges::any_of(point.completeness->undecided, [&](Complex s) {
+            return std::abs(s) <= point.bandTop;
+          }));
 }
 
 }  // namespace squeal::sweep_solver

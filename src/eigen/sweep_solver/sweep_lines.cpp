@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/session/stages.hpp"
+#include "base/system/termination.hpp"
+#include "base/system/text.hpp"
 #include "eigen/sweep/parameters.hpp"
+#include "eigen/sweep_solver/critical_modes.hpp"
 
 namespace squeal::sweep_solver {
 namespace {
@@ -52,6 +56,31 @@ std::vector<LineOfSegment> linesOf(const SweepProblem& problem, const SweepPlan&
     found.push_back({std::move(line), plan.places[own].range});
   }
   return found;
+}
+
+std::vector<stability::TrackedLine> trackedLines(SweepProblem& problem,
+                                                 reduction::ReducedProblem& reduced,
+                                                 const std::vector<stability::Line>& lines,
+                                                 const Settings& settings) {
+  const MPI_Comm comm = reduced.basis().comm();
+  Stage stage(comm, "track");
+  const auto progress = [&](const std::string& text) {
+    stage.progress(text);
+    stopIfRequested(comm);
+  };
+  auto tracked = stability::trackLines(reduced, lines, settings.stability, comm, progress);
+  std::size_t branches = 0, stations = 0, criticals = 0;
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    addCriticalModes(problem, reduced, lines[i], settings.sensitivity.wanted, progress, tracked[i]);
+    branches += tracked[i].branches.count;
+    stations += tracked[i].branches.stations.size();
+    criticals += tracked[i].criticals.size();
+  }
+  stage.finish(
+      formatted("%zu branches tracked over %zu frictions, %zu critical frictions, basis of "
+                "%" PetscInt_FMT,
+                branches, stations, criticals, reduced.basisSize()));
+  return tracked;
 }
 
 void keepTrackedLines(std::vector<ModalSegment>& segments) {

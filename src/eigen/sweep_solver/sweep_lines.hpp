@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "eigen/sweep_solver/results.hpp"
+#include "eigen/sweep_solver/settings.hpp"
 #include "eigen/sweep_solver/sweep_plan.hpp"
 
 namespace squeal::sweep_solver {
@@ -20,6 +21,13 @@ struct LineOfSegment {
 /// Returns the lines of a sweep. They borrow the modes of `state`.
 std::vector<LineOfSegment> linesOf(const SweepProblem& problem, const SweepPlan& plan,
                                    const SweepState& state, const SourceOfRange& sourceOf);
+
+/// Collective. Tracks eigenvalues along lines, and returns for each line its branches and critical
+/// frictions with their modes. Throws Interrupted once a stop has been requested.
+std::vector<stability::TrackedLine> trackedLines(SweepProblem& problem,
+                                                 reduction::ReducedProblem& reduced,
+                                                 const std::vector<stability::Line>& lines,
+                                                 const Settings& settings);
 
 /// Moves the tracked lines of segments without results to another segment.
 void keepTrackedLines(std::vector<ModalSegment>& segments);

@@ -18,7 +18,6 @@
 #include "eigen/pencil/modal_damping.hpp"
 #include "eigen/reduction/reduced.hpp"
 #include "eigen/sweep/parameters.hpp"
-#include "eigen/sweep_solver/critical_modes.hpp"
 #include "eigen/sweep_solver/journal.hpp"
 #include "eigen/sweep_solver/list_proof.hpp"
 #include "eigen/sweep_solver/mode_shapes.hpp"
@@ -199,19 +198,7 @@ class SweepSolver {
     for (const auto& batch : plan_.batches) {
       end += batch.size();
       if (end <= state_.solved) continue;  // the checkpoint contains them
-      std::vector<reduction::PointProblem> problems;
-      for (std::size_t i : batch) {
-        problems.push_back(problemOf(i));
-        const pencil::Pencil& all = problems.back().pencil;
-        state_.affine = state_.affine && all.affineCount() == all.terms().size();
-      }
-      solveBatch(batch, problems);
-      for (std::size_t i = 0; i < batch.size(); ++i) {
-        auto& point = pointAt(batch[i]);
-        if (!isSolved(point) || !plan_.places[batch[i]].isOwn) continue;
-        problem_.examine(plan_.places[batch[i]].steadyPoint, problems[i].pencil,
-                         startSpace(problems[i], point), point);
-      }
+      solveAndExamine(batch);
       pointsDone(plan_.own(state_.solved, end));
       state_.solved = end;
       record();
@@ -219,6 +206,23 @@ class SweepSolver {
     }
     if (reduced_)
       for (auto& segment : state_.segments) segment.solves = reduced_->basis().solves();
+  }
+
+  /// Collective. Solves points together, and examines those that have results here.
+  void solveAndExamine(const std::vector<std::size_t>& batch) {
+    std::vector<reduction::PointProblem> problems;
+    for (std::size_t i : batch) {
+      problems.push_back(problemOf(i));
+      const pencil::Pencil& all = problems.back().pencil;
+      state_.affine = state_.affine && all.affineCount() == all.terms().size();
+    }
+    solveBatch(batch, problems);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      auto& point = pointAt(batch[i]);
+      if (!isSolved(point) || !plan_.places[batch[i]].isOwn) continue;
+      problem_.examine(plan_.places[batch[i]].steadyPoint, problems[i].pencil,
+                       startSpace(problems[i], point), point);
+    }
   }
 
   tracking::ProblemSource sourceOf(std::size_t range) const {
@@ -260,40 +264,49 @@ class SweepSolver {
       return printLine(pencil_.comm(),
                        "track: omitted because the terms depend on the steady state; "
                        "-flutter_track on enables it");
-    Stage stage(pencil_.comm(), "track");
-    const auto progress = [&](const std::string& text) {
-      stage.progress(text);
-      stopIfRequested(pencil_.comm());
-    };
-    auto tracked = stability::trackLines(*reduced_, all, settings, pencil_.comm(), progress);
-    std::size_t branches = 0, stations = 0, criticals = 0;
-    for (std::size_t i = 0; i < tracked.size(); ++i) {
-      addCriticalModes(problem_, *reduced_, all[i], request_.settings.sensitivity.wanted, progress,
-                       tracked[i]);
-      branches += tracked[i].branches.count;
-      stations += tracked[i].branches.stations.size();
-      criticals += tracked[i].criticals.size();
+    auto tracked = trackedLines(problem_, *reduced_, all, request_.settings);
+    for (std::size_t i = 0; i < tracked.size(); ++i)
       state_.segments[begins[i]].trackedLines.push_back(std::move(tracked[i]));
-    }
-    stage.finish(
-        formatted("%zu branches tracked over %zu frictions, %zu critical frictions, basis of "
-                  "%" PetscInt_FMT,
-                  branches, stations, criticals, reduced_->basisSize()));
   }
 
-  /// Collective. Proves that the lists of the points are complete, if that is wanted.
+  /// Collective. Proves that the lists of the points are complete, if that is wanted. Points whose
+  /// lists seem to be wrong are solved once more.
   void provePoints() {
     if (!reduced_ || !request_.settings.proof.wanted) return;
     stopIfRequested(pencil_.comm());
-    std::vector<ListedPoint> points;
+    std::vector<std::size_t> points;
     for (std::size_t i = 0; i < plan_.points.size(); ++i)
-      if (isSolved(pointAt(i)) && plan_.places[i].isOwn)
-        points.push_back({plan_.places[i].range, problemOf(i), &pointAt(i)});
-    auto failures = proveLists(problem_, *reduced_, freeModes(), std::move(points),
-                               {.settings = request_.settings.proof,
-                                .modes = *request_.settings.modes,
-                                .afterPoints = [this] { record(); }});
-    std::ranges::move(failures, std::back_inserter(state_.failures));
+      if (isSolved(pointAt(i)) && plan_.places[i].isOwn) points.push_back(i);
+    proveListsOf(points);
+    std::erase_if(points, [this](std::size_t i) { return !mayLackEigenvalues(pointAt(i)); });
+    if (!points.empty()) correctLists(points);
+    for (const std::size_t i : points)
+      std::ranges::move(faultsOf(pointAt(i)), std::back_inserter(state_.failures));
+  }
+
+  /// Collective. Proves that the lists of these points are complete.
+  void proveListsOf(const std::vector<std::size_t>& points) {
+    std::vector<ListedPoint> listed;
+    for (const std::size_t i : points)
+      listed.push_back({plan_.places[i].range, problemOf(i), &pointAt(i)});
+    proveLists(problem_, *reduced_, freeModes(), std::move(listed),
+               {.settings = request_.settings.proof,
+                .modes = *request_.settings.modes,
+                .afterPoints = [this] { record(); }});
+  }
+
+  /// Collective. Solves these points again, in the basis that the proof has extended, and proves
+  /// the new lists. All eigenvalues are then tracked again.
+  void correctLists(const std::vector<std::size_t>& points) {
+    printLine(pencil_.comm(),
+              formatted("proof: %zu points are solved again, as their lists lack eigenvalues or "
+                        "have wrong ones",
+                        points.size()));
+    solveAndExamine(points);
+    journal_.replace(points);
+    proveListsOf(points);
+    for (auto& segment : state_.segments) segment.trackedLines.clear();
+    trackPoints();
   }
 
   /// Collective. Solves points together, or throws Error.

@@ -121,6 +121,42 @@ TEST(Journal, RestoresWhatItHasRecorded) {
   expectSolved(sweep, again, 4);
 }
 
+// A proof of a point that was solved once more comes back with the new list and all else.
+TEST(Journal, RestoresPointsThatWereSolvedAgain) {
+  const Sweep sweep;
+  SweepState state = sweep.empty();
+  modes::Modes free = sweep.layers.modes();
+  Checkpoint first = sweep.opened(false);
+  Journal writer(first, "sweep", sweep.problem, sweep.plan, state);
+  sweep.solve(state, 4);
+  const auto prove = [](pencil::ComplexModes& point, int count) {
+    point.completeness.emplace().count = count;
+  };
+  auto& points = state.segments[0].points;
+  writer.record(free, nullptr);
+  for (auto& point : points) prove(point, 2);
+  writer.record(free, nullptr);
+  points[1].eigenvalues.push_back({.s = {0, 7}, .error = 0.25});
+  points[1].bandTop = 8;
+  writer.replace({1});
+  prove(points[1], 4);
+  writer.record(free, nullptr);
+
+  Checkpoint second = sweep.opened(true);
+  SweepState restored = sweep.empty();
+  Journal reader(second, "sweep", sweep.problem, sweep.plan, restored);
+  (void)reader.restoredModes();
+  reader.restorePoints(nullptr);
+  const auto& found = restored.segments[0].points;
+  EXPECT_EQ(found[0].completeness->count, 2);
+  EXPECT_EQ(found[0].eigenvalues.size(), 1U);
+  EXPECT_EQ(found[1].completeness->count, 4);
+  ASSERT_EQ(found[1].eigenvalues.size(), 2U);
+  EXPECT_EQ(found[1].eigenvalues[1].s, Complex(0, 7));
+  EXPECT_EQ(found[1].bandTop, 8);
+  EXPECT_FALSE(restored.segments[1].points[0].completeness);
+}
+
 // A sweep that is finished comes back without its parts, under its own name only.
 TEST(Journal, RestoresFinishedSegments) {
   const Sweep sweep;
