@@ -61,9 +61,10 @@ ComplexMatrix multiplied(const char* sideOfX, PetscBLASInt rows, const ComplexMa
 
 ComplexMatrix product(const DenseMatrix& a, const ComplexMatrix& x, bool transposed) {
   const PetscInt m = x.rows(), count = x.columns();
-  ComplexMatrix result(m, count);
-  if (a.empty() || count == 0) return result;
-  ensure(a.rows() == m && a.columns() == m, "a square matrix has the order of its vectors");
+  if (a.empty()) return ComplexMatrix(m, count);
+  ComplexMatrix result(transposed ? a.columns() : a.rows(), count);
+  if (count == 0) return result;
+  ensure((transposed ? a.rows() : a.columns()) == m, "a matrix has a column for each row of X");
   DenseMatrix parts(m, 2 * count);  // all real parts, then all imaginary ones
   for (PetscInt j = 0; j < count; ++j)
     for (PetscInt i = 0; i < m; ++i) {
@@ -72,7 +73,7 @@ ComplexMatrix product(const DenseMatrix& a, const ComplexMatrix& x, bool transpo
     }
   const DenseMatrix made = transposed ? transposedProduct(a, parts) : product(a, parts);
   for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt i = 0; i < m; ++i) result(i, j) = {made(i, j), made(i, count + j)};
+    for (PetscInt i = 0; i < result.rows(); ++i) result(i, j) = {made(i, j), made(i, count + j)};
   return result;
 }
 

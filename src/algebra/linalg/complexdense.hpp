@@ -6,7 +6,8 @@
 
 namespace squeal::linalg {
 
-/// Returns A X, or Aᵀ X if `transposed`, for a real square matrix A; zero if A is empty.
+/// Returns A X, or Aᵀ X if `transposed`, for a real matrix A. An empty A stands for a square matrix
+/// of zeros.
 ComplexMatrix product(const DenseMatrix& a, const ComplexMatrix& x, bool transposed = false);
 /// Returns X C.
 ComplexMatrix product(const ComplexMatrix& x, const ComplexMatrix& c);

@@ -31,19 +31,6 @@ bool even(const KeptProblem& problem) {
          std::ranges::all_of(problem.fromLeftOut, hasNoOddPower);
 }
 
-/// Returns factor · A as a complex matrix.
-ComplexMatrix complexCopy(const linalg::DenseView& a, double factor) {
-  ComplexMatrix result(a.rows(), a.columns());
-  const auto entries = a.entries();
-  for (std::size_t i = 0; i < entries.size(); ++i) result.data()[i] = factor * entries[i];
-  return result;
-}
-
-void add(ComplexMatrix& sum, const ComplexMatrix& more) {
-  if (sum.empty()) sum = ComplexMatrix(more.rows(), more.columns());
-  for (std::size_t i = 0; i < sum.size(); ++i) sum.data()[i] += more.data()[i];
-}
-
 }  // namespace
 
 /// L(z) = L0 + z L1, real, in coordinates of V divided by `scale`.
@@ -81,9 +68,10 @@ DiagonalForm::Pencil::Pencil(const Coefficients& matrices, double top, bool squa
   }
 }
 
-/// X and Y with the coordinates of V: rows of q and of p = z q, and columns of the equations of P.
+/// X and Y with the coordinates of V, stored as real numbers: rows of q and of p = z q, and columns
+/// of the equations of P.
 struct DiagonalForm::Vectors {
-  ComplexMatrix q, p, left;  // N × size, N × size or empty, size × N
+  DenseMatrix q, p, left;  // N × size, N × size or empty, size × N
 };
 
 DiagonalForm::DiagonalForm(const KeptProblem& problem, double top)
@@ -97,9 +85,9 @@ DiagonalForm::DiagonalForm(const KeptProblem& problem, double top)
 
 namespace {
 
-/// Returns approximate eigenvectors, as columns of length 1. With `perturbed`, those of a matrix
-/// within round-off, whose eigenvalues are distinct.
-ComplexMatrix eigenvectors(DenseMatrix a, bool perturbed) {
+/// Returns approximate eigenvectors of length 1, stored as real numbers. With `perturbed`, those of
+/// a matrix within round-off, whose eigenvalues are distinct.
+std::pair<DenseMatrix, ConjugatePairs> eigenvectors(DenseMatrix a, bool perturbed) {
   const PetscInt n = a.rows();
   if (perturbed) {
     const double size = 1e-14 * quickBound(a);
@@ -109,12 +97,19 @@ ComplexMatrix eigenvectors(DenseMatrix a, bool perturbed) {
   const auto pairs =
       linalg::standard(std::move(a), linalg::Vectors::right, [](Complex) { return true; });
   ensure(std::ssize(pairs) == n, "a matrix has as many eigenvalues as rows");
-  ComplexMatrix x(n, n);
+  DenseMatrix x(n, n);
+  ConjugatePairs members(n, Member::real);
   for (PetscInt j = 0; j < n; ++j) {
-    const double size = length(pairs[j].right);
-    for (PetscInt i = 0; i < n; ++i) x(i, j) = pairs[j].right[i] / size;
+    const auto& [value, vector, left] = pairs[j];
+    const double size = length(vector);
+    for (PetscInt i = 0; i < n; ++i) x(i, j) = vector[i].real() / size;
+    if (value.imag() == 0) continue;
+    ensure(j + 1 < n && pairs[j + 1].value == std::conj(value), "conjugates follow each other");
+    for (PetscInt i = 0; i < n; ++i) x(i, j + 1) = vector[i].imag() / size;
+    members[j++] = Member::first;
+    members[j] = Member::second;
   }
-  return x;
+  return {std::move(x), std::move(members)};
 }
 
 }  // namespace
@@ -128,7 +123,9 @@ DiagonalForm::Vectors DiagonalForm::diagonalise(const Pencil& pencil) {
   lu.solve(quotient);
   Vectors vectors;
   for (const bool perturbed : {false, true}) {
-    vectors = measure(pencil, atTop, eigenvectors(quotient, perturbed));
+    auto [stored, members] = eigenvectors(quotient, perturbed);
+    pairs_ = std::move(members);
+    vectors = measure(pencil, atTop, stored);
     regular_ = deviation(1) < smallDeviation;
     if (regular_) break;
   }
@@ -137,17 +134,19 @@ DiagonalForm::Vectors DiagonalForm::diagonalise(const Pencil& pencil) {
 
 /// Sets ν and the bounds of Δ for eigenvectors X.
 DiagonalForm::Vectors DiagonalForm::measure(const Pencil& pencil, const DenseMatrix& atTop,
-                                            ComplexMatrix x) {
-  const PetscInt n = x.rows(), order = std::ssize(pencil.scale);
+                                            const DenseMatrix& stored) {
+  const PetscInt n = stored.rows(), order = std::ssize(pencil.scale);
   eta0_ = eta1_ = std::numeric_limits<double>::infinity();
-  const auto atTopX = linalg::product(atTop, x), l1X = linalg::product(pencil.l1, x);
-  const linalg::Lu<Complex> inverse(atTopX);
+  const auto atTopX = linalg::product(atTop, stored), l1X = linalg::product(pencil.l1, stored);
+  const linalg::Lu<double> inverse(atTopX);
   if (!(inverse.pivotRatio() > 0)) return {};
-  ComplexMatrix y(n, n);
-  for (PetscInt j = 0; j < n; ++j) y(j, j) = 1;
-  inverse.solve(y);
+  DenseMatrix inverted(n, n);
+  for (PetscInt j = 0; j < n; ++j) inverted(j, j) = 1;
+  inverse.solve(inverted);
   // Y L(1) X − 1,   Y L1 X − diag(ν)
-  ComplexMatrix unit = linalg::product(y, atTopX), slope = linalg::product(y, l1X);
+  ComplexMatrix unit = complexForm(linalg::product(inverted, atTopX), pairs_),
+                slope = complexForm(linalg::product(inverted, l1X), pairs_),
+                x = complexColumns(stored, pairs_), y = complexRows(inverted, pairs_);
   const std::array end{y.columns()};
   const auto lengths = rowLengths(y, end);
   std::vector<double> balance(n);  // X and Y of the same lengths
@@ -167,16 +166,16 @@ DiagonalForm::Vectors DiagonalForm::measure(const Pencil& pencil, const DenseMat
   const double roundOff = n * epsilon * quickBound(x) * quickBound(y);
   eta0_ = quickBound(unit) + roundOff * quickBound(atTop);
   eta1_ = quickBound(slope) + roundOff * quickBound(pencil.l1);
-  Vectors vectors{ComplexMatrix(order, n), ComplexMatrix(squared_ ? 0 : order, squared_ ? 0 : n),
-                  ComplexMatrix(n, order)};
+  Vectors vectors{DenseMatrix(order, n), DenseMatrix(squared_ ? 0 : order, squared_ ? 0 : n),
+                  DenseMatrix(n, order)};
   for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < order; ++i) {
-      vectors.q(i, j) = pencil.scale[i] * x(i, j);
-      if (!squared_) vectors.p(i, j) = pencil.scale[i] * x(order + i, j);
-      vectors.left(j, i) = pencil.scale[i] * y(j, i);
+      vectors.q(i, j) = pencil.scale[i] * balance[j] * stored(i, j);
+      if (!squared_) vectors.p(i, j) = pencil.scale[i] * balance[j] * stored(order + i, j);
+      vectors.left(j, i) = pencil.scale[i] / balance[j] * inverted(j, i);
     }
-  normOfX_ = quickBound(vectors.q);
-  normOfY_ = quickBound(vectors.left);
+  normOfX_ = quickBound(complexColumns(vectors.q, pairs_));
+  normOfY_ = quickBound(complexRows(vectors.left, pairs_));
   return vectors;
 }
 
@@ -270,17 +269,18 @@ void DiagonalForm::setCouplings(const KeptProblem& problem, const Vectors& vecto
   errorFrom_ = errors(problem.fromLeftOut, top_);
   if (rowEnds_.empty() || columnEnds_.empty()) return;
   // a(z) = F_0 X + z top² F_2 X   or   [F_0, top F_1] X + z [0, top² F_2] X
-  a_.assign(2, ComplexMatrix(rowEnds_.back(), size()));
+  a_.assign(2, DenseMatrix(rowEnds_.back(), size()));
   b_.clear();
   for (int power = 0; power < 3; ++power) {
     const double unit = std::pow(top_, power);
     if (!to[power].empty())
-      add(a_[power / 2], linalg::product(complexCopy(to[power], unit),
-                                         power > 0 && !squared_ ? vectors.p : vectors.q));
+      linalg::multiplyAdd(to[power], power > 0 && !squared_ ? vectors.p : vectors.q, a_[power / 2],
+                          unit);
     if (squared_ && power == 1) continue;
-    b_.push_back(from[power].empty()
-                     ? ComplexMatrix()
-                     : linalg::product(vectors.left, complexCopy(from[power], unit)));
+    auto& b = b_.emplace_back();
+    if (from[power].empty()) continue;
+    b = complexRows(linalg::product(vectors.left, from[power]), pairs_);
+    for (auto& entry : b.entries()) entry *= unit;
   }
   if (linalg::isZero(to[0]) && (squared_ || linalg::isZero(to[1]))) {
     // a(z) = z a_1: b takes the factor z, and a is constant.
@@ -288,7 +288,8 @@ void DiagonalForm::setCouplings(const KeptProblem& problem, const Vectors& vecto
     b_.insert(b_.begin(), ComplexMatrix());
   }
   while (b_.size() > 1 && b_.back().empty()) b_.pop_back();
-  for (const auto& matrix : a_) aLengths_.push_back(columnLengths(matrix, rowEnds_));
+  for (const auto& matrix : a_)
+    aLengths_.push_back(columnLengths(complexColumns(matrix, pairs_), rowEnds_));
   for (const auto& matrix : b_)
     bLengths_.push_back(matrix.empty() ? std::vector<double>(size())
                                        : rowLengths(matrix, columnEnds_));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "algebra/linalg/complexdense.hpp"
+#include "eigen/proof/conjugate_pairs.hpp"
 #include "eigen/proof/kept.hpp"
 
 namespace squeal::proof {
@@ -38,9 +39,11 @@ class DiagonalForm {
   /// Returns the s of a z, with Im s ≥ 0 if squared.
   Complex outOfPlane(Complex z) const;
 
-  /// The coefficients of the polynomials: of a (rows × size, at most two of them) and of b
-  /// (size × columns). An empty coefficient is zero.
-  const std::vector<linalg::ComplexMatrix>& a() const { return a_; }
+  /// Returns which of the ν, with their vectors, form pairs of conjugates.
+  const ConjugatePairs& pairs() const { return pairs_; }
+  /// The coefficients of the polynomials: of a (rows × size, at most two of them, stored as real
+  /// numbers with pairs()) and of b (size × columns). An empty coefficient is zero.
+  const std::vector<linalg::DenseMatrix>& a() const { return a_; }
   const std::vector<linalg::ComplexMatrix>& b() const { return b_; }
   /// The lengths of the columns of a and of the rows of b, [coefficient][index of ν].
   const std::vector<std::vector<double>>& aLengths() const { return aLengths_; }
@@ -64,14 +67,17 @@ class DiagonalForm {
   struct Pencil;
   struct Vectors;
   Vectors diagonalise(const Pencil& pencil);
-  Vectors measure(const Pencil& pencil, const linalg::DenseMatrix& atTop, linalg::ComplexMatrix x);
+  Vectors measure(const Pencil& pencil, const linalg::DenseMatrix& atTop,
+                  const linalg::DenseMatrix& stored);
   void setCouplings(const KeptProblem& problem, const Vectors& vectors);
   double error(const std::array<double, 3>& byPower, double reach) const;
 
   double top_;
   bool squared_ = false, regular_ = false;
   std::vector<Complex> nu_;
-  std::vector<linalg::ComplexMatrix> a_, b_;
+  ConjugatePairs pairs_;
+  std::vector<linalg::DenseMatrix> a_;
+  std::vector<linalg::ComplexMatrix> b_;
   std::vector<std::vector<double>> aLengths_, bLengths_;
   std::vector<PetscInt> rowEnds_, columnEnds_;
   std::array<double, 3> errorTo_ = {}, errorFrom_ = {};  // [power of s / top]

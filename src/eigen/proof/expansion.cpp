@@ -67,21 +67,26 @@ Expansion::Expansion(const DiagonalForm& form, Complex centre, int order, PetscI
     : form_(form), centre_(centre), order_(order), omitted_(omitted) {
   const PetscInt size = form.size();
   const auto nu = form.nu();
+  aSizes_ = shifted(form.aLengths(), std::abs(centre));
   std::vector<Complex> inverse(size);
   for (PetscInt k = 0; k < size; ++k) {
     const Complex denominator = 1.0 + (centre - 1.0) * nu[k];
     denominators_.push_back(std::abs(denominator));
     inverse[k] = k == omitted ? 0.0 : 1.0 / denominator;
   }
-  const auto a = shifted(form.a(), centre), b = shifted(form.b(), centre);
-  for (const auto& matrix : a) aLengths_.push_back(columnLengths(matrix, form.rowEnds()));
+  const auto& a = form.a();
+  const auto b = shifted(form.b(), centre);
+  std::vector<ComplexMatrix> columns;
+  for (const auto& matrix : a) columns.push_back(complexColumns(matrix, form.pairs()));
+  for (const auto& matrix : shifted(columns, centre))
+    aLengths_.push_back(columnLengths(matrix, form.rowEnds()));
   for (const auto& matrix : b)
     bLengths_.push_back(matrix.empty() ? std::vector<double>(size)
                                        : rowLengths(matrix, form.columnEnds()));
   lastLengths_.assign(size, 0);
   if (a.empty()) return;
   // (D + h diag(ν)) Σ hʲ G_j = Σ hʲ b_j:   G_j = D⁻¹ (b_j − diag(ν) G_(j−1)),
-  // T_j = a_0 G_j + a_1 G_(j−1)
+  // T_j = a_0 G_j + a_1 (z0 G_j + G_(j−1))   with a_0 and a_1 of z, not of h
   ComplexMatrix last;
   for (int j = 0; j <= order; ++j) {
     ComplexMatrix next(size, form.columnEnds().back());
@@ -91,9 +96,11 @@ Expansion::Expansion(const DiagonalForm& form, Complex centre, int order, PetscI
         if (j > 0) value -= nu[k] * last(k, column);
         next(k, column) = inverse[k] * value;
       }
-    auto t = linalg::product(a[0], next);
-    if (a.size() > 1 && j > 0) {
-      const auto more = linalg::product(a[1], last);
+    auto t = linalg::product(a[0], storedRows(next, form.pairs()));
+    if (a.size() > 1) {
+      if (last.empty()) last = ComplexMatrix(next.rows(), next.columns());
+      for (std::size_t i = 0; i < last.size(); ++i) last.data()[i] += centre * next.data()[i];
+      const auto more = linalg::product(a[1], storedRows(std::move(last), form.pairs()));
       for (std::size_t i = 0; i < t.size(); ++i) t.data()[i] += more.data()[i];
     }
     norms_.push_back(blockNorm(t, form.rowEnds(), form.columnEnds()));
@@ -111,6 +118,7 @@ Expansion::Expansion(const DiagonalForm& form, Complex centre, const FarPart& fa
       norms_{far.bound},
       aLengths_(shifted(form.aLengths(), std::abs(centre))),
       bLengths_(shifted(form.bLengths(), std::abs(centre))),
+      aSizes_(aLengths_),
       lastLengths_(form.size()) {
   for (const auto nu : form.nu()) denominators_.push_back(std::abs(1.0 + (centre - 1.0) * nu));
 }
@@ -153,12 +161,13 @@ double Expansion::sum(double radius, std::vector<double> inverses) const {
     power *= radius;
   }
   if (far_) power = 1;  // the bound does not grow with the radius
-  double aSquares = 0, bSquares = 0, largest = 0, rest = 0;
+  double aSquares = 0, sizeSquares = 0, bSquares = 0, largest = 0, rest = 0;
   for (PetscInt k = 0; k < form_.size(); ++k) {
     const double a = at(aLengths_, k), b = at(bLengths_, k), inverse = inverses[k];
     if (!std::isfinite(inverse)) return infinite;
     largest = std::max(largest, inverse);
     aSquares += a * a * inverse * inverse;
+    sizeSquares += std::pow(at(aSizes_, k) * inverse, 2);
     bSquares += b * b * inverse * inverse;
     if (far_ && far_->poles[k]) continue;
     if (k == omitted_) {
@@ -185,8 +194,8 @@ double Expansion::sum(double radius, std::vector<double> inverses) const {
                to = form_.errorTo(reach) * form_.normOfX(),
                from = form_.errorFrom(reach) * form_.normOfY();
   if (!(series > 0.5)) return infinite;
-  return total + ((deviation + roundOff) * aNorm * bNorm + to * bNorm + from * aNorm +
-                  to * from * largest) /
+  return total + (deviation * aNorm * bNorm + roundOff * std::sqrt(sizeSquares) * bNorm +
+                  to * bNorm + from * aNorm + to * from * largest) /
                      series;
 }
 

@@ -49,7 +49,8 @@ class Expansion {
   std::vector<double> norms_;                             // ‖T_j‖
   std::vector<double> denominators_;                      // |D_k|
   std::vector<std::vector<double>> aLengths_, bLengths_;  // [j][k] of the Taylor coefficients
-  std::vector<double> lastLengths_;  // [k] of row k of the last coefficient of D⁻¹ b
+  std::vector<std::vector<double>> aSizes_;  // [j][k] bounds of the terms whose sums are a
+  std::vector<double> lastLengths_;          // [k] of row k of the last coefficient of D⁻¹ b
 };
 
 }  // namespace squeal::proof
