@@ -171,11 +171,15 @@ namespace {
 /// Returns false for the mirror image of an eigenvalue with Im s > 0.
 bool upper(const Enclosure& enclosure) { return enclosure.s.imag() >= -enclosure.inner; }
 
-/// Returns the enclosure nearest to s among those of eigenvalues with Im s ≥ 0; null if none.
-const Enclosure* nearestTo(Complex s, const std::vector<Enclosure>& enclosures) {
+/// Returns the enclosure nearest to s among those of eigenvalues with Im s ≥ 0 that are not in
+/// `taken`; null if none.
+template <class Taken>
+const Enclosure* nearestTo(Complex s, const std::vector<Enclosure>& enclosures,
+                           const Taken& taken) {
   const Enclosure* nearest = nullptr;
   for (const auto& disc : enclosures)
-    if (upper(disc) && (!nearest || std::abs(s - disc.s) < std::abs(s - nearest->s)))
+    if (upper(disc) && !taken(disc) &&
+        (!nearest || std::abs(s - disc.s) < std::abs(s - nearest->s)))
       nearest = &disc;
   return nearest;
 }
@@ -190,11 +194,18 @@ JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& en
     auto& [agreement, radius] = judged.entries[i];
     const auto s = list[i];
     const bool inside = std::abs(s) < region.top && s.real() > -region.left;
-    const auto* disc = nearestTo(s, enclosures);
+    const auto* disc = nearestTo(s, enclosures, [](const auto&) { return false; });
     agreement = inside ? Agreement::wrong : Agreement::outside;
     if (!disc) continue;
     if (disc->isolation != Isolation::single) {
-      closest.try_emplace(disc, i);
+      if (!closest.try_emplace(disc, i).second) {
+        // Of equal eigenvalues, each takes one entry, in any order.
+        const auto* other = nearestTo(s, enclosures, [&](const Enclosure& one) {
+          return one.isolation == Isolation::single || closest.contains(&one) ||
+                 std::abs(one.s - disc->s) > std::abs(s - disc->s) + tolerance;
+        });
+        if (other) closest.try_emplace(other, i);
+      }
       if (inside) agreement = Agreement::unproved;
       continue;
     }

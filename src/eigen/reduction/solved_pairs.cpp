@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/reduction/solved_pairs.hpp"
 
+#include <algorithm>
 #include <ranges>
 
 #include "algebra/linalg/serialization.hpp"
@@ -14,7 +15,10 @@ void SolvedPairs::store(const std::vector<PointState>& states, PetscInt basisSiz
   for (const auto& state : states) {
     const auto& [band, guard, improved] = state.solution.spectrum;
     const double bytes = 2.0 * sizeof(Complex) * basisSize * (band.size() + guard.size());
-    if (bytes_ + bytes > most) continue;
+    const bool isRepeated = std::ranges::any_of(entries_, [&](const Entry& entry) {
+      return entry.at == state.point->at && entry.set == state.point->set;
+    });
+    if (bytes_ + bytes > most && !isRepeated) continue;  // at() must not return the older pairs
     bytes_ += bytes;
     Entry& entry = entries_.emplace_back(Entry{.at = state.point->at,
                                                .set = state.point->set,

@@ -64,7 +64,7 @@ class Journal {
   std::size_t serialised_ = 0;  // number of solved points that the checkpoint contains
   // Points by their place in the order of the solution:
   std::set<std::size_t> proofs_;    // those whose proofs it contains
-  std::set<std::size_t> replaced_;  // those solved once more after they were recorded
+  std::set<std::size_t> replaced_;  // those that have been solved once more
 };
 
 }  // namespace squeal::sweep_solver

@@ -81,11 +81,11 @@ std::vector<std::string> faultsOf(const pencil::ComplexModes& point) {
   return faults;
 }
 
-bool mayLackEigenvalues(const pencil::ComplexModes& point) {
+bool mayLackEigenvalues(const pencil::ComplexModes& point, pencil::WatchedBand band) {
+  band.top = point.bandTop;
   return !faultsOf(point).empty() ||
-         (point.completeness && std::ranges::any_of(point.completeness->undecided, [&](Complex s) {
-            return std::abs(s) <= point.bandTop;
-          }));
+         (point.completeness && std::ranges::any_of(point.completeness->undecided,
+                                                    [&](Complex s) { return band.contains(s); }));
 }
 
 }  // namespace squeal::sweep_solver

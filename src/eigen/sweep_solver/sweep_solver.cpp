@@ -14,13 +14,13 @@
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
-#include "eigen/direct/direct.hpp"
 #include "eigen/pencil/modal_damping.hpp"
 #include "eigen/reduction/reduced.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "eigen/sweep_solver/journal.hpp"
 #include "eigen/sweep_solver/list_proof.hpp"
 #include "eigen/sweep_solver/mode_shapes.hpp"
+#include "eigen/sweep_solver/point_solution.hpp"
 #include "eigen/sweep_solver/point_text.hpp"
 #include "eigen/sweep_solver/set_modes.hpp"
 #include "eigen/sweep_solver/sweep_lines.hpp"
@@ -148,6 +148,7 @@ class SweepSolver {
     reduced_ = std::make_unique<reduction::ReducedProblem>(
         pencil_, *problem_.system, modes, *request_.settings.reduction, problem_.substructure);
     reduced_->afterEachRound([this] {
+      if (isRepeating_) return;  // a resumed run may repeat other points
       record();
       stopIfRequested(pencil_.comm());
     });
@@ -278,7 +279,9 @@ class SweepSolver {
     for (std::size_t i = 0; i < plan_.points.size(); ++i)
       if (isSolved(pointAt(i)) && plan_.places[i].isOwn) points.push_back(i);
     proveListsOf(points);
-    std::erase_if(points, [this](std::size_t i) { return !mayLackEigenvalues(pointAt(i)); });
+    std::erase_if(points, [this](std::size_t i) {
+      return !mayLackEigenvalues(pointAt(i), reduced_->band());
+    });
     if (!points.empty()) correctLists(points);
     for (const std::size_t i : points)
       std::ranges::move(faultsOf(pointAt(i)), std::back_inserter(state_.failures));
@@ -299,27 +302,22 @@ class SweepSolver {
   /// the new lists. All eigenvalues are then tracked again.
   void correctLists(const std::vector<std::size_t>& points) {
     printLine(pencil_.comm(),
-              formatted("proof: %zu points are solved again, as their lists lack eigenvalues or "
-                        "have wrong ones",
-                        points.size()));
-    solveAndExamine(points);
+              formatted("proof: %zu points with doubtful lists are solved again", points.size()));
+    for (const auto& batch : plan_.batches) {
+      const auto some = commonPoints(batch, points);
+      if (some.empty()) continue;
+      std::vector<pencil::ComplexModes*> modes;
+      for (const std::size_t i : some) modes.push_back(&pointAt(i));
+      isRepeating_ = true;
+      const std::string failure = solveAgain(modes, [&] { solveAndExamine(some); });
+      isRepeating_ = false;
+      if (!failure.empty()) state_.failures.push_back(failure);
+      stopIfRequested(pencil_.comm());
+    }
     journal_.replace(points);
     proveListsOf(points);
     for (auto& segment : state_.segments) segment.trackedLines.clear();
     trackPoints();
-  }
-
-  /// Collective. Solves points together, or throws Error.
-  std::vector<pencil::ComplexModes> solved(const std::vector<reduction::PointProblem>& problems) {
-    std::vector<pencil::ComplexModes> points;
-    if (reduced_)
-      points = reduced_->solve(problems, problem_.trial);
-    else
-      for (const auto& problem : problems)
-        points.push_back(direct::solveDirect(problem.pencil, problem.at, problem_.trial,
-                                             *request_.settings.direct));
-    for (const auto& point : points) requireFiniteEigenvalues(point);
-    return points;
   }
 
   void recordFailure(std::size_t i, const std::string& what) {
@@ -333,7 +331,8 @@ class SweepSolver {
   void solveSingle(std::size_t i, const reduction::PointProblem& problem) try {
     std::vector<reduction::PointProblem> single;
     single.push_back({problem.at, problem.pencil.with({}), problem.set});
-    pointAt(i) = std::move(solved(single).front());
+    pointAt(i) =
+        std::move(solvedPoints(reduced_.get(), single, problem_.trial, request_.settings).front());
   } catch (const Error& error) {
     recordFailure(i, error.what());
   }
@@ -344,7 +343,7 @@ class SweepSolver {
                   const std::vector<reduction::PointProblem>& problems) {
     Stage stage(pencil_.comm(), "flutter");
     try {
-      auto points = solved(problems);
+      auto points = solvedPoints(reduced_.get(), problems, problem_.trial, request_.settings);
       for (std::size_t i = 0; i < batch.size(); ++i) pointAt(batch[i]) = std::move(points[i]);
     } catch (const Error& error) {
       if (plan_.points.size() == 1) throw;
@@ -388,6 +387,7 @@ class SweepSolver {
   std::optional<linalg::ReadColumns> leftColumns_;  // of these modes
   modes::Modes interiorModes_;                      // if several active sets share the basis
   std::unique_ptr<reduction::ReducedProblem> reduced_;
+  bool isRepeating_ = false;  // points that the proof has found to be wrong
 };
 
 }  // namespace

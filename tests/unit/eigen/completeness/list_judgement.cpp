@@ -120,4 +120,13 @@ TEST(ListJudgement, WithoutTheNumberNothingIsSpurious) {
   EXPECT_TRUE(found.completeness->spurious.empty());
 }
 
+// Two equal eigenvalues, whose discs are not isolated, take the two entries, although both entries
+// are nearer to the same one.
+TEST(ListJudgement, EqualEigenvaluesTakeOneEntryEach) {
+  std::vector<Enclosure> discs{disc({0, 50}), disc({0, 50 + 1e-9})};
+  for (auto& one : discs) one.isolation = Isolation::neighbour;
+  EXPECT_TRUE(judged({{0, 50 + 1e-6}, {0, 50 + 1.1e-6}}, discs).completeness->undecided.empty());
+  EXPECT_EQ(judged({{0, 50 + 1e-6}}, discs).completeness->undecided.size(), 1U);
+}
+
 }  // namespace
