@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/factor/symmetric_solver.hpp"
+#include "algebra/linalg/block.hpp"
+#include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/system/error.hpp"
 
@@ -25,6 +28,52 @@ double lowerBound(Mat matrix, Mat energy) {
   PetscReal bound = 0;
   check(VecMax(largest, nullptr, &bound));
   return bound;
+}
+
+/// Collective. Returns this rank's rows of a few columns that look random.
+linalg::Block startColumns(Mat matrix) {
+  constexpr PetscInt few = 6;
+  PetscInt first = 0, end = 0;
+  check(MatGetOwnershipRange(matrix, &first, &end));
+  linalg::Block columns(end - first, few);
+  for (PetscInt j = 0; j < few; ++j)
+    for (PetscInt i = first; i < end; ++i) columns(i - first, j) = std::sin(1.7 * i * (j + 1) + j);
+  return columns;
+}
+
+/// Collective. Returns the largest |xᵀ A y| / √(xᵀ H x yᵀ H y) for a symmetric or antisymmetric A
+/// on a few directions found by subspace iteration, given the factor of H. It is at most the
+/// largest one of all directions, and usually near it.
+double estimate(Mat matrix, factor::MumpsFactor& energy) {
+  constexpr int steps = 12;
+  constexpr double independent = 1e-12;
+  const MPI_Comm comm = commOf(matrix);
+  linalg::Block columns = startColumns(matrix);
+  double largest = 0;
+  for (int step = 0; step < steps; ++step) {
+    // The next columns are H⁻¹ A x. Their Gram matrix in H takes no product with H.
+    linalg::Block forces(columns.rows());
+    linalg::appendProduct(matrix, columns, forces);
+    energy.solve(forces.data(), columns.data(), forces.columns());
+    linalg::DenseMatrix gram =
+        linalg::symmetricPart(linalg::transposedProduct(comm, columns, forces));
+    const auto values = linalg::symmetricEigen(gram);
+    if (!(values.back() > 0)) return largest;
+    linalg::DenseMatrix kept(gram.rows());
+    for (PetscInt j = 0; j < gram.columns(); ++j) {
+      if (!(values[j] > independent * values.back())) continue;
+      for (double& entry : gram.column(j)) entry /= std::sqrt(values[j]);
+      kept.append(gram.column(j));
+    }
+    columns = linalg::product(columns, kept);
+    linalg::Block products(columns.rows());
+    linalg::appendProduct(matrix, columns, products);
+    const auto onColumns = linalg::transposedProduct(comm, columns, products);
+    const auto squares =
+        linalg::symmetricEigenvalues(linalg::transposedProduct(onColumns, onColumns));
+    largest = std::max(largest, std::sqrt(std::max(squares.back(), 0.0)));
+  }
+  return largest;
 }
 
 /// Collective. Returns true if g H + sign A ≥ 0.
@@ -51,10 +100,17 @@ bool isBoundedSkew(Mat skew, Mat energy, double g) {
 }
 
 /// Returns a g ≥ start that is confirmed. Unless g · weight is negligible, it is less than 1.2
-/// times the smallest one.
+/// times the smallest one. `likely` is an estimate of the smallest one; 0 if there is none. Each
+/// trial takes a factorisation.
 template <class Confirmed>
-double smallest(double start, double weight, const Confirmed& confirmed) {
+double smallest(double start, double likely, double weight, const Confirmed& confirmed) {
   constexpr double negligible = 5e-3, close = 1.2;
+  if (likely >= start && likely > 0) {
+    const bool matters = 4 * likely * weight > negligible;
+    for (const double factor : {matters ? 1.08 : 2, matters ? close : 4})
+      if (confirmed(factor * likely)) return factor * likely;
+    start = close * likely;
+  }
   double g = start, ratio = start * weight < negligible ? 4 : 2;
   for (int i = 0; !confirmed(g); ++i, g *= ratio)
     if (i == mostTrials)
@@ -71,23 +127,32 @@ double smallest(double start, double weight, const Confirmed& confirmed) {
 void boundOthers(const SplitProblem& problem, const factor::AssociatedSystem& system, double top,
                  double left, proof::LeftOut& bounds) {
   if (bounds.mass == 0) return;  // nothing is left out
-  OwnedMat energy;               // H
+  if (!problem.skew(2) && !problem.damped()) return;
+  OwnedMat energy;  // H
   check(MatDuplicate(system.k0(), MAT_COPY_VALUES, energy.out()));
   check(MatAXPY(energy, 1 / bounds.mass, system.m0(), DIFFERENT_NONZERO_PATTERN));
-  const auto skewBound = [&](Mat matrix, double weight) {
+  const Mat damping = problem.symmetric(1);
+  double likelySkewMass = 0, likelyGyroscopic = 0, likelyDamping = 0;
+  {  // the factor of H takes memory
+    const auto factor =
+        factor::shiftedFactor(system.k0(), system.m0(), -1 / bounds.mass, system.solver());
+    if (problem.skew(2)) likelySkewMass = estimate(problem.skew(2), *factor);
+    if (problem.skew(1)) likelyGyroscopic = estimate(problem.skew(1), *factor);
+    if (damping) likelyDamping = estimate(damping, *factor);
+  }
+  const auto skewBound = [&](Mat matrix, double likely, double weight) {
     if (!matrix) return 0.0;
-    return 2 * smallest(lowerBound(matrix, energy), 2 * weight,
+    return 2 * smallest(lowerBound(matrix, energy), likely, 2 * weight,
                         [&](double g) { return isBoundedSkew(matrix, energy, g); });
   };
-  bounds.skewMass = skewBound(problem.skew(2), top * top);
-  bounds.gyroscopic = skewBound(problem.skew(1), top);
-  const Mat damping = problem.symmetric(1);
+  bounds.skewMass = skewBound(problem.skew(2), likelySkewMass, top * top);
+  bounds.gyroscopic = skewBound(problem.skew(1), likelyGyroscopic, top);
   if (!damping) return;
   const double start = lowerBound(damping, energy);
-  const double above =
-      2 * smallest(start, 2 * left, [&](double g) { return isBounded(damping, energy, g, -1); });
+  const double above = 2 * smallest(start, likelyDamping, 2 * left,
+                                    [&](double g) { return isBounded(damping, energy, g, -1); });
   // Round-off of a semi-definite C, or a C that feeds motions: C + κ H ≥ 0.
-  const double below = 2 * smallest(1e-9 * start, 2 * top,
+  const double below = 2 * smallest(1e-9 * start, 0, 2 * top,
                                     [&](double g) { return isBounded(damping, energy, g, 1); });
   bounds.damping = above + below;  // of C + κ H
   bounds.rest[1] += below;

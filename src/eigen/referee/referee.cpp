@@ -124,8 +124,7 @@ BoundedProblem bounded(const Problem& at, double top, const modes::Settings& set
   KeptSpace space(problem, shifted, free.modes, at.vectors);
   const double left = problem.damped() ? 1.5 * mostLeft * top : INFINITY,
                reached = (problem.damped() ? guard : nearby) * top;
-  const int rounds = at.vectors.columns() > 0 ? 1 : 2;
-  for (int round = 0; round < rounds && !space.isWhole(); ++round)
+  for (int round = 0; round < at.rounds && !space.isWhole(); ++round)
     space.correct(
         space.pairs([&](Complex s) { return std::abs(s) < reached && s.real() > -left; }));
   result.projected = space.problem();

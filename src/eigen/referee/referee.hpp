@@ -98,6 +98,8 @@ struct Problem {
   /// Real and imaginary parts of known eigenvectors, right and left ones, as columns with this
   /// rank's rows. They spare corrections.
   linalg::Block vectors = {};
+  /// Number of times that V is extended by corrections of the eigenvectors on V.
+  int rounds = 2;
 };
 
 /// Collective. Reduces a problem for regions up to `top`, rad/s. If the settings of the modes give

@@ -11,6 +11,7 @@
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/termination.hpp"
+#include "base/system/text.hpp"
 #include "eigen/completeness/completeness.hpp"
 #include "eigen/completeness/list_judgement.hpp"
 #include "eigen/referee/referee.hpp"
@@ -98,10 +99,10 @@ bool hasDenseTerm(const pencil::Pencil& pencil) {
 }
 
 /// Collective. Returns the problem of a point on its own basis; none, with the reason, if that
-/// fails.
+/// fails. The basis is corrected `rounds` times, or twice if the eigenvectors are not stored.
 std::optional<referee::BoundedProblem> boundedProblem(const SweepProblem& problem,
                                                       const reduction::ReducedProblem& reduced,
-                                                      const modes::Settings& modes,
+                                                      const modes::Settings& modes, int rounds,
                                                       ListedPoint& point) {
   auto& found = point.list->completeness.emplace();
   const auto& at = point.list->at;
@@ -114,7 +115,9 @@ std::optional<referee::BoundedProblem> boundedProblem(const SweepProblem& proble
     const auto unknowns =
         unknownsOf(problem, problem.ranges[point.range], reduced.basis().localRows());
     const auto pencil = sumsOf(terms, at, unknowns);
-    return referee::bounded({pencil, at, vectorsOf(reduced, point.problem, unknowns)},
+    auto vectors = vectorsOf(reduced, point.problem, unknowns);
+    if (vectors.columns() == 0) rounds = 2;
+    return referee::bounded({pencil, at, std::move(vectors), rounds},
                             completeness::wantedTop(point.list->bandTop), modes,
                             {"proof", sweep::parameterText(at) + ": "});
   } catch (const Error& error) {
@@ -152,32 +155,71 @@ void judgeList(const referee::BoundedProblem& problem, const pencil::WatchedBand
   }
 }
 
+/// Collective. Judges the lists of at most as many points as there are ranks, whose dense work is
+/// done at the same time. Their bases are corrected `rounds` times.
+void proveTogether(const SweepProblem& problem, const reduction::ReducedProblem& reduced,
+                   std::span<ListedPoint* const> points, const ProofRequest& request, int rounds) {
+  const MPI_Comm comm = reduced.basis().comm();
+  modes::Settings modes = request.modes;
+  modes.countGiven = false;
+  std::vector<pencil::ComplexModes*> lists;
+  std::optional<referee::BoundedProblem> own;  // of the point that this rank owns
+  for (auto* point : points) {
+    const bool isOwn = mpi::rank(comm) == std::ssize(lists);
+    lists.push_back(point->list);
+    auto bounded = boundedProblem(problem, reduced, modes, rounds, *point);
+    if (isOwn) own = std::move(bounded);
+  }
+  Stage stage(comm, "proof");
+  linalg::onOwners(comm, lists.size(), [&](std::size_t i) {
+    if (own) judgeList(*own, reduced.band(), request.settings.discs, *lists[i]);
+  });
+  completeness::share(comm, lists);
+  for (const auto* list : lists)
+    if (list != lists.back()) stage.printLine(completenessText(*list));
+  stage.finish(completenessText(*lists.back()));
+}
+
+/// Returns true if corrections of the basis may complete the proof. They reduce the ratio, which
+/// must be below 1, to a fifth at best, and make the discs smaller.
+bool mayBeCompleted(const pencil::ComplexModes& point) {
+  constexpr double mostRatio = 5;
+  const auto& found = *point.completeness;
+  if (found.proved) return !point.listIsProved() && found.missing.empty() && found.spurious.empty();
+  return found.definiteness > 0 && found.ratio > 0 && found.ratio < mostRatio;
+}
+
+/// Collective. Proves the lists of points again, with corrected bases. If that ends with an error,
+/// the first result remains.
+void proveAgain(const SweepProblem& problem, const reduction::ReducedProblem& reduced,
+                const std::vector<ListedPoint*>& points, const ProofRequest& request) {
+  if (points.empty()) return;
+  printLine(reduced.basis().comm(),
+            formatted("proof: %zu points again, with corrections of the basis", points.size()));
+  std::vector<pencil::Completeness> first;
+  for (const auto* point : points) first.push_back(*point->list->completeness);
+  proveTogether(problem, reduced, points, request, 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto& found = *points[i]->list->completeness;
+    if (found.top == 0) found = std::move(first[i]);
+  }
+}
+
 }  // namespace
 
 void proveSingly(const SweepProblem& problem, const reduction::ReducedProblem& reduced,
                  const std::vector<ListedPoint*>& points, const ProofRequest& request) {
   const MPI_Comm comm = reduced.basis().comm();
   const std::size_t ranks = mpi::size(comm);
-  modes::Settings modes = request.modes;
-  modes.countGiven = false;
-  // The dense work of as many points as there are ranks is done at the same time.
   for (std::size_t first = 0; first < points.size(); first += ranks) {
     stopIfRequested(comm);
-    std::vector<pencil::ComplexModes*> lists;
-    std::optional<referee::BoundedProblem> own;  // of the point that this rank owns
-    for (std::size_t i = first; i < std::min(first + ranks, points.size()); ++i) {
-      lists.push_back(points[i]->list);
-      auto bounded = boundedProblem(problem, reduced, modes, *points[i]);
-      if (static_cast<int>(i - first) == mpi::rank(comm)) own = std::move(bounded);
-    }
-    Stage stage(comm, "proof");
-    linalg::onOwners(comm, lists.size(), [&](std::size_t i) {
-      if (own) judgeList(*own, reduced.band(), request.settings.discs, *lists[i]);
-    });
-    completeness::share(comm, lists);
-    for (const auto* list : lists)
-      if (list != lists.back()) stage.printLine(completenessText(*list));
-    stage.finish(completenessText(*lists.back()));
+    const std::span some(points.begin() + static_cast<std::ptrdiff_t>(first),
+                         std::min(ranks, points.size() - first));
+    proveTogether(problem, reduced, some, request, 0);
+    std::vector<ListedPoint*> others;
+    for (auto* point : some)
+      if (mayBeCompleted(*point->list)) others.push_back(point);
+    proveAgain(problem, reduced, others, request);
     if (request.afterPoints) request.afterPoints();
   }
 }
