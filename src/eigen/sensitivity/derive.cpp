@@ -47,17 +47,16 @@ std::optional<Neighbour> neighbour(const pencil::ComplexModes& point, std::size_
                    expanded(pencil, start.columns, vectors.left)};
 }
 
-/// Collective. Adds the second derivatives by one neighbour [M.90],
+/// Collective. Returns the second derivatives by one neighbour [M.90], one for each form,
 ///   s'' = 2 p_ij p_ji / (n_i n_j (s_i − s_j)),
-/// with the forms p_ij = y_iᴴ (∂P/∂θ) x_j and n_i = y_iᴴ P′ x_i = `slope`.
-void addSecond(const EigenTriple& triple, Complex slope, const Neighbour& next,
-               const pencil::Pencil& pencil, const sweep::Parameters& at, const Forms& forms,
-               std::vector<pencil::Derivative>& derivatives) {
+/// with the forms p_ij = y_iᴴ (∂P/∂θ) x_j. `slopes` is n_i n_j with n_i = y_iᴴ P′ x_i.
+std::vector<Complex> secondDerivatives(const EigenTriple& triple, const Neighbour& next,
+                                       Complex slopes, const Forms& forms) {
   const auto there = forms({triple.s, next.x, triple.y}), back = forms({next.s, triple.x, next.y});
-  const Complex ofNext = slopeForm(pencil, at, {next.s, next.x, next.y});
-  for (std::size_t k = 0; k < derivatives.size(); ++k)
-    derivatives[k].second =
-        2.0 * there[k].value * back[k].value / (slope * ofNext * (triple.s - next.s));
+  std::vector<Complex> second;
+  for (std::size_t k = 0; k < there.size(); ++k)
+    second.push_back(2.0 * there[k].value * back[k].value / (slopes * (triple.s - next.s)));
+  return second;
 }
 
 }  // namespace
@@ -80,8 +79,11 @@ void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
     if (result.regular()) {
       result.derivatives = forms(triple);
       for (auto& derivative : result.derivatives) derivative.value /= -slope;
-      if (const auto next = neighbour(point, point.shapes[i].index, pencil, start))
-        addSecond(triple, slope, *next, pencil, point.at, forms, result.derivatives);
+      if (const auto next = neighbour(point, point.shapes[i].index, pencil, start)) {
+        const Complex ofNext = slopeForm(pencil, point.at, {next->s, next->x, next->y});
+        const auto second = secondDerivatives(triple, *next, slope * ofNext, forms);
+        for (std::size_t k = 0; k < second.size(); ++k) result.derivatives[k].second = second[k];
+      }
     }
     point.sensitivities.push_back(std::move(result));
   }
