@@ -56,6 +56,10 @@ FreeModes freeModes(const ShiftedSystem& shifted, double top, const modes::Setti
   const auto& system = shifted.system;
   modes::Settings settings = given;
   settings.sturm = true;
+  // The eigenvalues of K + σ M may lie so close together, compared with their distance from zero,
+  // that block Lanczos makes no progress.
+  if (shifted.shift > 0 && settings.solver == modes::Settings::Solver::automatic)
+    settings.solver = modes::Settings::Solver::eps;
   FreeModes found;
   if (!given.countGiven) {
     constexpr int beyond = 4;
