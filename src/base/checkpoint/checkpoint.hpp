@@ -20,9 +20,9 @@ namespace squeal::checkpoint {
 /// at any moment; a single growing file would not survive that. Each rank writes its own part by
 /// MPI, so only the same number of ranks can resume from a checkpoint.
 ///
-/// A checkpoint of an earlier run that this run does not resume stays in the folder until this run
-/// writes its first entry or is complete. If an entry cannot be written, the run issues a warning
-/// and continues without further checkpoints.
+/// If a run does not resume the checkpoint in the folder, that checkpoint stays there until the run
+/// writes its own first entry or is complete. If an entry cannot be written, the run issues a
+/// warning and continues without further checkpoints.
 class Checkpoint {
  public:
   /// Makes a disabled checkpoint without entries.
@@ -41,8 +41,8 @@ class Checkpoint {
   /// passed since the last entry (`-checkpoint_interval`, or more if writing is slow), or if a stop
   /// of the run has been requested.
   bool due();
-  /// Collective. Returns true if work of this duration justifies an entry at its end, since the
-  /// next regular entry may come much later.
+  /// Collective. Returns true if work that took so long is worth an entry of its own. Without it,
+  /// the result could be lost until the next regular entry.
   bool isWorth(double seconds) const;
   /// Collective. Writes the next entry of a log.
   void write(const std::string& log, const Archive& archive);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The free vibration of the ideal associated system (associated_system.hpp), [4.17],
-///   (K0 − ω² M0) d = 0,
-/// whose modes start the basis of the reduced problem.
+/// The free modes: undamped vibrations with closed contact and without friction, of the associated
+/// system (associated_system.hpp) [4.17],
+///   (K0 − ω² M0) d = 0.
+/// They are the first vectors of the basis of the reduced problem.
 #include <string>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct Modes {
 struct TopCount {
   double shift = 0;     ///< rad²/s²
   int below = 0;        ///< number of eigenvalues of (K0, M0) below the shift
-  bool agrees = false;  ///< `below` is the number of known modes below the shift
+  bool agrees = false;  ///< true if `below` equals the number of known modes below the shift
 };
 /// Collective. Counts the modes below the widest gap among the ten highest modes, by a
 /// factorisation. `modes` must not be empty.
@@ -45,11 +46,11 @@ struct Label {
 };
 
 /// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
-/// Unless options select one of these, LAPACK is used in two cases: if most modes of a small
-/// problem are requested, and if EPS has missed modes of a problem with at most 2000 unknowns. An
-/// unconfirmed count is not an error. Throws Error if a given count exceeds the number of unknowns
-/// with mass, if the solver does not converge, or if an eigenvalue is not positive within
-/// round-off.
+/// If no option selects a solver, the program chooses. It uses LAPACK if most modes of a small
+/// problem are requested, and also if EPS has missed modes of a problem with at most 2000 unknowns.
+/// An unconfirmed number of modes is not an error. Throws Error if more modes
+/// are requested than there are unknowns with mass, if the solver does not converge, or if an
+/// eigenvalue is not positive within round-off.
 Modes compute(const factor::AssociatedSystem& system, const Settings& settings,
               const Label& label = {});
 

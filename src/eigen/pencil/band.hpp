@@ -11,8 +11,8 @@ namespace squeal::pencil {
 /// Returns the top of the band, rad/s. `frequencies` are the angular frequencies of the free modes,
 /// rad/s, ascending and not empty. The top is `requested` if this is positive; otherwise it lies
 /// just above the mode at 55 % of the list. A top above the highest mode is lowered to just below
-/// this mode, unless all modes are equal. Only eigenvalues that have been found are corrected, so
-/// an eigenvalue above all modes could be missed without notice.
+/// this mode, unless all modes have the same frequency. The reason: corrections begin with the
+/// eigenvalues of the reduced problem, which may lack some above the highest mode without notice.
 double bandBelow(const std::vector<double>& frequencies, double requested = 0);
 
 /// The band and the guard zone around it [M.43], whose eigenvalues are tracked too.

@@ -57,17 +57,17 @@ const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m",
                               "size)");
 const FlagOption separationOption(
     "contact", "contact_<interface>_separation", true,
-    "whether the two sides can separate; off: they cannot, and can carry "
-    "tension; if a node with friction is under tension at a point of the "
-    "sweep, the run reports that this point has no solution");
+    "whether the two sides can separate; off: they cannot, and the interface can carry tension, "
+    "but not with friction: if a node with friction is under tension, the run reports that this "
+    "point of the sweep has no solution");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
 const RealOption tangentialStiffnessOption(
     "contact", "contact_<interface>_stiffness_tangential", 0.0, "N/m3", nonNegative,
-    "tangential stiffness of a soft layer on a sticking interface: shear stress per tangential "
-    "displacement of the layer; must be > 0 there if "
-    "-contact_<interface>_stiffness is given");
+    "tangential stiffness of a soft layer: shear stress per tangential displacement of the layer; "
+    "used on a sticking interface, where it must be > 0 if -contact_<interface>_stiffness is "
+    "given");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
     "slave surface group of a tie, preferably the one with the finer mesh");

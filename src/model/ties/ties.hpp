@@ -9,13 +9,13 @@
 
 namespace squeal::ties {
 
-/// Collective. Returns the options of all interfaces, the supports, the tied nodes and the coupled
-/// nodes. A node belongs to only one tie. Among ties whose meshes do not match, it belongs to the
-/// first one that claims it; for ties with matching meshes, see tieMatched(). Unless
-/// adjusting is off for a tie, its slave nodes are moved: they then satisfy the equation above with
-/// the returned P, within round-off. Warns of a tie if less than half of its slave surface is
-/// covered. Throws Error for surfaces that do not meet, for ties that depend on each other in a
-/// circle, and for a tie that folds a cell.
+/// Collective. Returns the supports, the tied nodes, the coupled nodes, and the options of all
+/// interfaces. A node belongs to only one tie. Among ties whose meshes do not match, it belongs to
+/// the first one that claims it; for ties with matching meshes, see tieMatched(). Unless adjusting
+/// is off for a tie, its slave nodes are moved: they then satisfy the equation above with the
+/// returned P, within round-off. Warns of a tie if less than half of its slave surface is covered.
+/// Throws Error for surfaces that do not meet, for ties that depend on each other in a circle, and
+/// for a tie that folds a cell.
 interfaces::Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings,
                                 const constraints::Settings& supports);
 

@@ -56,8 +56,8 @@ struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< why SNES, PETSc's nonlinear solver, stopped, or why no solution exists
-  /// The last parameters on a path of solutions that started at another point and did not reach
-  /// this one. Set only if no solution was found here.
+  /// Set only if no solution was found at this point: the program then followed the solutions from
+  /// another point towards this one, and these are the last parameters with a solution.
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES
   int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
@@ -75,8 +75,8 @@ struct Solution {
   PetscInt openNodes = 0;       ///< contact nodes that are not closed, over all ranks
   double smallestPressure = 0;  ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
-  /// Largest resultant of the forces of contact, supports and loads on a connected part of the
-  /// mesh, divided by the sum of the magnitudes of all nodal forces.
+  /// The resultant of all forces (contact, supports and loads) on a connected part of the mesh: its
+  /// largest magnitude of all parts, divided by the sum of the magnitudes of all nodal forces.
   double imbalance = 0;
   /// Number of contact nodes, over all ranks, whose state differs from that in another known
   /// solution at the same parameters; 0 if no other solution is known.
@@ -91,7 +91,7 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
 /// The matrix T maps the unknowns x to displacements, and N extracts normal forces from nodal
-/// forces. This S contains the coefficients of friction; contact.hpp writes the same matrix as f S.
+/// forces. Here S includes the coefficients of friction; contact.hpp calls this matrix f S.
 /// The factors v and p scale speed and pressure. The loads are b_p, which scale with p, the
 /// constant loads b_0 and the centrifugal forces b_c. u_g closes the initial gaps [M.54] and
 /// shortens tightened bolts.
@@ -103,9 +103,9 @@ contact::ActiveSet activeSet(const Solution& solution);
 /// derivative of its displacement.
 ///
 /// A node of a sticking interface may be held (it sticks), free or released. This state is called
-/// its hold. A free node has tangential unknowns and no friction. A released node has tangential
-/// unknowns and slides; its row in S has the sticking limit of the interface as coefficient of
-/// friction.
+/// its hold. A free node is not held: it has tangential unknowns and no tangential force. A
+/// released node has tangential unknowns and slides; its row in S has the sticking limit of the
+/// interface as coefficient of friction.
 class Problem {
  public:
   /// Collective. Borrows mesh, bodies and contact during the lifetime of the object. All nodes of
