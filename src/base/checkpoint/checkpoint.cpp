@@ -26,10 +26,12 @@ namespace {
 
 constexpr const char* identityName = "identity.json";
 
-/// Returns true for the name of a file of a checkpoint.
+/// Returns true for the name of a file of a checkpoint. A run that is killed while it opens an
+/// entry leaves a file by which Open MPI tests locks, such as log_0001.entry.partial.locktest.0.
 bool isEntry(const fs::path& path) {
   return path.filename() == identityName || path.extension() == ".entry" ||
-         path.extension() == ".partial";
+         path.extension() == ".partial" ||
+         path.filename().string().find(".entry.partial.") != std::string::npos;
 }
 
 /// Throws Error if a link, or anything except folders and regular files, is in the place of the

@@ -176,6 +176,29 @@ TEST(Checkpoint, DamageIsFound) {
   MPI_Barrier(PETSC_COMM_WORLD);
 }
 
+// What a run leaves that is killed while it writes or opens an entry goes with the checkpoint; a
+// file of the user stays.
+TEST(Checkpoint, RemainsOfAKilledRunAreRemoved) {
+  for (const bool hasOther : {false, true}) {
+    const fs::path place = folder("killed");
+    Checkpoint checkpoint(PETSC_COMM_WORLD, place, {{"a", "1"}}, everyEntry(false));
+    write(checkpoint, 1);
+    if (rankHere() == 0) {
+      for (const char* name : {"log_0001.entry.partial", "log_0001.entry.partial.locktest.0"})
+        std::ofstream(place / name) << "x";
+      if (hasOther) std::ofstream(place / "mine.txt") << "x";
+    }
+    MPI_Barrier(PETSC_COMM_WORLD);
+    checkpoint.remove();
+    MPI_Barrier(PETSC_COMM_WORLD);
+    EXPECT_EQ(fs::exists(place), hasOther);
+    EXPECT_FALSE(fs::exists(place / "log_0001.entry.partial.locktest.0"));
+    MPI_Barrier(PETSC_COMM_WORLD);
+    if (rankHere() == 0) fs::remove_all(place);
+    MPI_Barrier(PETSC_COMM_WORLD);
+  }
+}
+
 TEST(Checkpoint, AFailedWriteDoesNotEndTheRun) {
   const fs::path file = folder("file").parent_path();
   if (rankHere() == 0) std::ofstream(file) << "mine";
