@@ -48,9 +48,9 @@ struct Label {
 /// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
 /// If no option selects a solver, the program chooses. It uses LAPACK if most modes of a small
 /// problem are requested, and also if EPS has missed modes of a problem with at most 2000 unknowns.
-/// An unconfirmed number of modes is not an error. Throws Error if more modes
-/// are requested than there are unknowns with mass, if the solver does not converge, or if an
-/// eigenvalue is not positive within round-off.
+/// An unconfirmed number of modes is not an error. Throws Error if more modes are requested than
+/// there are unknowns with mass, if the solver does not converge, or if an eigenvalue is not
+/// positive within round-off.
 Modes compute(const factor::AssociatedSystem& system, const Settings& settings,
               const Label& label = {});
 

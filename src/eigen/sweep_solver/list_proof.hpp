@@ -25,8 +25,8 @@ std::vector<std::string> faultsOf(const pencil::ComplexModes& point);
 
 /// Not collective. Returns true if the list of a point has a fault, or if an eigenvalue of the
 /// reduced problem in the band is undecided: the list lacks one of several equal eigenvalues, or
-/// one at the edge of the band.
-/// `band` gives the largest damping ratio of listed eigenvalues; its top is not used.
+/// one at the edge of the band. `band` gives the largest damping ratio of listed eigenvalues; its
+/// top is not used.
 bool mayLackEigenvalues(const pencil::ComplexModes& point, pencil::WatchedBand band);
 
 }  // namespace squeal::sweep_solver
