@@ -184,6 +184,22 @@ class Proof(unittest.TestCase):
         np.testing.assert_allclose(tables[1].top_hz, tables[0].top_hz, rtol=1e-3)
         np.testing.assert_allclose(tables[1].left_1_per_s, tables[0].left_1_per_s, rtol=1e-3)
 
+    def test_rotating(self):
+        """Terms of speed: without friction, and with strong friction damping at low speed."""
+        words = ["-options_file", repository / "options/disc_brake_rotating.yaml", *BRAKE[2:]]
+        words += ["-mesh_set", SIZE.replace("n_free_theta=4", "n_free_theta=12")]
+        words += ["-modes_count", "40", "-flutter_band", "6000"]
+        words += ["-flutter_friction", "0,0.6", "-flutter_speed", "1,10"]
+        tables = []
+        for ranks in (1, 3):
+            folder, output = self.run_program(f"rotating{ranks}", words, ranks)
+            self.assertIn("4 points with terms of speed or damping", output)
+            self.assertIn("Proof: the list is complete at 4 of 4 points", output)
+            tables.append(pd.read_csv(folder / "proof.csv"))
+            self.assertTrue((tables[-1].ratio < 0.1).all())  # 0.033 reached
+            self.assertTrue((tables[-1].without_disc == 0).all())
+        self.assertEqual(tables[0].eigenvalues.tolist(), tables[1].eigenvalues.tolist())
+
     def test_damped_opening_contact(self):
         """Each active set has unknowns of its own."""
         for ranks in (1, 2):

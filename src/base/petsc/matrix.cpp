@@ -11,6 +11,12 @@ bool isSymmetric(Mat matrix) {
   return known && symmetric;
 }
 
+bool isSparse(Mat matrix) {
+  PetscBool sparse = PETSC_FALSE;
+  check(PetscObjectTypeCompareAny(object(matrix), &sparse, MATSEQAIJ, MATMPIAIJ, ""));
+  return sparse;
+}
+
 OwnedIS ownRows(Mat matrix) {
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(matrix, &first, &end));

@@ -11,6 +11,7 @@
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/stream.hpp"
+#include "eigen/completeness/basis_products.hpp"
 #include "eigen/completeness/list_judgement.hpp"
 #include "eigen/completeness/point_bounds.hpp"
 #include "eigen/pencil/serialization.hpp"
@@ -28,54 +29,6 @@ using linalg::DenseMatrix;
 /// have radii of up to 0.9 in the plane of z = (s / 1.04 top)², and |s| reaches 1.47 on them.
 constexpr double reach = 1.5;
 
-/// Collective. Returns the columns of Aᵀ for a matrix of few rows, by this rank's rows.
-linalg::Block columnsOf(Mat rows) {
-  OwnedMat transpose;
-  check(MatTranspose(rows, MAT_INITIAL_MATRIX, transpose.out()));
-  PetscInt all = 0, count = 0, first = 0;
-  check(MatGetSize(rows, &all, nullptr));
-  check(MatGetLocalSize(transpose, &count, nullptr));
-  check(MatGetOwnershipRange(transpose, &first, nullptr));
-  linalg::Block columns(count, all);
-  for (PetscInt i = 0; i < count; ++i) {
-    PetscInt entries = 0;
-    const PetscInt* places = nullptr;
-    const PetscScalar* values = nullptr;
-    check(MatGetRow(transpose, first + i, &entries, &places, &values));
-    for (PetscInt k = 0; k < entries; ++k) columns(i, places[k]) = values[k];
-    check(MatRestoreRow(transpose, first + i, &entries, &places, &values));
-  }
-  return columns;
-}
-
-/// Collective. Returns Vᵀ M K0⁻¹ M V with K0⁻¹ of the interior. The modes d need no solves, as K0⁻¹
-/// M d = d/λ.
-DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes& modes,
-                            const std::vector<double>& lambda, Mat mass) {
-  constexpr PetscInt atOnce = 128;  // limits the memory
-  const auto& basis = reduced.basis();
-  DenseMatrix result(basis.size());
-  for (PetscInt first = 0; first < basis.size();) {
-    if (first == modes.first) {
-      result.resizeColumns(first += modes.count);
-      continue;
-    }
-    const PetscInt end = first < modes.first ? modes.first : basis.size(),
-                   last = std::min(first + atOnce, end);
-    linalg::Block forces(basis.localRows()), inertia(basis.localRows());
-    basis.appendProducts(mass, first, last, forces);
-    linalg::appendProduct(mass, reduced.responses(forces), inertia);
-    result.append(linalg::transposedProduct(basis.comm(), basis.columns(), inertia));
-    first = last;
-  }
-  for (PetscInt j = 0; j < modes.count; ++j) {
-    const PetscInt mode = modes.first + j;
-    for (PetscInt i = 0; i < basis.size(); ++i) result(i, mode) = result(mode, i);
-    result(mode, mode) = 1 / (lambda[j] * lambda[j]);
-  }
-  return result;
-}
-
 /// Collective. Adds the static responses to the slip rows to the basis. Returns S_a K0⁻¹ S_aᵀ,
 /// [power of the friction], r × r.
 std::vector<DenseMatrix> addResponses(reduction::ReducedProblem& reduced,
@@ -89,34 +42,6 @@ std::vector<DenseMatrix> addResponses(reduction::ReducedProblem& reduced,
     result.push_back(linalg::rowRange(DenseMatrix(all.columnRange(a * rows, (a + 1) * rows)),
                                       a * rows, (a + 1) * rows));
   return result;
-}
-
-/// Collective. Returns an estimate of ‖M0 d − d/λ‖ of all modes together, in energy, from random
-/// combinations of them, twice as large as its mean.
-double errorOfModes(reduction::ReducedProblem& reduced, const modes::Modes& modes,
-                    const pencil::Pencil& associated) {
-  constexpr PetscInt combinations = 16;
-  const auto& basis = reduced.basis();
-  const PetscInt count = std::ssize(modes.lambda), first = basis.boundarySize();
-  DenseMatrix signs(count, combinations), scaled(count, combinations);
-  unsigned state = 1;
-  for (PetscInt j = 0; j < combinations; ++j)
-    for (PetscInt i = 0; i < count; ++i) {
-      state = 1664525 * state + 1013904223;  // Numerical Recipes, section 7.1
-      signs(i, j) = state >> 31 ? 1 : -1;
-      scaled(i, j) = signs(i, j) / modes.lambda[i];
-    }
-  const auto vectors = basis.columns().columnRange(first, first + count);
-  const linalg::Block motions = linalg::product(vectors, signs),
-                      others = linalg::product(vectors, scaled);
-  linalg::Block forces(motions.rows()), stiffness(motions.rows());
-  linalg::appendProduct(associated.assembled(2, {}), motions, forces);
-  linalg::appendProduct(associated.assembled(0, {}), others, stiffness);
-  linalg::addScaled(forces, -1, stiffness);
-  const DenseMatrix energy = reduced.flexibility(forces);
-  double sum = 0;
-  for (PetscInt j = 0; j < combinations; ++j) sum += energy(j, j);
-  return 2 * std::sqrt(sum / combinations);
 }
 
 /// Proves the list of a point, if the bounds suffice.
@@ -237,18 +162,6 @@ void proveSet(reduction::ReducedProblem& reduced, const pencil::FrictionFactors&
   });
 }
 
-/// Collective. Returns θ below which all modes are known, if that is confirmed.
-std::optional<double> completeTo(const factor::AssociatedSystem& system, const modes::Modes& modes,
-                                 double bandTop) {
-  constexpr double enough = 0.3;  // of δ
-  if (!modes.countConfirmed) return {};
-  if (1 - std::pow((1 + above) * bandTop, 2) / modes.inertiaShift > enough)
-    return modes.inertiaShift;
-  const auto count = modes::countAtTop(system, modes);
-  if (!count.agrees) return {};
-  return std::max(count.shift, modes.inertiaShift);
-}
-
 }  // namespace
 
 bool covers(const reduction::PointProblem& problem, const pencil::FrictionFactors& factors) {
@@ -277,22 +190,20 @@ void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& s
            const modes::Modes& modes, const pencil::FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings) {
   if (sets.empty()) return;
-  const auto theta = completeTo(system, modes, reduced.band().top);
+  const auto associated = sets.front().problems.front().pencil.associated();
+  const auto known = knownModes(reduced, system, modes, associated);
   for (const auto& set : sets)
     for (auto* point : set.points) {
       point->completeness.emplace();
-      if (!theta) point->completeness->reason = "the number of free modes is not confirmed";
+      if (!known) point->completeness->reason = unconfirmed;
     }
-  if (!theta) return;
-  const auto associated = sets.front().problems.front().pencil.associated();
-  const KnownModes known{reduced.basis().boundarySize(), PetscInt(std::ssize(modes.lambda)), *theta,
-                         errorOfModes(reduced, modes, associated)};
+  if (!known) return;
   const auto projected =
-      project(reduced, factors, known, modes.lambda, associated.assembled(2, {}));
+      project(reduced, factors, *known, modes.lambda, associated.assembled(2, {}));
   for (const auto& set : sets) {
     const auto& problem = set.problems.front();
     const auto projection = projectionOf(set, reduced.space(problem.set),
-                                         reduced.projectAssociated(problem), known, projected);
+                                         reduced.projectAssociated(problem), *known, projected);
     try {
       proveSet(reduced, factors, projection, set, settings);
     } catch (const Error& error) {

@@ -78,6 +78,7 @@ proof::Coupling massCoupling(const SetMatrices& set, double most) {
 
 SetBounds setBounds(const SetMatrices& set, double reach) {
   SetBounds bounds{};
+  bounds.reach = reach;
   bounds.mass = 1 / set.modes.theta + set.modes.error;
   bounds.toLeftOut = massCoupling(set, bounds.mass);
   bounds.normal = proof::quickBound(linalg::DenseView(set.normal));
@@ -112,6 +113,7 @@ PointBounds pointBounds(const SetBounds& set, PointMatrices point) {
                    std::move(point.problem.mass)};
   kept.toLeftOut = {set.toLeftOut};
   kept.fromLeftOut = {proof::transposed(set.toLeftOut)};
+  kept.reach = set.reach;
   leftOut.mass = set.mass;
   if (point.slip.empty() || linalg::isZero(point.slip)) return result;
   // The friction in P_VC is (S V)ᵀ (N_0C + s² N_2C).

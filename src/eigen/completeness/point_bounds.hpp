@@ -31,6 +31,7 @@ struct SetMatrices {
 
 /// Bounds of the blocks on C and between V and C that hold at all points of an active set.
 struct SetBounds {
+  double reach;                    ///< the bounds hold for |s| up to this, rad/s
   double mass;                     ///< upper bound of M on C, s²
   proof::Coupling toLeftOut;       ///< majorant of s² M_CV
   linalg::DenseMatrix forces;      ///< N_0C + s² N_2C = forces · W with ‖W‖ ≤ 1, r × r

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "algebra/linalg/dense.hpp"
 #include "eigen/pencil/pencil.hpp"
 
 namespace squeal::pencil {
@@ -23,6 +24,22 @@ struct FrictionFactors {
 
   /// Returns N_X of the stiffness (power 0) or of the mass (2).
   Mat normalOf(int power) const;
+};
+
+/// The factors of the friction terms that all points have in common. The terms of a point are
+///   (Φ J)ᵀ Σ_X c_X s^k N_X + Jᵀ B (s J − v D),
+/// with Φ and B of PointFactors and the speed v.
+struct JumpFactors {
+  OwnedMat jumps;            ///< J, q × n: the jumps of the displacement at the contact nodes
+  OwnedMat convected;        ///< D, q × n; null if it is zero
+  std::vector<Term> normal;  ///< N_X, r × n, as in FrictionFactors
+  std::string missing;       ///< why the factors are not known; empty if they are
+};
+
+/// The factors of the friction terms of one point, the same on all ranks.
+struct PointFactors {
+  linalg::DenseMatrix slip;      ///< Φ at the friction of the point, r × q
+  linalg::DenseMatrix response;  ///< B, q × q
 };
 
 }  // namespace squeal::pencil

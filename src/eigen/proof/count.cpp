@@ -118,4 +118,37 @@ CountProof proveCount(const DiagonalForm& form, const LeftOut& bounds, const Reg
   return proof;
 }
 
+namespace {
+
+/// Returns the largest −Re s of the list, at most this.
+double mostDamped(std::span<const Complex> list, double limit) {
+  double decay = 0;
+  for (const auto s : list)
+    if (-s.real() <= limit) decay = std::max(decay, -s.real());
+  return decay;
+}
+
+}  // namespace
+
+PlacedCount proveDamped(const DiagonalForm& form, const LeftOut& bounds, double top, double left,
+                        std::span<const Complex> list, PetscInt largest) {
+  std::vector<double> lefts{left};
+  if (left == 0)
+    lefts = {std::max(leastLeft, 1.05 * mostDamped(list, mostLeft * top) / top), leastLeft};
+  const auto values = form.eigenvalues();
+  PlacedCount placed;
+  placed.region.top = top;
+  if (form.squared()) {  // the region is the whole disc
+    placed.count = proveCount(form, bounds, placed.region, largest);
+    return placed;
+  }
+  if (lefts.size() > 1 && lefts.front() == lefts.back()) lefts.pop_back();
+  for (const double tried : lefts) {
+    placed.region.left = tried >= 1 ? 2 * top : placedLeft(values, top, tried * top, 0.3);
+    placed.count = proveCount(form, bounds, placed.region, largest);
+    if (placed.count.verdict == Verdict::proved) break;
+  }
+  return placed;
+}
+
 }  // namespace squeal::proof

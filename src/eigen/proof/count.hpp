@@ -36,4 +36,21 @@ struct CountProof {
 CountProof proveCount(const DiagonalForm& form, const LeftOut& bounds, const Region& region,
                       PetscInt largest = 400);
 
+/// The regions of damped problems that are chosen automatically end at Re s = −a, with a between
+/// these fractions of the top.
+inline constexpr double leastLeft = 0.02, mostLeft = 0.2;
+
+/// A count with its region.
+struct PlacedCount {
+  Region region;
+  CountProof count;
+};
+
+/// Not collective. Proves the count for a region up to `top`, rad/s, of a problem with damping. The
+/// left edge is at about Re s = −`left` · top, in a gap of the eigenvalues; if `left` is 0, left of
+/// the eigenvalues of the list, or, if the proof then fails, at the least distance. With left ≥ 1
+/// the region is the whole disc.
+PlacedCount proveDamped(const DiagonalForm& form, const LeftOut& bounds, double top, double left,
+                        std::span<const Complex> list, PetscInt largest);
+
 }  // namespace squeal::proof

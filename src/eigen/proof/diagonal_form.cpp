@@ -75,7 +75,8 @@ struct DiagonalForm::Vectors {
 };
 
 DiagonalForm::DiagonalForm(const KeptProblem& problem, double top)
-    : top_(top), squared_(even(problem)) {
+    : top_(top), reach_(problem.reach / top), squared_(even(problem)) {
+  if (squared_) reach_ *= reach_;
   ensure(top > 0, "the top of a region is positive");
   ensure(!problem.matrices[0].empty(), "a kept problem has a stiffness");
   const Pencil pencil(problem.matrices, top, squared_);
@@ -174,8 +175,8 @@ DiagonalForm::Vectors DiagonalForm::measure(const Pencil& pencil, const DenseMat
       if (!squared_) vectors.p(i, j) = pencil.scale[i] * balance[j] * stored(order + i, j);
       vectors.left(j, i) = pencil.scale[i] / balance[j] * inverted(j, i);
     }
-  normOfX_ = quickBound(complexColumns(vectors.q, pairs_));
-  normOfY_ = quickBound(complexRows(vectors.left, pairs_));
+  normOfX_ = normBound(complexColumns(vectors.q, pairs_));
+  normOfY_ = normBound(complexRows(vectors.left, pairs_));
   return vectors;
 }
 

@@ -26,6 +26,8 @@ class DiagonalForm {
   /// Returns false if P_VV(top) is singular, or if Δ is not small.
   bool regular() const { return regular_; }
   double top() const { return top_; }
+  /// The bounds of the couplings hold for |z| up to this.
+  double reach() const { return reach_; }
   bool squared() const { return squared_; }
   PetscInt size() const { return std::ssize(nu_); }  ///< N, or 2 N if not squared
   std::span<const Complex> nu() const { return nu_; }
@@ -72,7 +74,7 @@ class DiagonalForm {
   void setCouplings(const KeptProblem& problem, const Vectors& vectors);
   double error(const std::array<double, 3>& byPower, double reach) const;
 
-  double top_;
+  double top_, reach_;
   bool squared_ = false, regular_ = false;
   std::vector<Complex> nu_;
   ConjugatePairs pairs_;

@@ -147,6 +147,7 @@ double Expansion::boundOnCircle(double radius) const {
 
 /// Adds the bounds, with 1 / |D_k + h ν_k| ≤ inverses[k].
 double Expansion::sum(double radius, std::vector<double> inverses) const {
+  if (std::abs(centre_) + radius > form_.reach()) return infinite;
   const auto at = [&](const std::vector<std::vector<double>>& lengths, PetscInt k) {
     double value = 0, power = 1;
     for (const auto& list : lengths) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "algebra/linalg/symmetric.hpp"
+#include "base/system/error.hpp"
 
 namespace squeal::proof {
 
@@ -21,7 +22,8 @@ double definiteness(const LeftOut& bounds, double reach, double left) {
          reach * bounds.rest[1] - square * bounds.rest[2];
 }
 
-Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top) {
+Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top,
+                          double negligible) {
   const PetscInt size = gram.rows(), count = std::ssize(powers),
                  order = count > 0 ? size / count : 0;
   ensure(gram.columns() == size && order * count == size, "a Gram matrix has a block per power");
@@ -32,10 +34,17 @@ Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> po
   // G = Q Λ Qᵀ,   F = Λ^½ Qᵀ for the kept directions.   On the dropped ones, ‖C q‖² = qᵀ G q ≤ λ +
   // round-off.
   const auto values = linalg::symmetricEigen(vectors);
+  // Differences of products may have negative eigenvalues by round-off: all are raised by twice the
+  // most negative one.
   const double largest = values.empty() ? 0 : std::max(values.back(), 0.0),
-               small = 4 * size * std::numeric_limits<double>::epsilon() * largest;
+               raise = values.empty() ? 0 : 2 * std::max(-values.front(), 0.0),
+               small = std::max({4 * size * std::numeric_limits<double>::epsilon() * largest,
+                                 2 * raise, negligible * negligible / static_cast<double>(count)});
+  constexpr double contradiction = 1e-6, negligibleSquare = 1e-10;
+  if (size > 0 && values.front() < -contradiction * largest - negligibleSquare)
+    throw Error("the products of the couplings contradict each other");
   PetscInt first = 0;
-  while (first < size && values[first] <= small) ++first;
+  while (first < size && values[first] + raise <= small) ++first;
   Coupling coupling;
   for (PetscInt block = 0; block < count; ++block) {
     auto& factor = coupling.coefficients[powers[block]];
@@ -43,7 +52,7 @@ Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> po
     for (PetscInt j = 0; j < order; ++j)
       for (PetscInt i = first; i < size; ++i)
         factor(i - first, j) =
-            std::sqrt(values[i]) * vectors(block * order + j, i) / weight(block * order);
+            std::sqrt(values[i] + raise) * vectors(block * order + j, i) / weight(block * order);
     // ‖[x; ŝ x; ŝ² x]‖ ≤ Σ |ŝ|ᵏ ‖x‖,   ŝ = s / top
     coupling.error[powers[block]] = std::sqrt(2 * small) / weight(block * order);
   }

@@ -3,6 +3,7 @@
 /// A problem P(s) on two spaces: a small space V, on which P is known, and the space C that V
 /// leaves out, on which only bounds of P are known.
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,9 @@ struct KeptProblem {
   Coefficients matrices;              ///< of P_VV, N × N
   std::vector<Coupling> toLeftOut;    ///< parts of P_CV, rows × N
   std::vector<Coupling> fromLeftOut;  ///< parts of P_VC, N × columns
-  PetscInt order() const;             ///< N
+  /// The majorants hold for |s| up to this, rad/s.
+  double reach = std::numeric_limits<double>::infinity();
+  PetscInt order() const;  ///< N
 };
 
 /// Bounds of the block of P on the space C, in coordinates that are orthonormal in the energy K0:
@@ -58,8 +61,11 @@ double definiteness(const LeftOut& bounds, double reach, double left);
 /// the listed powers of s:
 ///   gram ≥ [C_0, C_1, …]ᵀ [C_0, C_1, …]   in the sense of quadratic forms.
 /// `gram` is square, of order N times the number of powers. Directions within round-off are dropped
-/// and counted in the error. `top`, rad/s, sets the relative weights of the powers.
-Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top);
+/// and counted in the error. `top`, rad/s, sets the relative weights of the powers. Directions in
+/// which the norm of the block is at most `negligible` for |s| = top are dropped as well. Throws
+/// Error if `gram` has a negative eigenvalue beyond round-off.
+Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top,
+                          double negligible = 0);
 
 /// Returns the majorant of P_VC from `coupling`, the result of couplingFromGram() for the
 /// transposed coefficients of P_VC.

@@ -7,8 +7,8 @@
 #include "base/session/stages.hpp"
 #include "base/system/error.hpp"
 #include "base/system/text.hpp"
+#include "eigen/proof/matrix_bounds.hpp"
 #include "eigen/referee/kept_space.hpp"
-#include "eigen/referee/norms.hpp"
 #include "eigen/referee/rows.hpp"
 
 namespace squeal::referee {
@@ -17,20 +17,11 @@ namespace {
 constexpr double reach = 1.7;    // of the free modes, relative to the top
 constexpr double nearby = 1.12;  // of eigenvalues that get corrections: the top may move
 constexpr double guard = 1.3;    // the same of a damped problem: it makes the ratio smaller
-constexpr double leastLeft = 0.02, mostLeft = 0.2;
 
 double largest(std::span<const Complex> list) {
   double size = 0;
   for (const auto s : list) size = std::max(size, std::abs(s));
   return size;
-}
-
-/// Returns the largest −Re s of the list, at most this.
-double mostDamped(std::span<const Complex> list, double limit) {
-  double decay = 0;
-  for (const auto s : list)
-    if (-s.real() <= limit) decay = std::max(decay, -s.real());
-  return decay;
 }
 
 /// The free modes in V, and the number of eigenvalues below θ by the inertia.
@@ -95,24 +86,20 @@ double topAbove(std::span<const Complex> list, std::span<const Complex> values, 
   return (inside + outside) / 2;
 }
 
-/// Proves the count, with the reach to the left that the settings or the list ask for; if that
-/// fails, with the smallest one.
-void proveIn(const proof::DiagonalForm& form, const proof::LeftOut& bounds,
-             std::span<const Complex> list, const Settings& settings, Judgement& judgement) {
-  const double top = judgement.region.top;
-  if (!judgement.sizes.damped) {
-    judgement.count = proof::proveCount(form, bounds, judgement.region, settings.discs);
-    return;
-  }
-  std::vector<double> lefts{settings.left};
-  if (settings.left == 0)
-    lefts = {std::max(leastLeft, 1.05 * mostDamped(list, mostLeft * top) / top), leastLeft};
-  const auto values = form.eigenvalues();
-  for (const double left : lefts) {
-    judgement.region.left = left >= 1 ? 2 * top : proof::placedLeft(values, top, left * top, 0.3);
-    judgement.count = proof::proveCount(form, bounds, judgement.region, settings.discs);
-    if (judgement.count.verdict == proof::Verdict::proved) return;
-  }
+/// Collective. Adds to `bounds` the bounds of M_a, C and G on the space that V leaves out, for
+/// regions with |s| ≤ `top` and Re s ≥ −`left`, rad/s.
+void boundOthers(const SplitProblem& problem, const factor::AssociatedSystem& system, double top,
+                 double left, proof::LeftOut& bounds) {
+  if (bounds.mass == 0) return;  // nothing is left out
+  const Mat skewMass = problem.skew(2), gyroscopic = problem.skew(1),
+            damping = problem.symmetric(1);
+  if (!skewMass && !gyroscopic && !damping) return;
+  const proof::MatrixBounds others(system, bounds.mass, {skewMass, gyroscopic, damping});
+  bounds.skewMass = others.ofSkew(skewMass, top * top);
+  bounds.gyroscopic = others.ofSkew(gyroscopic, top);
+  const auto [whole, below] = others.ofDamping(damping, left, top);
+  bounds.damping = whole;
+  bounds.rest[1] += below;
 }
 
 }  // namespace
@@ -126,7 +113,7 @@ BoundedProblem bounded(const Problem& at, double top, const modes::Settings& set
   const FreeModes free = freeModes(shifted, top, settings, log.subject);
   Stage stage(shifted.system.comm(), log.stage);
   KeptSpace space(problem, shifted, free.modes, at.vectors);
-  const double left = problem.damped() ? 1.5 * mostLeft * top : INFINITY,
+  const double left = problem.damped() ? 1.5 * proof::mostLeft * top : INFINITY,
                reached = (problem.damped() ? guard : nearby) * top;
   for (int round = 0; round < at.rounds && !space.isWhole(); ++round)
     space.correct(
@@ -158,7 +145,14 @@ Judgement judge(const BoundedProblem& problem, std::span<const Complex> list,
   judgement.region.top = settings.top > 0
                              ? proof::placedTop(values, problem.wanted, settings.within)
                              : topAbove(list, values, nearby * problem.wanted);
-  proveIn(form, problem.leftOut, list, settings, judgement);
+  if (judgement.sizes.damped) {
+    auto [region, count] = proof::proveDamped(form, problem.leftOut, judgement.region.top,
+                                              settings.left, list, settings.discs);
+    judgement.region = region;
+    judgement.count = std::move(count);
+  } else {
+    judgement.count = proof::proveCount(form, problem.leftOut, judgement.region, settings.discs);
+  }
   judgement.why = problem.confirmed ? proof::reason(judgement.count, settings.remedies)
                                     : "the inertia does not confirm the number of free modes";
   const auto discs = problem.confirmed

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "base/session/events.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/text.hpp"
 #include "eigen/completeness/completeness.hpp"
+#include "eigen/completeness/damped.hpp"
 #include "eigen/sweep_solver/point_text.hpp"
 #include "eigen/sweep_solver/single_proofs.hpp"
 
@@ -24,6 +25,72 @@ std::string whyNothing(const reduction::ReducedProblem& reduced) {
   return top == 0 || !reduced.grows() ? "only with -flutter_basis corrected" : "";
 }
 
+/// Collective. Proves the lists of points that completeness::coversDamped() in the basis of the
+/// sweep. Returns the points whose number of eigenvalues is not proved; nothing is recorded for
+/// them.
+std::vector<ListedPoint*> proveDamped(const SweepProblem& problem,
+                                      reduction::ReducedProblem& reduced, const modes::Modes& modes,
+                                      const pencil::JumpFactors& factors,
+                                      const std::vector<ListedPoint*>& points,
+                                      const ProofRequest& request) {
+  if (points.empty()) return {};
+  std::vector<completeness::DampedList> lists;
+  for (const auto* point : points)
+    lists.push_back({&point->problem, point->list,
+                     [&problem, i = point->place.steadyPoint] { return problem.factorsAt(i); }});
+  Stage stage(reduced.basis().comm(), "proof");
+  const auto report = [&](const std::vector<pencil::ComplexModes*>& judged) {
+    for (auto* list : judged) {
+      stage.printLine(completenessText(*list));
+      if (!list->completeness->proved) list->completeness.reset();
+    }
+    if (request.afterPoints) request.afterPoints();
+  };
+  std::string failure;
+  try {
+    completeness::proveDamped(reduced,
+                              {.system = *problem.system,
+                               .modes = modes,
+                               .interior = problem.substructure.interior,
+                               .factors = factors,
+                               .settings = request.settings,
+                               .afterPoints = report},
+                              lists);
+  } catch (const Error& error) {
+    failure = std::string(", ended by: ") + error.what();
+  }
+  stage.finish(formatted("%zu points with terms of speed or damping, basis of %" PetscInt_FMT,
+                         points.size(), reduced.basisSize()) +
+               failure);
+  std::vector<ListedPoint*> left;
+  std::ranges::copy_if(points, std::back_inserter(left), [](const ListedPoint* point) {
+    const auto& found = point->list->completeness;
+    return !found || !found->proved;
+  });
+  return left;
+}
+
+/// Collective. Proves the lists of points whose terms are the same at all points.
+void proveTogether(const SweepProblem& problem, reduction::ReducedProblem& reduced,
+                   const modes::Modes& modes, const RangeFactors& factors,
+                   const std::vector<ListedPoint*>& points, const ProofRequest& request) {
+  if (points.empty()) return;
+  std::map<std::size_t, completeness::ProvedSet> byRange;
+  for (const auto* point : points) {
+    auto& set = byRange[point->place.range];
+    set.rows = factors.rowsOf[point->place.range];
+    set.problems.push_back({point->problem.at, point->problem.pencil.with({}), point->problem.set});
+    set.points.push_back(point->list);
+  }
+  std::vector<completeness::ProvedSet> sets;
+  for (auto& [range, set] : byRange) sets.push_back(std::move(set));
+  Stage stage(reduced.basis().comm(), "proof");
+  completeness::prove(reduced, *problem.system, modes, factors.factors, sets, request.settings);
+  for (const auto& set : sets)
+    for (const auto* list : set.points) stage.printLine(completenessText(*list));
+  stage.finish(formatted("basis of %" PetscInt_FMT, reduced.basisSize()));
+}
+
 }  // namespace
 
 void proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
@@ -33,39 +100,26 @@ void proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
   if (const std::string why = whyNothing(reduced); !why.empty()) {
     return printLine(comm, "proof: nothing to prove (" + why + ")");
   }
-  const auto [factors, rowsOf] = problem.frictionFactors();
-  std::map<std::size_t, completeness::ProvedSet> byRange;
-  std::vector<ListedPoint*> others;
+  const auto factors = problem.frictionFactors();
+  const auto jumps = problem.jumpFactors();
+  std::vector<ListedPoint*> alike, damped, others;
   for (auto& point : points) {
     // A resumed run tries again where an earlier one ended with an error, for example of memory.
     if (const auto& known = point.list->completeness; known && known->top > 0) continue;
-    if (!completeness::covers(point.problem, factors)) {
-      others.push_back(&point);
-      continue;
-    }
-    auto& set = byRange[point.range];
-    set.rows = rowsOf[point.range];
-    set.problems.push_back({point.problem.at, point.problem.pencil.with({}), point.problem.set});
-    set.points.push_back(point.list);
+    const bool isAlike = completeness::covers(point.problem, factors.factors);
+    (isAlike                                            ? alike
+     : completeness::coversDamped(point.problem, jumps) ? damped
+                                                        : others)
+        .push_back(&point);
   }
-  std::vector<completeness::ProvedSet> sets;
-  for (auto& [range, set] : byRange) sets.push_back(std::move(set));
+  for (auto* point : proveDamped(problem, reduced, modes, jumps, damped, request))
+    others.push_back(point);
   proveSingly(problem, reduced, others, request);
-  std::optional<Stage> stage;
-  if (!sets.empty()) {
-    stage.emplace(comm, "proof");
-    completeness::prove(reduced, *problem.system, modes, factors, sets, request.settings);
-    for (const auto& set : sets)
-      for (const auto* list : set.points) stage->printLine(completenessText(*list));
-  }
+  proveTogether(problem, reduced, modes, factors, alike, request);
   const auto proved =
       std::ranges::count_if(points, [](const auto& point) { return point.list->listIsProved(); });
-  const std::string text =
-      formatted("%td of %zu lists proved to be complete", proved, points.size());
-  if (stage)
-    stage->finish(text + formatted(", basis of %" PetscInt_FMT, reduced.basisSize()));
-  else
-    printLine(comm, "proof: " + text);
+  printLine(comm,
+            formatted("proof: %td of %zu lists proved to be complete", proved, points.size()));
 }
 
 std::vector<std::string> faultsOf(const pencil::ComplexModes& point) {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// A solved point of a sweep.
-#include <cstddef>
-
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/reduction/point_state.hpp"
+#include "eigen/sweep_solver/sweep_plan.hpp"
 
 namespace squeal::sweep_solver {
 
 /// A solved point.
 struct ListedPoint {
-  std::size_t range;                ///< index in SweepProblem::ranges
+  PointPlace place;
   reduction::PointProblem problem;  ///< with all terms
   pencil::ComplexModes* list;       ///< borrowed
 };

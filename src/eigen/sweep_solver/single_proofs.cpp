@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/sweep_solver/single_proofs.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
 
 #include "algebra/linalg/rows.hpp"
 #include "algebra/linalg/spread.hpp"
-#include "base/petsc/object.hpp"
+#include "base/petsc/matrix.hpp"
 #include "base/session/stages.hpp"
 #include "base/system/concatenation.hpp"
 #include "base/system/termination.hpp"
@@ -88,16 +89,6 @@ linalg::Block vectorsOf(const reduction::ReducedProblem& reduced,
   return linalg::rowsOf(unknowns, linalg::product(reduced.basis().columns(), coordinates));
 }
 
-/// Returns true if a term is not a sparse matrix.
-bool hasDenseTerm(const pencil::Pencil& pencil) {
-  for (const auto& term : pencil.terms()) {
-    PetscBool sparse = PETSC_FALSE;
-    check(PetscObjectTypeCompareAny(object(term.matrix), &sparse, MATSEQAIJ, MATMPIAIJ, ""));
-    if (!sparse) return true;
-  }
-  return false;
-}
-
 /// Collective. Returns the problem of a point on its own basis; none, with the reason, if that
 /// fails. The basis is corrected `rounds` times, or twice if the eigenvectors are not stored.
 std::optional<referee::BoundedProblem> boundedProblem(const SweepProblem& problem,
@@ -107,13 +98,13 @@ std::optional<referee::BoundedProblem> boundedProblem(const SweepProblem& proble
   auto& found = point.list->completeness.emplace();
   const auto& at = point.list->at;
   const auto terms = activeTerms(point);
-  if (hasDenseTerm(terms)) {
+  if (!std::ranges::all_of(terms.terms(), [](const auto& term) { return isSparse(term.matrix); })) {
     found.reason = "modal damping is not a sparse matrix";
     return {};
   }
   try {
     const auto unknowns =
-        unknownsOf(problem, problem.ranges[point.range], reduced.basis().localRows());
+        unknownsOf(problem, problem.ranges[point.place.range], reduced.basis().localRows());
     const auto pencil = sumsOf(terms, at, unknowns);
     auto vectors = vectorsOf(reduced, point.problem, unknowns);
     if (vectors.columns() == 0) rounds = 2;

@@ -94,6 +94,12 @@ class SweepProblem {
   virtual RangeFactors frictionFactors() const {
     return {{{}, {}, "the factors of the friction terms are not known"}, {}};
   }
+  /// Collective. Returns the factors of the friction terms of all points, whatever these terms
+  /// depend on, and the other factors at steadyPoints[i].
+  virtual pencil::JumpFactors jumpFactors() const {
+    return {{}, {}, {}, "the factors of the friction terms are not known"};
+  }
+  virtual pencil::PointFactors factorsAt(std::size_t /*i*/) const { return {}; }
   /// Collective. Returns the factors of the friction terms that only some of the ranges have.
   virtual pencil::FrictionFactors releasedFriction() const { return {}; }
   /// Collective. Returns the data of a point between two points of the sweep; none if no steady

@@ -291,7 +291,7 @@ class SweepSolver {
   void proveListsOf(const std::vector<std::size_t>& points) {
     std::vector<ListedPoint> listed;
     for (const std::size_t i : points)
-      listed.push_back({plan_.places[i].range, problemOf(i), &pointAt(i)});
+      listed.push_back({plan_.places[i], problemOf(i), &pointAt(i)});
     proveLists(problem_, *reduced_, freeModes(), std::move(listed),
                {.settings = request_.settings.proof,
                 .modes = *request_.settings.modes,

@@ -148,10 +148,17 @@ OwnedMat Contact::slipRowsAt(const Transformation& transformation, const std::ve
   return slipRows(transformation, slip, slides, friction);
 }
 
-/// Returns the rows E⁻¹ a τ·[u] for factors a, [contact node].
-OwnedMat Contact::slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
-                           const Mask& slides, const std::vector<double>& factors) const {
-  const OwnedMat directions = nodalMatrix(*mesh, 1);
+OwnedMat Contact::slipOfJumpsAt(const std::vector<Slip>& slip, const Mask& slides,
+                                double swept) const {
+  std::vector<double> friction;
+  for (const auto& state : slip) friction.push_back(state.friction(swept));
+  return slipOfJumps(slip, slides, friction);
+}
+
+/// Returns the matrix that maps the jumps [u] to E⁻¹ a τ·[u] for factors a, [contact node].
+OwnedMat Contact::slipOfJumps(const std::vector<Slip>& slip, const Mask& slides,
+                              const std::vector<double>& factors) const {
+  OwnedMat directions = nodalMatrix(*mesh, 1);
   for (std::size_t i = 0; i < interfaces.nodes.size(); ++i) {
     if (!slides[i] && !interfaces.gapBasis) continue;
     for (int d = 0; d < mesh->dimension; ++d)
@@ -160,21 +167,24 @@ OwnedMat Contact::slipRows(const Transformation& transformation, const std::vect
                         factors[i] * slip[i].direction[d], INSERT_VALUES));
   }
   assembled(directions);
-  OwnedMat rows;
-  check(MatMatMult(directions, sliding.jump, MAT_INITIAL_MATRIX, PETSC_DEFAULT, rows.out()));
-  if (interfaces.gapBasis) {
-    OwnedMat combined;
-    check(MatMatMult(interfaces.gapBasis.inverse, rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
-                     combined.out()));
-    const OwnedVec isSliding = elasticity::nodalVector(*mesh);
-    for (std::size_t i = 0; i < interfaces.nodes.size(); ++i)
-      check(VecSetValue(isSliding, gapRow(interfaces.nodes[i]), slides[i], INSERT_VALUES));
-    check(VecAssemblyBegin(isSliding));
-    check(VecAssemblyEnd(isSliding));
-    check(MatDiagonalScale(combined, isSliding, nullptr));
-    rows = std::move(combined);
-  }
-  OwnedMat result;
+  if (!interfaces.gapBasis) return directions;
+  OwnedMat combined;
+  check(MatMatMult(interfaces.gapBasis.inverse, directions, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   combined.out()));
+  const OwnedVec isSliding = elasticity::nodalVector(*mesh);
+  for (std::size_t i = 0; i < interfaces.nodes.size(); ++i)
+    check(VecSetValue(isSliding, gapRow(interfaces.nodes[i]), slides[i], INSERT_VALUES));
+  check(VecAssemblyBegin(isSliding));
+  check(VecAssemblyEnd(isSliding));
+  check(MatDiagonalScale(combined, isSliding, nullptr));
+  return combined;
+}
+
+OwnedMat Contact::slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
+                           const Mask& slides, const std::vector<double>& factors) const {
+  OwnedMat rows, result;
+  check(MatMatMult(slipOfJumps(slip, slides, factors), sliding.jump, MAT_INITIAL_MATRIX,
+                   PETSC_DEFAULT, rows.out()));
   check(MatMatMult(rows, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
 }

@@ -123,8 +123,12 @@ struct Contact {
   /// Collective. Returns S_0 + f S_1 at the swept friction f.
   OwnedMat slipRowsAt(const Transformation& transformation, const std::vector<Slip>& slip,
                       const Mask& slides, double swept) const;
+  /// Collective. Returns the matrix Φ, N×N, with S_0 + f S_1 = Φ J T at the swept friction f.
+  OwnedMat slipOfJumpsAt(const std::vector<Slip>& slip, const Mask& slides, double swept) const;
 
  private:
+  OwnedMat slipOfJumps(const std::vector<Slip>& slip, const Mask& slides,
+                       const std::vector<double>& factors) const;
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, const std::vector<double>& factors) const;
 };

@@ -33,6 +33,18 @@ pencil::FrictionFactors frictionFactors(const contact::Contact& contact,
                                         const contact::CoupledSystem& system,
                                         const std::vector<unsigned char>& slides);
 
+/// Collective. Returns the factors of the friction terms of all points, for the contact nodes i for
+/// which slides[i] is 1: those of affineTerms() and the first two kinds of pointTerms(). J T and D
+/// T are restricted to the rows of these nodes, or, on tri6 and quad8 faces, of all contact nodes.
+pencil::JumpFactors jumpFactors(const contact::Contact& contact,
+                                const contact::CoupledSystem& system,
+                                const std::vector<unsigned char>& slides);
+/// Collective. Returns the other factors at a point, for the same nodes. Throws Error if friction
+/// damping also acts on other nodes.
+pencil::PointFactors pointFactors(const contact::Contact& contact, const steady::Solution& solution,
+                                  const std::vector<unsigned char>& slides,
+                                  const Settings& settings);
+
 /// Collective. Returns the terms that depend on the steady state, of three kinds:
 /// 1. The friction terms f^a S_aᵀ N X T, if S depends on the deformation or on a friction law that
 ///    is not constant.

@@ -221,6 +221,16 @@ pencil::FrictionFactors MeshSweep::releasedFriction() const {
   return terms::frictionFactors(brake_.model.contact, *all_, slidingInSome());
 }
 
+pencil::JumpFactors MeshSweep::jumpFactors() const {
+  if (prestress_) return {{}, {}, {}, "the geometric stiffness differs between points"};
+  return terms::jumpFactors(brake_.model.contact, *all_, anywhere_.closed);
+}
+
+pencil::PointFactors MeshSweep::factorsAt(std::size_t i) const {
+  return terms::pointFactors(brake_.model.contact, steadyAt(i), anywhere_.closed,
+                             brake_.mesh().terms);
+}
+
 sweep_solver::RangeFactors MeshSweep::frictionFactors() const {
   sweep_solver::RangeFactors factors{
       terms::frictionFactors(brake_.model.contact, *all_, anywhere_.closed), {}};

@@ -35,6 +35,8 @@ class MeshSweep : public sweep_solver::SweepProblem {
   const PointGroup& group() const { return group_; }
   std::vector<pencil::Term> termsOf(std::size_t i) const override;
   sweep_solver::RangeFactors frictionFactors() const override;
+  pencil::JumpFactors jumpFactors() const override;
+  pencil::PointFactors factorsAt(std::size_t i) const override;
   pencil::FrictionFactors releasedFriction() const override;
   std::optional<sweep_solver::PointBetween> between(const sweep::Parameters& at,
                                                     std::size_t range) override;

@@ -8,8 +8,8 @@
 #include <complex>
 
 #include "base/system/error.hpp"
+#include "eigen/proof/matrix_bounds.hpp"
 #include "eigen/referee/kept_space.hpp"
-#include "eigen/referee/norms.hpp"
 #include "eigen/referee/referee.hpp"
 #include "support/algebra/dense.hpp"
 
@@ -169,18 +169,19 @@ TEST(Referee, BoundsOfOtherTermsHold) {
   const referee::SplitProblem problem(pencil, {});
   const auto shifted = referee::shiftedSystem(problem, top);
   EXPECT_EQ(shifted.shift, 0);
-  proof::LeftOut bounds;
-  bounds.mass = 1 / theta;
-  boundOthers(problem, shifted.system, top, top, bounds);
+  const Mat damping = problem.symmetric(1), gyroscopic = problem.skew(1);
+  const proof::MatrixBounds bounds(shifted.system, 1 / theta, {damping, gyroscopic, nullptr});
+  const auto [whole, below] = bounds.ofDamping(damping, top, top);
   // 2 max α / (j² + θ) is at j = 1; the bound is less than 1.2 times as large.
-  EXPECT_GE(bounds.damping, 2 * alpha / (1 + theta) * (1 - 1e-12));
-  EXPECT_LE(bounds.damping, 2.4 * alpha / (1 + theta));
-  EXPECT_GE(bounds.gyroscopic, g / theta);  // of one pair
-  EXPECT_LE(bounds.gyroscopic, 2.4 * 2 * g / (1 + theta));
-  EXPECT_LE(bounds.rest[1], 1e-8 * bounds.damping);
-  bounds = {};
-  boundOthers(problem, shifted.system, top, top, bounds);
-  EXPECT_EQ(bounds.damping, 0);  // nothing is left out
+  for (const double bound : {whole, bounds.ofSymmetric(damping, top)}) {
+    EXPECT_GE(bound, 2 * alpha / (1 + theta) * (1 - 1e-12));
+    EXPECT_LE(bound, 2.4 * alpha / (1 + theta));
+  }
+  EXPECT_LE(below, 1e-8 * whole);
+  const double ofSkew = bounds.ofSkew(gyroscopic, top);
+  EXPECT_GE(ofSkew, g / theta);  // of one pair
+  EXPECT_LE(ofSkew, 2.4 * 2 * g / (1 + theta));
+  EXPECT_EQ(bounds.ofSkew(nullptr, top), 0);
 }
 
 // K is triangular, with the eigenvalues j², and couples the lowest unknown to the highest by c. The

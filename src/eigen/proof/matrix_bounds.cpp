@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "eigen/referee/norms.hpp"
+#include "eigen/proof/matrix_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "base/petsc/arrays.hpp"
 #include "base/system/error.hpp"
 
-namespace squeal::referee {
+namespace squeal::proof {
 namespace {
 
 constexpr int mostTrials = 60;
@@ -124,38 +124,44 @@ double smallest(double start, double likely, double weight, const Confirmed& con
 
 }  // namespace
 
-void boundOthers(const SplitProblem& problem, const factor::AssociatedSystem& system, double top,
-                 double left, proof::LeftOut& bounds) {
-  if (bounds.mass == 0) return;  // nothing is left out
-  if (!problem.skew(2) && !problem.damped()) return;
-  OwnedMat energy;  // H
-  check(MatDuplicate(system.k0(), MAT_COPY_VALUES, energy.out()));
-  check(MatAXPY(energy, 1 / bounds.mass, system.m0(), DIFFERENT_NONZERO_PATTERN));
-  const Mat damping = problem.symmetric(1);
-  double likelySkewMass = 0, likelyGyroscopic = 0, likelyDamping = 0;
-  {  // the factor of H takes memory
-    const auto factor =
-        factor::shiftedFactor(system.k0(), system.m0(), -1 / bounds.mass, system.solver());
-    if (problem.skew(2)) likelySkewMass = estimate(problem.skew(2), *factor);
-    if (problem.skew(1)) likelyGyroscopic = estimate(problem.skew(1), *factor);
-    if (damping) likelyDamping = estimate(damping, *factor);
-  }
-  const auto skewBound = [&](Mat matrix, double likely, double weight) {
-    if (!matrix) return 0.0;
-    return 2 * smallest(lowerBound(matrix, energy), likely, 2 * weight,
-                        [&](double g) { return isBoundedSkew(matrix, energy, g); });
-  };
-  bounds.skewMass = skewBound(problem.skew(2), likelySkewMass, top * top);
-  bounds.gyroscopic = skewBound(problem.skew(1), likelyGyroscopic, top);
-  if (!damping) return;
-  const double start = lowerBound(damping, energy);
-  const double above = 2 * smallest(start, likelyDamping, 2 * left,
-                                    [&](double g) { return isBounded(damping, energy, g, -1); });
-  // Round-off of a semi-definite C, or a C that feeds motions: C + κ H ≥ 0.
-  const double below = 2 * smallest(1e-9 * start, 0, 2 * top,
-                                    [&](double g) { return isBounded(damping, energy, g, 1); });
-  bounds.damping = above + below;  // of C + κ H
-  bounds.rest[1] += below;
+MatrixBounds::MatrixBounds(const factor::AssociatedSystem& system, double mass,
+                           std::vector<Mat> matrices) {
+  check(MatDuplicate(system.k0(), MAT_COPY_VALUES, energy_.out()));
+  check(MatAXPY(energy_, 1 / mass, system.m0(), DIFFERENT_NONZERO_PATTERN));
+  // The factor of H takes memory that the inertia of other matrices needs.
+  const auto factor = factor::shiftedFactor(system.k0(), system.m0(), -1 / mass, system.solver());
+  for (const Mat matrix : matrices)
+    if (matrix) likely_.emplace_back(matrix, estimate(matrix, *factor));
 }
 
-}  // namespace squeal::referee
+double MatrixBounds::likely(Mat matrix) const {
+  const auto known = std::ranges::find(likely_, matrix, &std::pair<Mat, double>::first);
+  ensure(known != likely_.end(), "a bound belongs to one of the given matrices");
+  return known->second;
+}
+
+double MatrixBounds::ofSkew(Mat matrix, double weight) const {
+  if (!matrix) return 0;
+  return 2 * smallest(lowerBound(matrix, energy_), likely(matrix), 2 * weight,
+                      [&](double g) { return isBoundedSkew(matrix, energy_, g); });
+}
+
+double MatrixBounds::ofSymmetric(Mat matrix, double weight) const {
+  if (!matrix) return 0;
+  return 2 * smallest(lowerBound(matrix, energy_), likely(matrix), 2 * weight, [&](double g) {
+           return isBounded(matrix, energy_, g, -1) && isBounded(matrix, energy_, g, 1);
+         });
+}
+
+MatrixBounds::Damping MatrixBounds::ofDamping(Mat matrix, double weight, double weightBelow) const {
+  if (!matrix) return {};
+  const double start = lowerBound(matrix, energy_);
+  const double above = 2 * smallest(start, likely(matrix), 2 * weight,
+                                    [&](double g) { return isBounded(matrix, energy_, g, -1); });
+  // Round-off of a semi-definite C, or a C that feeds motions: C + κ H ≥ 0.
+  const double below = 2 * smallest(1e-9 * start, 0, 2 * weightBelow,
+                                    [&](double g) { return isBounded(matrix, energy_, g, 1); });
+  return {above + below, below};
+}
+
+}  // namespace squeal::proof

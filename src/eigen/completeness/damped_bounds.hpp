@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+/// The block of P(s) on a part of the basis V at a point with terms in s, or with friction that
+/// depends on the point, and bounds of the other blocks. docs/method.md, section 13, derives the
+/// bounds. Not collective.
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "algebra/linalg/quadratic.hpp"
+#include "eigen/completeness/point_bounds.hpp"
+#include "eigen/pencil/friction_factors.hpp"
+
+namespace squeal::completeness {
+
+/// The products of V that all points with an active set have in common. V has N vectors, the first
+/// ones being constraint modes. N_X, J and D are those of pencil::JumpFactors. K0⁻¹ is that of the
+/// interior unknowns.
+struct DampedSet {
+  /// A matrix X of the bodies, symmetric or antisymmetric, whose term is c s^power X.
+  struct Body {
+    int power = 0;
+    bool skew = false;
+    linalg::DenseMatrix onV;  ///< Vᵀ X V, N × N
+    double bound = 0;         ///< of ‖X‖ on C in the energy K0
+    /// If X is a damping matrix: 0 ≤ X + κ H ≤ bound on C, with ‖κ H‖ ≤ below.
+    double below = 0;
+  };
+  /// N_X of one of the matrices X.
+  struct Normal {
+    int power = 0;
+    linalg::DenseMatrix onV, flexibility;  ///< N_X V, r × N, and N_X K0⁻¹ N_Xᵀ, r × r
+    linalg::DenseMatrix mass;              ///< N_X K0⁻¹ M0 V, r × N
+  };
+
+  KnownModes modes;
+  linalg::DenseMatrix energy;  ///< Vᵀ K0 V, N × N
+  linalg::DenseMatrix mass;    ///< Vᵀ M0 V, N × N
+  std::vector<Body> bodies;    ///< all except K0 and M0
+  /// [i][j ≤ i] Vᵀ X_iᵀ K0⁻¹ X_j V, N × N; X_0 = M0, and X_(i + 1) is that of bodies[i]. Empty if
+  /// j < i and one of the two matrices belongs to s⁰.
+  std::vector<std::vector<linalg::DenseMatrix>> products;
+  std::vector<Normal> normals;                          ///< [0]: of the stiffness, [1]: of the mass
+  linalg::DenseMatrix normalProduct;                    ///< N_0 K0⁻¹ N_2ᵀ of these two, r × r
+  linalg::DenseMatrix jumps;                            ///< J V, q × N
+  double jumpsOnC = 0;                                  ///< ‖J x‖ for x in C with energy 1
+  linalg::DenseMatrix convected, convectedFlexibility;  ///< of D in the same way; may be empty
+};
+
+/// The data of a point.
+struct DampedPoint {
+  linalg::DenseProblem problem;       ///< P(s) on V
+  std::vector<double> bodyFactors;    ///< [body] c
+  std::vector<double> normalFactors;  ///< [normal] c
+  double speed = 0;                   ///< v
+  pencil::PointFactors friction;      ///< Φ and B
+  /// Approximate eigenvectors in coordinates of V, N × any number.
+  linalg::DenseMatrix vectors;
+  /// Vᵀ f of forces f whose responses K0⁻¹ f V contains, N × any number.
+  linalg::DenseMatrix forces;
+};
+
+/// Returns the blocks on the subspace of V that contains the constraint modes, the free modes, the
+/// responses to the jumps, and the vectors and responses of the point. `top`, rad/s, sets the
+/// relative weights of the powers of s. Throws Error if the products contradict each other, or if
+/// the factors of friction do not give the terms of the problem.
+PointBounds dampedBounds(const DampedSet& set, DampedPoint point, double top);
+
+}  // namespace squeal::completeness
