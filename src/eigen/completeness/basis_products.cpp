@@ -67,8 +67,8 @@ DenseMatrix randomSigns(PetscInt rows, PetscInt columns) {
 
 namespace {
 
-/// Collective. Returns an estimate of ‖M0 d − d/λ‖ of all modes together, in energy, from random
-/// combinations of them, twice as large as its mean.
+/// Collective. Returns an estimate of ‖M0 d − K0 d/λ‖ of all modes together in the norm of K0⁻¹,
+/// from random combinations of them, twice as large as its mean.
 double errorOfModes(reduction::ReducedProblem& reduced, const modes::Modes& modes,
                     const pencil::Pencil& associated) {
   constexpr PetscInt combinations = 16;

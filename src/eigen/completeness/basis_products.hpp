@@ -26,10 +26,10 @@ linalg::DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const Kn
 /// The reason why nothing is proved without KnownModes.
 inline constexpr const char* unconfirmed = "the number of free modes is not confirmed";
 
-/// Collective. Returns what is known of the free modes, the first vectors of the basis after the
-/// constraint modes, if their number is confirmed up to well above the band, whose top is
-/// `bandTop`. If it is confirmed only up to slightly above the band, they are counted again at a
-/// higher frequency. `associated` has the terms of K0 and M0.
+/// Collective. Returns the known properties of the free modes, which follow the constraint modes in
+/// the basis; nothing if their number is not confirmed. If it is confirmed only up to slightly
+/// above the band, the modes are counted again at a higher frequency. `associated` has the terms of
+/// K0 and M0.
 std::optional<KnownModes> knownModes(reduction::ReducedProblem& reduced,
                                      const factor::AssociatedSystem& system,
                                      const modes::Modes& modes, const pencil::Pencil& associated);

@@ -28,8 +28,8 @@ using linalg::DenseMatrix;
 
 using Pairs = std::vector<linalg::DensePair>;
 
-/// Returns those pairs of a point above the band whose eigenvalues the region may contain. The
-/// sweep has not corrected them.
+/// Returns those pairs of a point whose eigenvalues lie above the band, in the region or near it.
+/// The sweep has not corrected them.
 Pairs uncorrected(const Pairs& pairs, const pencil::ComplexModes& point) {
   constexpr double farthest = 1.12;
   const double top = wantedTop(point.bandTop);

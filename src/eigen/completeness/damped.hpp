@@ -13,7 +13,7 @@
 
 namespace squeal::completeness {
 
-/// A point, all borrowed.
+/// A point with its list. The pointers are borrowed.
 struct DampedList {
   const reduction::PointProblem* problem;
   pencil::ComplexModes* list;  ///< its solution
@@ -33,13 +33,14 @@ struct DampedSweep {
   const std::vector<PetscInt>& interior;
   const pencil::JumpFactors& factors;
   const Settings& settings;
-  /// Collective; called with the points that were judged last.
+  /// Collective; called with the points whose proofs have ended last.
   std::function<void(const std::vector<pencil::ComplexModes*>&)> afterPoints;
 };
 
-/// Collective. Extends the basis by the static responses to forces at the jumps of `factors`, and
-/// proves the lists in the manner of prove(). All problems must be covered. Throws Interrupted
-/// between points once a stop has been requested.
+/// Collective. Extends the basis by corrections of eigenvectors above the band and by the static
+/// responses to forces at the jumps of `factors`, and proves the lists in the manner of prove().
+/// All problems must be covered. Throws Interrupted between two groups of points once a stop has
+/// been requested.
 void proveDamped(reduction::ReducedProblem& reduced, const DampedSweep& sweep,
                  const std::vector<DampedList>& points);
 

@@ -227,7 +227,7 @@ DenseMatrix DampedPart::massNormal(const DampedSet::Normal& normal, const DenseM
 
 /// Returns a majorant of P_VC for |s| ≤ reach. The products of its main part
 ///   (Φ J)ᵀ_V N_0C + s² (M_VC + (Φ J)ᵀ_V N_2C)
-/// are known; the other terms are small, and their norms are added.
+/// are known. The other terms are small; their Gram matrices are added, weighted by their norms.
 proof::Coupling DampedPart::fromLeftOut() const {
   const PetscInt size = w_.columns();
   const auto &stiff = set_.normals[0], &heavy = set_.normals[1];

@@ -14,38 +14,39 @@
 
 namespace squeal::completeness {
 
-/// The products of V that all points with an active set have in common. V has N vectors, the first
-/// ones being constraint modes. N_X, J and D are those of pencil::JumpFactors. K0⁻¹ is that of the
-/// interior unknowns.
+/// The products with V that all points with the same active set share. V has N vectors, first the
+/// constraint modes. N_X, J and D are those of pencil::JumpFactors, J and D in the rows in which J
+/// is not zero. K0⁻¹ is that of the interior unknowns.
 struct DampedSet {
   /// A matrix X of the bodies, symmetric or antisymmetric, whose term is c s^power X.
   struct Body {
     int power = 0;
     bool skew = false;
     linalg::DenseMatrix onV;  ///< Vᵀ X V, N × N
-    double bound = 0;         ///< of ‖X‖ on C in the energy K0
-    /// If X is a damping matrix: 0 ≤ X + κ H ≤ bound on C, with ‖κ H‖ ≤ below.
+    /// On C, in the energy K0: bound of ‖X‖, or, if X is a damping matrix, of X + κ H.
+    double bound = 0;
+    /// If X is a damping matrix: X + κ H ≥ 0 and ‖κ H‖ ≤ below on C (proof::MatrixBounds).
     double below = 0;
   };
   /// N_X of one of the matrices X.
   struct Normal {
     int power = 0;
     linalg::DenseMatrix onV, flexibility;  ///< N_X V, r × N, and N_X K0⁻¹ N_Xᵀ, r × r
-    linalg::DenseMatrix mass;              ///< N_X K0⁻¹ M0 V, r × N
+    linalg::DenseMatrix mass;              ///< N_X K0⁻¹ M0 V of stiffness and mass, r × N
   };
 
   KnownModes modes;
   linalg::DenseMatrix energy;  ///< Vᵀ K0 V, N × N
   linalg::DenseMatrix mass;    ///< Vᵀ M0 V, N × N
-  std::vector<Body> bodies;    ///< all except K0 and M0
+  std::vector<Body> bodies;    ///< except K0, M0 and those without effect
   /// [i][j ≤ i] Vᵀ X_iᵀ K0⁻¹ X_j V, N × N; X_0 = M0, and X_(i + 1) is that of bodies[i]. Empty if
   /// j < i and one of the two matrices belongs to s⁰.
   std::vector<std::vector<linalg::DenseMatrix>> products;
-  std::vector<Normal> normals;                          ///< [0]: of the stiffness, [1]: of the mass
-  linalg::DenseMatrix normalProduct;                    ///< N_0 K0⁻¹ N_2ᵀ of these two, r × r
-  linalg::DenseMatrix jumps;                            ///< J V, q × N
-  double jumpsOnC = 0;                                  ///< ‖J x‖ for x in C with energy 1
-  linalg::DenseMatrix convected, convectedFlexibility;  ///< of D in the same way; may be empty
+  std::vector<Normal> normals;        ///< [0]: of the stiffness, [1]: of the mass
+  linalg::DenseMatrix normalProduct;  ///< N_0 K0⁻¹ N_2ᵀ of these two, r × r
+  linalg::DenseMatrix jumps;          ///< J V, q × N
+  double jumpsOnC = 0;                ///< bound of ‖J x‖ for x in C with energy 1
+  linalg::DenseMatrix convected, convectedFlexibility;  ///< D V, D K0⁻¹ Dᵀ; empty if D is null
 };
 
 /// The data of a point.
@@ -57,14 +58,14 @@ struct DampedPoint {
   pencil::PointFactors friction;      ///< Φ and B
   /// Approximate eigenvectors in coordinates of V, N × any number.
   linalg::DenseMatrix vectors;
-  /// Vᵀ f of forces f whose responses K0⁻¹ f V contains, N × any number.
+  /// Vᵀ f for forces f; V contains the responses K0⁻¹ f. N × any number.
   linalg::DenseMatrix forces;
 };
 
-/// Returns the blocks on the subspace of V that contains the constraint modes, the free modes, the
-/// responses to the jumps, and the vectors and responses of the point. `top`, rad/s, sets the
-/// relative weights of the powers of s. Throws Error if the products contradict each other, or if
-/// the factors of friction do not give the terms of the problem.
+/// Returns the blocks on the part of V that subspace() returns (damped_subspace.hpp). The bounds
+/// hold for |s| up to 1.3 `top`, rad/s; `top` also sets the relative weights of the powers of s.
+/// Throws Error if a Gram matrix has a negative eigenvalue beyond round-off, or if the factors of
+/// friction do not give the terms of the problem.
 PointBounds dampedBounds(const DampedSet& set, DampedPoint point, double top);
 
 }  // namespace squeal::completeness

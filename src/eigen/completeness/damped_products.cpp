@@ -50,7 +50,7 @@ bool isSkew(Mat matrix) {
   return sums[1] < sums[0];
 }
 
-/// Collective. Returns the rows and columns of the interior unknowns; empty stands for all.
+/// Collective. Returns the rows and columns of the interior unknowns.
 OwnedMat interiorOf(Mat matrix, std::vector<PetscInt> interior) {
   OwnedMat part;
   PetscInt first = 0;

@@ -20,8 +20,8 @@ class CommonProducts {
   /// Not collective. Returns the part that the points of a set use, without energy and mass.
   DampedSet of(const subspace::PointSpace& space) const;
   const std::vector<const pencil::Term*>& bodies() const { return bodies_; }
-  /// Not collective. Returns the factors of a point in the rows of J that are not zero. Throws
-  /// Error if B couples them with other rows, where D may not be zero.
+  /// Not collective. Returns Φ and B of a point for the rows of J that are not zero. Throws Error
+  /// if B couples these rows with others: there J is zero, but D need not be.
   pencil::PointFactors restricted(const pencil::PointFactors& factors) const;
 
  private:

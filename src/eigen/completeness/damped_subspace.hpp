@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The part of the basis V in which the proof for a point works. Not collective.
+/// The part of the basis V on which the proof for a point is carried out. Not collective.
 #include "eigen/completeness/damped_bounds.hpp"
 
 namespace squeal::completeness {
@@ -11,8 +11,9 @@ struct Subspace {
   double jumpsLeft = 0;         ///< bound of ‖J‖ on the other part
 };
 
-/// Returns the space of the constraint modes, the free modes, the responses to the jumps (rows of
-/// J V), and the vectors and the other responses of the point.
+/// Returns the span of the constraint modes, the free modes, the responses to forces at the jumps,
+/// DampedPoint::vectors, and the responses to DampedPoint::forces. `jumps` contains the rows of J V
+/// that Φ or B use.
 Subspace subspace(const DampedSet& set, const linalg::DenseMatrix& jumps, const DampedPoint& point);
 
 }  // namespace squeal::completeness

@@ -17,8 +17,8 @@ struct FrictionFactors {
   /// [power of the friction] S_a, r × n, the slip rows: the motion of contact nodes along the slip,
   /// times the coefficient of f^a. Only the frictionExponent a of the term is used.
   std::vector<Term> slip;
-  /// [matrix of the bodies] N_X = N X T, r × n: normal forces due to the stiffness (power k = 0),
-  /// the mass (2) and others, whose terms have the exponents of c_X.
+  /// [matrix of the bodies] N_X = N X T, r × n: the normal forces due to X. Each term has the power
+  /// k of X (stiffness 0, mass 2) and the exponents of c_X.
   std::vector<Term> normal;
   std::string missing;  ///< why the factors are not known; empty if they are
 
@@ -26,7 +26,7 @@ struct FrictionFactors {
   Mat normalOf(int power) const;
 };
 
-/// The factors of the friction terms that all points have in common. The terms of a point are
+/// The factors that the friction terms of all points share. The terms of a point are
 ///   (Φ J)ᵀ Σ_X c_X s^k N_X + Jᵀ B (s J − v D),
 /// with Φ and B of PointFactors and the speed v.
 struct JumpFactors {

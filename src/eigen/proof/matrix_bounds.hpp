@@ -9,10 +9,10 @@
 
 namespace squeal::proof {
 
-/// Bounds relative to the energy K0. On C, M ≤ `mass`. With H = K0 + M / mass, every matrix A ≤ g H
-/// therefore satisfies A ≤ 2 g there. The inertia of g H − A, or of [g H, A; Aᵀ, g H] for an
-/// antisymmetric A, confirms g. It is less than 1.2 times the smallest possible one, or has nearly
-/// no effect on δ.
+/// Bounds relative to the energy K0. On C, M ≤ `mass`, so that H = K0 + M / mass ≤ 2 and every
+/// A ≤ g H is at most 2 g. To confirm g, the program computes the inertia of g H − A, or of
+/// [g H, A; Aᵀ, g H] for an antisymmetric A. The confirmed g is less than 1.2 times the smallest
+/// possible one, or so small that it hardly affects δ.
 class MatrixBounds {
  public:
   /// Collective. Estimates the norms of these matrices, which are borrowed during the life of the
@@ -25,7 +25,7 @@ class MatrixBounds {
   /// Return a bound of ‖A‖ for an antisymmetric or a symmetric A.
   double ofSkew(Mat matrix, double weight) const;
   double ofSymmetric(Mat matrix, double weight) const;
-  /// Bounds of a symmetric A that is positive semi-definite within round-off, or nearly so:
+  /// Bounds of a symmetric A that is positive semi-definite except for round-off or a small part:
   /// 0 ≤ A + κ H ≤ `whole` on C, with ‖κ H‖ ≤ `below`.
   struct Damping {
     double whole = 0, below = 0;

@@ -33,14 +33,15 @@ pencil::FrictionFactors frictionFactors(const contact::Contact& contact,
                                         const contact::CoupledSystem& system,
                                         const std::vector<unsigned char>& slides);
 
-/// Collective. Returns the factors of the friction terms of all points, for the contact nodes i for
-/// which slides[i] is 1: those of affineTerms() and the first two kinds of pointTerms(). J T and D
-/// T are restricted to the rows of these nodes, or, on tri6 and quad8 faces, of all contact nodes.
+/// Collective. Returns the factors that the friction terms of all points share, for the contact
+/// nodes i for which slides[i] is 1. They belong to the friction terms of affineTerms() and to the
+/// first two kinds of pointTerms(). JumpFactors::jumps is J T and JumpFactors::convected is D T, in
+/// the rows of these nodes, or, on tri6 and quad8 faces, of all contact nodes.
 pencil::JumpFactors jumpFactors(const contact::Contact& contact,
                                 const contact::CoupledSystem& system,
                                 const std::vector<unsigned char>& slides);
-/// Collective. Returns the other factors at a point, for the same nodes. Throws Error if friction
-/// damping also acts on other nodes.
+/// Collective. Returns Φ and B at a point for the same nodes. Throws Error if friction damping acts
+/// on nodes without rows in JumpFactors::jumps.
 pencil::PointFactors pointFactors(const contact::Contact& contact, const steady::Solution& solution,
                                   const std::vector<unsigned char>& slides,
                                   const Settings& settings);
