@@ -53,13 +53,7 @@ void proveList(const SetBounds& set, PointMatrices matrices, const Settings& set
   const proof::DiagonalForm form(bounds.kept, wanted);
   const proof::Region region{proof::placedTop(form.eigenvalues(), wanted, within)};
   const auto count = proof::proveCount(form, bounds.leftOut, region, settings.discs);
-  found.proved = count.verdict == proof::Verdict::proved;
-  found.count = static_cast<int>(count.count);
-  found.top = region.top;
-  found.definiteness = count.definiteness;
-  found.ratio = count.ratio;
-  found.place = count.place;
-  found.discs = static_cast<int>(count.discs);
+  recordCount(region, count, found);
   found.reason = proof::reason(count, remedies("-modes_count"));
   judgeList(proof::enclose(form, bounds.leftOut, region, count), region, band, point);
 }

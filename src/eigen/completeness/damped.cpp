@@ -116,14 +116,7 @@ void proveList(const DampedSet& set, DampedPoint data, const Settings& settings,
   const double top = proof::placedTop(form.eigenvalues(), wanted, within);
   const auto [region, count] =
       proof::proveDamped(form, bounds.leftOut, top, 0, list, settings.discs);
-  found.proved = count.verdict == proof::Verdict::proved;
-  found.count = static_cast<int>(count.count);
-  found.top = region.top;
-  found.left = region.left;
-  found.definiteness = count.definiteness;
-  found.ratio = count.ratio;
-  found.place = count.place;
-  found.discs = static_cast<int>(count.discs);
+  recordCount(region, count, found);
   found.reason = proof::reason(count, remedies("-modes_count"));
   judgeList(proof::enclose(form, bounds.leftOut, region, count), region, band, point);
 }

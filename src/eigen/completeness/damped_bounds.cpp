@@ -48,6 +48,19 @@ DenseMatrix leftOf(DenseMatrix flexibility, const DenseMatrix& onV, PetscInt bou
   return linalg::symmetricPart(flexibility);
 }
 
+/// Returns [A, B; Bᵀ, D] for square blocks of one size.
+DenseMatrix blocks(const DenseMatrix& a, const DenseMatrix& b, const DenseMatrix& d) {
+  const PetscInt size = a.rows();
+  DenseMatrix whole(2 * size, 2 * size);
+  for (PetscInt j = 0; j < size; ++j)
+    for (PetscInt i = 0; i < size; ++i) {
+      whole(i, j) = a(i, j);
+      whole(i, size + j) = whole(size + j, i) = b(i, j);
+      whole(size + i, size + j) = d(i, j);
+    }
+  return whole;
+}
+
 /// Bounds of the friction of a point, with the norms of its factors.
 struct Friction {
   std::vector<DenseMatrix> normal;           // [normal] N_XC N_XCᵀ, without c
@@ -74,6 +87,7 @@ class DampedPart {
     matrices_.push_back(linalg::congruent(set.mass, w_));
     for (const auto& body : set.bodies) matrices_.push_back(linalg::congruent(body.onV, w_));
     setFriction();
+    setLeftProducts();
   }
   PointBounds bounds();
 
@@ -82,6 +96,7 @@ class DampedPart {
     return linalg::transposed(linalg::rowsOf(rows_, linalg::transposed(a)));
   }
   void setFriction();
+  void setLeftProducts();
   void requireTerms(const proof::Coefficients& matrices) const;
   DenseMatrix leftProduct(std::size_t i, std::size_t j) const;
   proof::Coupling toLeftOut() const;
@@ -95,10 +110,11 @@ class DampedPart {
   double top_, reach_;
   std::vector<PetscInt> rows_;
   DenseMatrix w_, jumps_, slip_, response_;
-  PetscInt first_;                     // number of constraint modes
-  std::vector<DenseMatrix> matrices_;  // M0 and those of the bodies
-  std::vector<DenseMatrix> normals_;   // [normal] N_X on V W
-  DenseMatrix convected_;              // D on V W
+  PetscInt first_;                              // number of constraint modes
+  std::vector<DenseMatrix> matrices_;           // M0 and those of the bodies
+  std::vector<std::vector<DenseMatrix>> left_;  // [i][j ≤ i] of matrices_; empty if not used
+  std::vector<DenseMatrix> normals_;            // [normal] N_X on V W
+  DenseMatrix convected_;                       // D on V W
   Friction friction_;
 };
 
@@ -156,25 +172,35 @@ void DampedPart::requireTerms(const proof::Coefficients& matrices) const {
       throw Error("the factors of friction do not give the terms of the problem");
 }
 
-/// Returns X_CVᵀ X'_CV of two matrices of the bodies, 0: M0.
-DenseMatrix DampedPart::leftProduct(std::size_t i, std::size_t j) const {
+/// Computes X_CVᵀ X'_CV of the matrices that the point has.
+void DampedPart::setLeftProducts() {
   const PetscInt size = w_.columns(), modes = set_.modes.count;
-  DenseMatrix result =
-      linalg::congruent(i >= j ? set_.products[i][j] : linalg::transposed(set_.products[j][i]), w_);
-  linalg::addScaled(result, -1,
-                    linalg::transposedProduct(linalg::rowRange(matrices_[i], first_, size),
-                                              linalg::rowRange(matrices_[j], first_, size)));
-  // M0 does not couple the free modes with C.
-  for (PetscInt k = first_; k < first_ + modes; ++k)
-    for (PetscInt l = 0; l < size; ++l) {
-      if (i == 0) result(k, l) = 0;
-      if (j == 0) result(l, k) = 0;
+  const auto isUsed = [&](std::size_t i) { return i == 0 || point_.bodyFactors[i - 1] != 0; };
+  for (std::size_t i = 0; i < matrices_.size(); ++i) {
+    auto& row = left_.emplace_back(i + 1);
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (set_.products[i][j].empty() || !isUsed(i) || !isUsed(j)) continue;
+      row[j] = linalg::congruent(set_.products[i][j], w_);
+      linalg::addScaled(row[j], -1,
+                        linalg::transposedProduct(linalg::rowRange(matrices_[i], first_, size),
+                                                  linalg::rowRange(matrices_[j], first_, size)));
+      // M0 does not couple the free modes with C.
+      for (PetscInt k = first_; k < first_ + modes; ++k)
+        for (PetscInt l = 0; l < size; ++l) {
+          if (i == 0) row[j](k, l) = 0;
+          if (j == 0) row[j](l, k) = 0;
+        }
     }
-  return result;
+  }
 }
 
-/// Returns a majorant of s Σ c X_CV + s² M_CV, whose products are known. What is left of matrices
-/// without s becomes the remainder.
+/// Returns X_CVᵀ X'_CV of two matrices of the bodies, 0: M0.
+DenseMatrix DampedPart::leftProduct(std::size_t i, std::size_t j) const {
+  return i >= j ? left_[i][j] : linalg::transposed(left_[j][i]);
+}
+
+/// Returns a majorant of s Σ c X_CV + s² M_CV, whose products are known. The blocks of matrices
+/// without s become the remainder.
 proof::Coupling DampedPart::toLeftOut() const {
   const PetscInt size = w_.columns();
   const DenseMatrix mass = leftProduct(0, 0);
@@ -198,13 +224,7 @@ proof::Coupling DampedPart::toLeftOut() const {
   if (!hasLinear) {
     coupling = proof::couplingFromGram(linalg::symmetricPart(mass), std::array{2}, top_, smallTo);
   } else {
-    DenseMatrix gram(2 * size, 2 * size);
-    for (PetscInt j = 0; j < size; ++j)
-      for (PetscInt i = 0; i < size; ++i) {
-        gram(i, j) = linear(i, j);
-        gram(i, size + j) = gram(size + j, i) = mixed(i, j);
-        gram(size + i, size + j) = mass(i, j);
-      }
+    const DenseMatrix gram = blocks(linear, mixed, mass);
     coupling =
         proof::couplingFromGram(linalg::symmetricPart(gram), std::array{1, 2}, top_, smallTo);
   }
@@ -244,14 +264,7 @@ proof::Coupling DampedPart::fromLeftOut() const {
   DenseMatrix both = massNormal(stiff, normals_[0]);  // N_0C (M_CV + N_2Cᵀ Φ J)
   linalg::multiplyAdd(inner, slip, both);
   both = linalg::transposedProduct(slip, both);
-  const DenseMatrix stiffness = linalg::congruent(friction_.normal[0], slip);
-  DenseMatrix gram(2 * size, 2 * size);
-  for (PetscInt j = 0; j < size; ++j)
-    for (PetscInt i = 0; i < size; ++i) {
-      gram(i, j) = stiffness(i, j);
-      gram(i, size + j) = gram(size + j, i) = both(i, j);
-      gram(size + i, size + j) = mass(i, j);
-    }
+  DenseMatrix gram = blocks(linalg::congruent(friction_.normal[0], slip), both, mass);
   const auto [rest, size2] = otherParts(slip);
   if (size2 > 0) {
     // (A + B)(A + B)ᴴ ≤ (1 + t) A Aᴴ + (1 + 1/t) B Bᴴ
@@ -282,7 +295,9 @@ std::pair<DenseMatrix, double> DampedPart::otherParts(const DenseMatrix& slip) c
     total += size;
   };
   for (std::size_t i = 0; i < set_.bodies.size(); ++i)
-    add(leftProduct(i + 1, i + 1), point_.bodyFactors[i] * std::pow(reach_, set_.bodies[i].power));
+    if (point_.bodyFactors[i] != 0)
+      add(leftProduct(i + 1, i + 1),
+          point_.bodyFactors[i] * std::pow(reach_, set_.bodies[i].power));
   for (std::size_t i = 2; i < set_.normals.size(); ++i)
     add(linalg::congruent(friction_.normal[i], slip),
         point_.normalFactors[i] * std::pow(reach_, set_.normals[i].power));

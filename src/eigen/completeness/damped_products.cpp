@@ -133,11 +133,12 @@ CommonProducts::CommonProducts(reduction::ReducedProblem& reduced, const DampedS
     all_.convected = onBasis(reduced, jumps.convected);
     all_.convectedFlexibility = reduced.flexibility(jumps.convected);
   }
-  addNormals(reduced, factors, associated.assembled(2, {}));
+  const OwnedMat mass = associated.assembled(2, {});
+  addNormals(reduced, factors, mass);
   for (const auto& term : points.front().problem->pencil.terms())
     if (isOfBodies(term) && largestFactor(term, points) > 0) bodies_.push_back(&term);
   addBodies(sweep, points);
-  addProducts(reduced, sweep.modes.lambda, associated.assembled(2, {}));
+  addProducts(reduced, sweep.modes.lambda, mass);
 }
 
 /// Collective. Adds the responses to the jumps to the basis.

@@ -24,6 +24,18 @@ proof::Remedies remedies(const char* modes) {
   return {.modes = modes, .top = "-flutter_band", .left = "", .discs = "-flutter_proof_discs"};
 }
 
+void recordCount(const proof::Region& region, const proof::CountProof& count,
+                 pencil::Completeness& found) {
+  found.proved = count.verdict == proof::Verdict::proved;
+  found.count = static_cast<int>(count.count);
+  found.top = region.top;
+  found.left = region.left;
+  found.definiteness = count.definiteness;
+  found.ratio = count.ratio;
+  found.place = count.place;
+  found.discs = static_cast<int>(count.discs);
+}
+
 void judgeList(const std::vector<proof::Enclosure>& discs, const proof::Region& region,
                pencil::WatchedBand band, pencil::ComplexModes& point) {
   auto& found = *point.completeness;

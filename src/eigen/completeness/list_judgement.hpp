@@ -7,6 +7,7 @@
 #include "eigen/pencil/band.hpp"
 #include "eigen/pencil/complex_modes.hpp"
 #include "eigen/proof/contour.hpp"
+#include "eigen/proof/count.hpp"
 #include "eigen/proof/enclosure.hpp"
 #include "eigen/proof/reason.hpp"
 
@@ -22,6 +23,11 @@ inline double wantedTop(double bandTop) { return (1 + above / 2) * bandTop; }
 /// Returns the options to change so that a proof in a sweep succeeds. `modes` is the option for the
 /// number of free modes; it is empty if more modes do not help.
 proof::Remedies remedies(const char* modes);
+
+/// Not collective. Records the count, its region and the sizes of its proof. The reason, which
+/// depends on the remedies, is not set.
+void recordCount(const proof::Region& region, const proof::CountProof& count,
+                 pencil::Completeness& found);
 
 /// Not collective. Sets Eigenvalue::radius of the listed eigenvalues, and records in
 /// ComplexModes::completeness which eigenvalues are missing, spurious or undecided.

@@ -130,14 +130,8 @@ void judgeList(const referee::BoundedProblem& problem, const pencil::WatchedBand
                                         .tolerance = point.tolerance,
                                         .discs = discs,
                                         .remedies = completeness::remedies("")});
+    completeness::recordCount(judged.region, judged.count, found);
     found.proved = judged.proved();
-    found.count = static_cast<int>(judged.count.count);
-    found.top = judged.region.top;
-    found.left = judged.region.left;
-    found.definiteness = judged.count.definiteness;
-    found.ratio = judged.count.ratio;
-    found.place = judged.count.place;
-    found.discs = static_cast<int>(judged.count.discs);
     found.reason = judged.why;
     completeness::judgeList(judged.eigenvalues, judged.region, band, point);
   } catch (const Error& error) {

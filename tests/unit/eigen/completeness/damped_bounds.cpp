@@ -189,6 +189,10 @@ DampedPoint pointOf(const Brake& brake, const DenseMatrix& basis, double speed) 
           .forces = {}};
 }
 
+completeness::PointBounds boundsOf(const Brake& brake, const DenseMatrix& basis, double speed) {
+  return completeness::dampedBounds(setOf(brake, basis), pointOf(brake, basis, speed), brake.top);
+}
+
 /// Returns the exact blocks on V and on an orthonormal complement C.
 proof::KeptProblem exactBlocks(const linalg::DenseProblem& full, const DenseMatrix& basis) {
   const DenseMatrix v = linalg::product(
@@ -218,8 +222,7 @@ TEST(DampedBounds, HoldForTheExactBlocks) {
     const double friction = 0.1 + 0.1 * draw, speed = draw % 2 == 0 ? 0.02 : 1;
     const auto brake = randomBrake(friction, speed, generator);
     const auto basis = basisOf(brake, generator);
-    const auto bounds =
-        completeness::dampedBounds(setOf(brake, basis), pointOf(brake, basis, speed), brake.top);
+    const auto bounds = boundsOf(brake, basis, speed);
     const proof::DiagonalForm form(bounds.kept, brake.top),
         exact(exactBlocks(fullProblem(brake, speed), basis), brake.top);
     ASSERT_EQ(form.size(), exact.size());
@@ -247,8 +250,7 @@ TEST(DampedBounds, CountWhatResponsesLackInErrors) {
     const DenseMatrix noise = test::randomMatrix(size, jumpRows, generator);
     for (PetscInt j = 0; j < jumpRows; ++j)
       for (PetscInt i = modes; i < size; ++i) basis(i, modes + j) += 1e-3 * noise(i, j);
-    const auto bounds =
-        completeness::dampedBounds(setOf(brake, basis), pointOf(brake, basis, speed), brake.top);
+    const auto bounds = boundsOf(brake, basis, speed);
     const proof::DiagonalForm form(bounds.kept, brake.top),
         exact(exactBlocks(fullProblem(brake, speed), basis), brake.top);
     for (int i = 0; i < 13; ++i) {
@@ -296,9 +298,7 @@ TEST(DampedBounds, BoundTheBlockThatIsLeftOut) {
     const double speed = draw % 2 == 0 ? 0.02 : 1;
     const auto brake = randomBrake(1, speed, generator);
     const auto basis = basisOf(brake, generator);
-    const auto leftOut =
-        completeness::dampedBounds(setOf(brake, basis), pointOf(brake, basis, speed), brake.top)
-            .leftOut;
+    const auto leftOut = boundsOf(brake, basis, speed).leftOut;
     const auto full = fullProblem(brake, speed);
     const DenseMatrix c = complementOf(basis);
     const double left = 0.1 * brake.top;
@@ -337,8 +337,7 @@ TEST(DampedBounds, ProveOnlyTrueCounts) {
     const double friction = 0.025 * (1 + draw), speed = draw % 2 == 0 ? 0.02 : 1;
     const auto brake = randomBrake(friction, speed, generator);
     const auto basis = basisOf(brake, generator);
-    const auto bounds =
-        completeness::dampedBounds(setOf(brake, basis), pointOf(brake, basis, speed), brake.top);
+    const auto bounds = boundsOf(brake, basis, speed);
     const proof::DiagonalForm form(bounds.kept, brake.top);
     const double top = proof::placedTop(form.eigenvalues(), brake.top, 0.04);
     const auto [region, count] = proof::proveDamped(form, bounds.leftOut, top, 0.05, {}, 400);
@@ -361,8 +360,7 @@ TEST(DampedBounds, WithoutResponsesNothingIsProved) {
   DenseMatrix basis(size, modes);
   for (PetscInt i = 0; i < modes; ++i) basis(i, i) = 1;
   basis.append(test::randomMatrix(size, 2, generator));
-  const auto bounds =
-      completeness::dampedBounds(setOf(brake, basis), pointOf(brake, basis, speed), brake.top);
+  const auto bounds = boundsOf(brake, basis, speed);
   const proof::DiagonalForm form(bounds.kept, brake.top);
   const auto [region, count] = proof::proveDamped(form, bounds.leftOut, brake.top, 0.05, {}, 400);
   EXPECT_EQ(count.verdict, proof::Verdict::indefinite);
