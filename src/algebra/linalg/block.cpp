@@ -19,6 +19,30 @@ DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView
   return result;
 }
 
+namespace {
+
+/// Returns these rows.
+Block rowsOf(const std::vector<PetscInt>& rows, const DenseView& x) {
+  Block some(std::ssize(rows), x.columns());
+  for (PetscInt j = 0; j < x.columns(); ++j)
+    for (PetscInt i = 0; i < some.rows(); ++i) some(i, j) = x(rows[i], j);
+  return some;
+}
+
+}  // namespace
+
+DenseMatrix transposedProductWithSparse(MPI_Comm comm, const DenseView& x, const DenseView& y) {
+  constexpr double few = 0.25;  // of all rows: copies of more rows cost more than they save
+  std::vector<unsigned char> isUsed(y.rows());
+  for (PetscInt j = 0; j < y.columns(); ++j)
+    for (PetscInt i = 0; i < y.rows(); ++i) isUsed[i] |= y(i, j) != 0;
+  std::vector<PetscInt> rows;
+  for (PetscInt i = 0; i < y.rows(); ++i)
+    if (isUsed[i]) rows.push_back(i);
+  if (std::ssize(rows) > few * y.rows()) return transposedProduct(comm, x, y);
+  return transposedProduct(comm, rowsOf(rows, x), rowsOf(rows, y));
+}
+
 double length(MPI_Comm comm, std::span<const double> column) {
   const DenseView view(column.data(), std::ssize(column), 1);
   return std::sqrt(transposedProduct(comm, view, view)(0, 0));
@@ -96,13 +120,7 @@ RowSet::RowSet(Mat matrix, double share) {
   check(ISRestoreIndices(kept, &rows));
 }
 
-Block RowSet::of(const DenseView& x) const {
-  if (all_) return Block(x);
-  Block some(size(), x.columns());
-  for (PetscInt j = 0; j < x.columns(); ++j)
-    for (PetscInt i = 0; i < some.rows(); ++i) some(i, j) = x(rows_[i], j);
-  return some;
-}
+Block RowSet::of(const DenseView& x) const { return all_ ? Block(x) : rowsOf(rows_, x); }
 
 OwnedMat RowSet::of(Mat matrix) const {
   if (all_) {

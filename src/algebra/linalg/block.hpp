@@ -24,6 +24,10 @@ OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block);
 /// Collective. Returns Xᵀ Y, the same on all ranks. X and Y contain this rank's rows.
 DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView& y);
 
+/// Collective. Does the same without the rows in which Y is zero on this rank. Forces at the
+/// contact have few other rows.
+DenseMatrix transposedProductWithSparse(MPI_Comm comm, const DenseView& x, const DenseView& y);
+
 /// Collective. Returns the 2-norm of a column, the same on all ranks. `column` contains this rank's
 /// rows.
 double length(MPI_Comm comm, std::span<const double> column);

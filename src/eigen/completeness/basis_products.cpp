@@ -29,6 +29,15 @@ linalg::Block columnsOf(Mat rows) {
   return columns;
 }
 
+void appendParts(const std::vector<Complex>& vector, DenseMatrix& columns) {
+  std::vector<double> real(columns.rows()), imaginary(columns.rows());
+  for (std::size_t i = 0; i < vector.size(); ++i)
+    real[i] = vector[i].real(), imaginary[i] = vector[i].imag();
+  columns.append(std::span<const double>(real));
+  if (std::ranges::any_of(imaginary, [](double entry) { return entry != 0; }))
+    columns.append(std::span<const double>(imaginary));
+}
+
 DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes& modes,
                             const std::vector<double>& lambda, Mat mass) {
   constexpr PetscInt atOnce = 128;  // limits the memory

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algebra/linalg/block.hpp"
-#include "eigen/completeness/point_bounds.hpp"
+#include "eigen/completeness/kept_span.hpp"
 #include "eigen/modes/modes.hpp"
 #include "eigen/pencil/pencil.hpp"
 #include "eigen/reduction/reduced.hpp"
@@ -14,6 +14,10 @@ namespace squeal::completeness {
 
 /// Collective. Returns the columns of Aᵀ for a matrix of few rows, by this rank's rows.
 linalg::Block columnsOf(Mat rows);
+
+/// Not collective. Appends the real part of a vector, and its imaginary part unless it is zero,
+/// extended by zeros.
+void appendParts(const std::vector<Complex>& vector, linalg::DenseMatrix& columns);
 
 /// Not collective. Returns a matrix of pseudorandom signs, always the same ones.
 linalg::DenseMatrix randomSigns(PetscInt rows, PetscInt columns);

@@ -44,116 +44,113 @@ std::vector<DenseMatrix> addResponses(reduction::ReducedProblem& reduced,
   return result;
 }
 
+/// Returns the unit matrix.
+DenseMatrix unit(PetscInt size) {
+  DenseMatrix result(size, size);
+  for (PetscInt i = 0; i < size; ++i) result(i, i) = 1;
+  return result;
+}
+
 /// Proves the list of a point, if the bounds suffice.
 void proveList(const SetBounds& set, PointMatrices matrices, const Settings& settings,
                const pencil::WatchedBand& band, pencil::ComplexModes& point) {
   auto& found = *point.completeness;
   const double wanted = wantedTop(point.bandTop);
-  const auto bounds = pointBounds(set, std::move(matrices));
-  const proof::DiagonalForm form(bounds.kept, wanted);
-  const proof::Region region{proof::placedTop(form.eigenvalues(), wanted, within)};
-  const auto count = proof::proveCount(form, bounds.leftOut, region, settings.discs);
-  recordCount(region, count, found);
-  found.reason = proof::reason(count, remedies("-modes_count"));
-  judgeList(proof::enclose(form, bounds.leftOut, region, count), region, band, point);
+  const auto isSingle = [](const auto& disc) { return disc.isolation == proof::Isolation::single; };
+  bool isLast = matrices.vectors.columns() == 0;
+  for (bool isDone = false; !isDone; isLast = true) {
+    if (isLast) matrices.vectors = unit(matrices.problem.order());  // all of V
+    const auto bounds = pointBounds(set, matrices);
+    const proof::DiagonalForm form(bounds.kept, wanted);
+    const proof::Region region{proof::placedTop(form.eigenvalues(), wanted, within)};
+    const auto count = proof::proveCount(form, bounds.leftOut, region, settings.discs);
+    const auto discs = proof::enclose(form, bounds.leftOut, region, count);
+    isDone =
+        isLast || (count.verdict == proof::Verdict::proved && std::ranges::all_of(discs, isSingle));
+    if (!isDone) continue;
+    recordCount(region, count, found);
+    found.reason = proof::reason(count, remedies("-modes_count"));
+    judgeList(discs, region, band, point);
+  }
 }
 
-/// The factors of friction with the vectors of the basis.
-struct ProjectedFactors {
-  std::vector<DenseMatrix> slip;    // [power of the friction] S_a V, r × size
-  DenseMatrix normal, inertia;      // N_0 V, N_2 V, r × size
-  std::vector<DenseMatrix> ofSlip;  // [power of the friction] S_a K0⁻¹ S_aᵀ, r × r
-  DenseMatrix ofMass;               // Vᵀ M K0⁻¹ M V, size × size
-  DenseMatrix ofNormal, ofInertia;  // N_0 K0⁻¹ N_0ᵀ, N_2 K0⁻¹ N_2ᵀ, r × r
-};
-
-/// Collective. Adds the static responses to the slip rows to the basis.
-ProjectedFactors project(reduction::ReducedProblem& reduced, const pencil::FrictionFactors& factors,
-                         const KnownModes& modes, const std::vector<double>& lambda, Mat mass) {
-  ProjectedFactors result;
-  result.ofSlip = addResponses(reduced, factors);
+/// Collective. Returns the products of the whole basis that all points share. Adds the static
+/// responses to the slip rows to the basis.
+SetMatrices commonProducts(reduction::ReducedProblem& reduced,
+                           const pencil::FrictionFactors& factors, const KnownModes& modes,
+                           const std::vector<double>& lambda, Mat mass) {
+  SetMatrices result;
+  result.modes = modes;
+  result.slipFlexibility = addResponses(reduced, factors);
   const auto& basis = reduced.basis();
   for (const auto& slip : factors.slip)
     result.slip.push_back(reduction::productWithBasis(basis, slip.matrix));
   result.normal = reduction::productWithBasis(basis, factors.normalOf(0));
   result.inertia = reduction::productWithBasis(basis, factors.normalOf(2));
-  result.ofNormal = reduced.flexibility(columnsOf(factors.normalOf(0)));
-  result.ofInertia = reduced.flexibility(columnsOf(factors.normalOf(2)));
-  result.ofMass = massFlexibility(reduced, modes, lambda, mass);
+  result.normalFlexibility = reduced.flexibility(columnsOf(factors.normalOf(0)));
+  result.inertiaFlexibility = reduced.flexibility(columnsOf(factors.normalOf(2)));
+  result.massProduct = massFlexibility(reduced, modes, lambda, mass);
   return result;
 }
 
-/// Subtracts from N K0⁻¹ Nᵀ the part of the interior vectors of V.
-void subtractKept(const DenseMatrix& rows, PetscInt boundary, DenseMatrix& flexibility) {
-  const DenseMatrix inner(rows.columnRange(boundary, rows.columns()));
-  linalg::addScaled(flexibility, -1, linalg::product(inner, linalg::transposed(inner)));
-}
-
-/// Returns a bound of ‖S x‖ for x in C with energy 1, from S V and S K0⁻¹ Sᵀ.
-double slipError(const DenseMatrix& rows, PetscInt boundary, DenseMatrix flexibility) {
-  double trace = 0;
-  for (PetscInt i = 0; i < flexibility.rows(); ++i) trace += flexibility(i, i);
-  subtractKept(rows, boundary, flexibility);
-  const auto values = linalg::symmetricEigenvalues(linalg::symmetricPart(flexibility));
-  return std::sqrt(std::max(values.empty() ? 0 : values.back(), 0.0) + 1e-15 * trace);
-}
-
-/// The matrices of an active set, the same on all ranks.
-struct SetProjection {
-  std::vector<DenseMatrix> slip;   // [power of the friction] S_a V, r × N
-  std::vector<double> slipErrors;  // [power of the friction] ‖S_a x‖ of x in C with energy 1
-  SetMatrices matrices;
-};
-
-/// Returns the matrices of a set from those of the basis. `associated` has K0 and M0 on V.
-SetProjection projectionOf(const ProvedSet& set, const subspace::PointSpace& space,
-                           linalg::DenseProblem associated, const KnownModes& modes,
-                           const ProjectedFactors& projected) {
-  const auto onSet = [&](const DenseMatrix& rows) {
+/// Returns the products of a set from those of the basis. `associated` has K0 and M0 on V.
+SetMatrices matricesOf(const ProvedSet& set, const subspace::PointSpace& space,
+                       linalg::DenseProblem associated, const SetMatrices& common) {
+  const auto rowsOnSet = [&](const DenseMatrix& rows) {
     return space.restrictedColumns(linalg::rowsOf(set.rows, rows));
   };
-  SetProjection result;
-  SetMatrices& matrices = result.matrices;
-  matrices.modes = modes;
-  matrices.modes.first = space.own();
-  // The vectors of V · turn are orthonormal in energy.
-  const DenseMatrix turn = linalg::inverseTransposed(linalg::choleskyFactor(associated.stiffness));
-  const auto turned = [&](const DenseMatrix& rows) { return linalg::product(rows, turn); };
-  for (std::size_t a = 0; a < projected.slip.size(); ++a) {
-    result.slip.push_back(onSet(projected.slip[a]));
-    result.slipErrors.push_back(slipError(turned(result.slip[a]), space.own(),
-                                          linalg::principalPart(set.rows, projected.ofSlip[a])));
+  const auto onSet = [&](const DenseMatrix& flexibility) {
+    return linalg::principalPart(set.rows, flexibility);
+  };
+  SetMatrices result;
+  result.modes = common.modes;
+  result.modes.first = space.own();
+  for (std::size_t a = 0; a < common.slip.size(); ++a) {
+    result.slip.push_back(rowsOnSet(common.slip[a]));
+    result.slipFlexibility.push_back(onSet(common.slipFlexibility[a]));
   }
-  matrices.normal = onSet(projected.normal);
-  matrices.inertia = onSet(projected.inertia);
-  matrices.leftNormal = linalg::principalPart(set.rows, projected.ofNormal);
-  matrices.leftInertia = linalg::principalPart(set.rows, projected.ofInertia);
-  subtractKept(turned(matrices.normal), space.own(), matrices.leftNormal);
-  subtractKept(turned(matrices.inertia), space.own(), matrices.leftInertia);
-  linalg::DenseProblem flexible;
-  flexible.stiffness = projected.ofMass;
-  matrices.leftMass = linalg::congruent(space.restricted(std::move(flexible)).stiffness, turn);
-  subtractKept(linalg::congruent(associated.mass, turn), space.own(), matrices.leftMass);
-  matrices.energy = std::move(associated.stiffness);
+  result.normal = rowsOnSet(common.normal);
+  result.inertia = rowsOnSet(common.inertia);
+  result.normalFlexibility = onSet(common.normalFlexibility);
+  result.inertiaFlexibility = onSet(common.inertiaFlexibility);
+  linalg::DenseProblem product;
+  product.stiffness = common.massProduct;
+  result.massProduct = space.restricted(std::move(product)).stiffness;
+  result.energy = std::move(associated.stiffness);
+  result.mass = std::move(associated.mass);
   return result;
+}
+
+/// Collective. Returns the data of a point.
+PointMatrices dataOf(const reduction::ReducedProblem& reduced,
+                     const pencil::FrictionFactors& factors,
+                     const reduction::PointProblem& problem) {
+  PointMatrices data{reduced.project(problem), {}, {}};
+  for (const auto& slip : factors.slip)
+    data.slipFactors.push_back(std::pow(problem.at.friction, slip.frictionExponent));
+  data.vectors = DenseMatrix(data.problem.order());
+  if (const auto pairs = reduced.watchedPairs(problem.at, problem.set))
+    for (const auto& pair : *pairs) appendParts(pair.q, data.vectors);
+  return data;
 }
 
 /// Collective. Proves the lists of a set.
 void proveSet(reduction::ReducedProblem& reduced, const pencil::FrictionFactors& factors,
-              const SetProjection& projection, const ProvedSet& set, const Settings& settings) {
-  const SetBounds bounds = setBounds(projection.matrices, reach * set.points.front()->bandTop);
-  std::vector<linalg::DenseProblem> problems;
-  for (const auto& problem : set.problems) problems.push_back(reduced.project(problem));
-  linalg::onOwners(reduced.basis().comm(), set.points.size(), [&](std::size_t i) {
-    auto& point = *set.points[i];
-    PointMatrices matrices{std::move(problems[i]), {}, 0};
-    for (std::size_t a = 0; a < projection.slip.size(); ++a) {
-      const double factor = std::pow(point.at.friction, factors.slip[a].frictionExponent);
-      linalg::addScaled(matrices.slip, factor, projection.slip[a]);
-      matrices.slipError += factor * projection.slipErrors[a];
+              const SetMatrices& matrices, const ProvedSet& set, const Settings& settings) {
+  const SetBounds bounds = setBounds(matrices, reach * set.points.front()->bandTop);
+  const MPI_Comm comm = reduced.basis().comm();
+  const std::size_t ranks = mpi::size(comm);
+  for (std::size_t first = 0; first < set.points.size(); first += ranks) {
+    const std::size_t count = std::min(ranks, set.points.size() - first);
+    std::optional<PointMatrices> own;
+    for (std::size_t i = 0; i < count; ++i) {
+      auto data = dataOf(reduced, factors, set.problems[first + i]);
+      if (mpi::rank(comm) == static_cast<int>(i)) own = std::move(data);
     }
-    proveList(bounds, std::move(matrices), settings, reduced.band(), point);
-  });
+    linalg::onOwners(comm, count, [&](std::size_t i) {
+      proveList(bounds, std::move(*own), settings, reduced.band(), *set.points[first + i]);
+    });
+  }
 }
 
 }  // namespace
@@ -192,16 +189,17 @@ void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& s
       if (!known) point->completeness->reason = unconfirmed;
     }
   if (!known) return;
-  const auto projected =
-      project(reduced, factors, *known, modes.lambda, associated.assembled(2, {}));
+  const auto common =
+      commonProducts(reduced, factors, *known, modes.lambda, associated.assembled(2, {}));
   for (const auto& set : sets) {
     const auto& problem = set.problems.front();
-    const auto projection = projectionOf(set, reduced.space(problem.set),
-                                         reduced.projectAssociated(problem), *known, projected);
+    const auto matrices =
+        matricesOf(set, reduced.space(problem.set), reduced.projectAssociated(problem), common);
     try {
-      proveSet(reduced, factors, projection, set, settings);
+      proveSet(reduced, factors, matrices, set, settings);
     } catch (const Error& error) {
-      for (auto* point : set.points) point->completeness->reason = error.what();
+      for (auto* point : set.points)
+        if (!point->completeness->proved) point->completeness->reason = error.what();
     }
     share(reduced.basis().comm(), set.points);
   }

@@ -2,7 +2,6 @@
 #include "eigen/completeness/damped.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -57,15 +56,6 @@ void addCorrections(reduction::ReducedProblem& reduced, const std::vector<Damped
   }
 }
 
-/// Appends the real and the imaginary part of a vector, extended by zeros.
-void append(const std::vector<Complex>& vector, DenseMatrix& columns) {
-  std::array<std::vector<double>, 2> parts;
-  for (auto& part : parts) part.resize(columns.rows());
-  for (std::size_t i = 0; i < vector.size(); ++i)
-    parts[0][i] = vector[i].real(), parts[1][i] = vector[i].imag();
-  for (const auto& part : parts) columns.append(std::span<const double>(part));
-}
-
 /// Returns P(s) q for a vector of the first coordinates.
 std::vector<Complex> forcesOf(const linalg::DenseProblem& problem, const linalg::DensePair& pair) {
   std::vector<Complex> forces(problem.order());
@@ -98,9 +88,9 @@ DampedPoint dataOf(const reduction::ReducedProblem& reduced, const DampedSweep& 
   for (const auto& term : sweep.factors.normal) data.normalFactors.push_back(term.coefficient(at));
   const auto pairs = reduced.watchedPairs(at, point.problem->set).value_or(Pairs());
   data.vectors = data.forces = DenseMatrix(data.problem.order());
-  for (const auto& pair : pairs) append(pair.q, data.vectors);
+  for (const auto& pair : pairs) appendParts(pair.q, data.vectors);
   for (const auto& pair : uncorrected(pairs, *point.list))
-    append(forcesOf(data.problem, pair), data.forces);
+    appendParts(forcesOf(data.problem, pair), data.forces);
   return data;
 }
 

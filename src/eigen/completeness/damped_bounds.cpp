@@ -8,7 +8,7 @@
 #include "algebra/linalg/rows.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/system/error.hpp"
-#include "eigen/completeness/damped_subspace.hpp"
+#include "eigen/completeness/kept_span.hpp"
 #include "eigen/proof/norm_bound.hpp"
 
 namespace squeal::completeness {
@@ -77,9 +77,9 @@ class DampedPart {
   DampedPart(const DampedSet& set, DampedPoint& point, double top)
       : set_(set), point_(point), top_(top), reach_(1.3 * top), rows_(usedJumps(point.friction)) {
     const DenseMatrix jumps = linalg::rowsOf(rows_, set.jumps);
-    auto part = subspace(set, jumps, point);
-    w_ = std::move(part.vectors);
-    friction_.jumpsOnC = set.jumpsOnC + part.jumpsLeft;
+    const KeptSpan span(set.modes, set.energy, jumps);
+    w_ = linalg::product(span.turn(), span.vectorsWith(point.vectors, point.forces));
+    friction_.jumpsOnC = set.jumpsOnC + span.forcesLeft();
     first_ = set.modes.first;
     jumps_ = linalg::product(jumps, w_);
     slip_ = columnsOf(point.friction.slip);

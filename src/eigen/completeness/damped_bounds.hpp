@@ -62,7 +62,8 @@ struct DampedPoint {
   linalg::DenseMatrix forces;
 };
 
-/// Returns the blocks on the part of V that subspace() returns (damped_subspace.hpp). The bounds
+/// Returns the blocks on the part of V that contains the modes, the responses to forces at the
+/// jumps, the approximate eigenvectors of the point, and the responses to its forces. The bounds
 /// hold for |s| up to 1.3 `top`, rad/s; `top` also sets the relative weights of the powers of s.
 /// Throws Error if a Gram matrix has a negative eigenvalue beyond round-off, or if the factors of
 /// friction do not give the terms of the problem.

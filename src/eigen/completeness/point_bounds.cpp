@@ -18,14 +18,6 @@ using linalg::DenseMatrix;
 constexpr double roundOff = 1e-15;      // of the entries of products of matrices, relative
 constexpr double contradiction = 1e-6;  // relative; a matrix of squares violates it by no round-off
 
-/// Returns the columns of V that are no modes.
-std::vector<PetscInt> otherColumns(const KnownModes& modes, PetscInt size) {
-  std::vector<PetscInt> others;
-  for (PetscInt i = 0; i < size; ++i)
-    if (i < modes.first || i >= modes.first + modes.count) others.push_back(i);
-  return others;
-}
-
 /// A factor Γ^½ of Γ ≥ A, with orthogonal columns by ascending length.
 struct Root {
   DenseMatrix factor;
@@ -52,79 +44,139 @@ double longest(const DenseMatrix& a) {
   return std::sqrt(squares);
 }
 
-/// Returns M_CV in coordinates of V, which is zero for the modes. The directions within round-off
-/// become the remainder.
-proof::Coupling massCoupling(const SetMatrices& set, double most) {
-  const auto others = otherColumns(set.modes, set.leftMass.rows());
+/// Returns A Aᵀ.
+DenseMatrix timesTransposed(const DenseMatrix& a) {
+  return linalg::product(a, linalg::transposed(a));
+}
+
+/// Returns F K0⁻¹ Fᵀ less its part on the interior vectors of V or of W, from F on all of these
+/// vectors.
+DenseMatrix leftOf(DenseMatrix flexibility, const DenseMatrix& rows, PetscInt boundary) {
+  linalg::addScaled(flexibility, -1,
+                    timesTransposed(DenseMatrix(rows.columnRange(boundary, rows.columns()))));
+  return linalg::symmetricPart(flexibility);
+}
+
+/// Returns a bound of ‖S x‖ for x in the space that V leaves out, with energy 1, from S on V and
+/// S K0⁻¹ Sᵀ.
+double slipLeft(const DenseMatrix& rows, PetscInt boundary, const DenseMatrix& flexibility) {
+  double trace = 0;
+  for (PetscInt i = 0; i < flexibility.rows(); ++i) trace += flexibility(i, i);
+  const auto values = linalg::symmetricEigenvalues(leftOf(flexibility, rows, boundary));
+  return std::sqrt(std::max(values.empty() ? 0 : values.back(), 0.0) + roundOff * trace);
+}
+
+/// Returns M_CV for V W, which is zero for the modes. The directions within round-off become the
+/// remainder.
+proof::Coupling massCoupling(const SetBounds& set, const DenseMatrix& w, const DenseMatrix& mass) {
+  const PetscInt boundary = set.modes.first, end = boundary + set.modes.count, size = w.columns();
   proof::Coupling coupling;
   coupling.error[2] = set.modes.error;
+  std::vector<PetscInt> others;
+  for (PetscInt i = 0; i < size; ++i)
+    if (i < boundary || i >= end) others.push_back(i);
   if (others.empty()) return coupling;
+  DenseMatrix columns(w.rows());
+  for (const PetscInt i : others) columns.append(w.column(i));
+  const auto left =
+      leftOf(linalg::congruent(set.massProduct, columns), linalg::rowsOf(others, mass), boundary);
   const auto [root, raise] =
-      rootOf(linalg::symmetricPart(linalg::principalPart(others, set.leftMass)),
-             "the free modes are not complete below the frequency of their count", most * most);
+      rootOf(left, "the free modes are not complete below the frequency of their count",
+             set.massOnC * set.massOnC);
   const double small = 4 * raise;
   PetscInt first = 0;
   while (first < root.columns() && linalg::squaredLength(root.column(first)) <= small) ++first;
   if (first > 0) coupling.error[2] += std::sqrt(small);
-  DenseMatrix rows(set.leftMass.rows(), root.columns() - first);
+  auto& rows = coupling.coefficients[2] = DenseMatrix(root.columns() - first, size);
   for (PetscInt k = first; k < root.columns(); ++k)
-    for (PetscInt i = 0; i < root.rows(); ++i) rows(others[i], k - first) = root(i, k);
-  coupling.coefficients[2] =
-      linalg::transposed(linalg::product(linalg::choleskyFactor(set.energy), rows));
+    for (PetscInt i = 0; i < root.rows(); ++i) rows(k - first, others[i]) = root(i, k);
   return coupling;
+}
+
+/// Returns the rows of all matrices, one below the other.
+DenseMatrix stacked(const std::vector<DenseMatrix>& matrices) {
+  DenseMatrix columns;
+  for (const auto& matrix : matrices) columns.append(linalg::transposed(matrix));
+  return linalg::transposed(columns);
 }
 
 }  // namespace
 
 SetBounds setBounds(const SetMatrices& set, double reach) {
-  SetBounds bounds{};
-  bounds.reach = reach;
-  bounds.mass = 1 / set.modes.theta + set.modes.error;
-  bounds.toLeftOut = massCoupling(set, bounds.mass);
-  bounds.normal = proof::quickBound(linalg::DenseView(set.normal));
-  bounds.inertia = proof::quickBound(linalg::DenseView(set.inertia));
+  SetBounds bounds{.modes = set.modes,
+                   .span = KeptSpan(set.modes, set.energy, stacked(set.slip)),
+                   .reach = reach,
+                   .massOnC = 1 / set.modes.theta + set.modes.error,
+                   .mass = {},
+                   .massProduct = {},
+                   .slip = {},
+                   .slipOnC = {},
+                   .forces = {},
+                   .normal = 0,
+                   .inertia = 0,
+                   .normalOnC = 0,
+                   .inertiaOnC = 0};
+  const DenseMatrix& turn = bounds.span.turn();
+  bounds.mass = linalg::congruent(set.mass, turn);
+  bounds.massProduct = linalg::congruent(set.massProduct, turn);
   if (set.normal.empty()) return bounds;
-  const auto factor = [](const DenseMatrix& left, double kept) {
-    return rootOf(linalg::symmetricPart(left), "the normal forces contradict their responses",
-                  kept * kept)
+  for (std::size_t a = 0; a < set.slip.size(); ++a) {
+    bounds.slip.push_back(linalg::product(set.slip[a], turn));
+    bounds.slipOnC.push_back(bounds.span.forcesLeft() +
+                             slipLeft(bounds.slip[a], set.modes.first, set.slipFlexibility[a]));
+  }
+  const DenseMatrix w = linalg::product(turn, bounds.span.vectors());
+  const auto factor = [&](const DenseMatrix& rows, const DenseMatrix& flexibility, double kept) {
+    return rootOf(leftOf(flexibility, linalg::product(rows, w), set.modes.first),
+                  "the normal forces contradict their responses", kept * kept)
         .factor;
   };
-  DenseMatrix stiff = factor(set.leftNormal, bounds.normal),
-              heavy = factor(set.leftInertia, bounds.inertia);
-  bounds.leftNormal = longest(stiff);
-  bounds.leftInertia = longest(heavy);
+  bounds.normal = proof::quickBound(linalg::DenseView(linalg::product(set.normal, turn)));
+  bounds.inertia = proof::quickBound(linalg::DenseView(linalg::product(set.inertia, turn)));
+  DenseMatrix stiff = factor(set.normal, set.normalFlexibility, bounds.normal),
+              heavy = factor(set.inertia, set.inertiaFlexibility, bounds.inertia);
+  bounds.normalOnC = longest(stiff);
+  bounds.inertiaOnC = longest(heavy);
   // For |s| ≤ reach and all t,
   //   (A + s² B)(A + s² B)ᴴ ≤ (1 + t) A Aᵀ + (1 + 1/t) reach⁴ B Bᵀ
-  const double square = reach * reach, t = square * bounds.leftInertia / bounds.leftNormal;
+  const double square = reach * reach, t = square * bounds.inertiaOnC / bounds.normalOnC;
   for (double& entry : stiff.entries()) entry *= std::sqrt(1 + t);
   for (double& entry : heavy.entries()) entry *= std::sqrt(1 + 1 / t) * square;
-  bounds.forces = linalg::product(stiff, linalg::transposed(stiff));
-  linalg::addScaled(bounds.forces, 1, linalg::product(heavy, linalg::transposed(heavy)));
+  bounds.forces = timesTransposed(stiff);
+  linalg::addScaled(bounds.forces, 1, timesTransposed(heavy));
   bounds.forces = rootOf(std::move(bounds.forces), "a sum of squares is negative",
-                         bounds.leftNormal * bounds.leftNormal)
+                         bounds.normalOnC * bounds.normalOnC)
                       .factor;
   return bounds;
 }
 
-PointBounds pointBounds(const SetBounds& set, PointMatrices point) {
+PointBounds pointBounds(const SetBounds& set, const PointMatrices& point) {
   PointBounds result;
   auto& [kept, leftOut] = result;
-  kept.matrices = {std::move(point.problem.stiffness), DenseMatrix(),
-                   std::move(point.problem.mass)};
-  kept.toLeftOut = {set.toLeftOut};
-  kept.fromLeftOut = {proof::transposed(set.toLeftOut)};
+  const DenseMatrix w = set.span.vectorsWith(point.vectors),
+                    ofV = linalg::product(set.span.turn(), w);
+  kept.matrices = {linalg::congruent(point.problem.stiffness, ofV), DenseMatrix(),
+                   linalg::congruent(point.problem.mass, ofV)};
+  kept.toLeftOut = {massCoupling(set, w, linalg::congruent(set.mass, w))};
+  kept.fromLeftOut = {proof::transposed(kept.toLeftOut.front())};
   kept.reach = set.reach;
-  leftOut.mass = set.mass;
-  if (point.slip.empty() || linalg::isZero(point.slip)) return result;
+  leftOut.mass = set.massOnC;
+  DenseMatrix slip;  // S V W
+  double slipOnC = 0;
+  for (std::size_t a = 0; a < set.slip.size(); ++a) {
+    const double factor = point.slipFactors[a];
+    linalg::addScaled(slip, factor, linalg::product(set.slip[a], w));
+    slipOnC += std::abs(factor) * set.slipOnC[a];
+  }
+  if (slip.empty() || linalg::isZero(slip)) return result;
   // The friction in P_VC is (S V)ᵀ (N_0C + s² N_2C).
-  kept.fromLeftOut.emplace_back().coefficients[0] =
-      linalg::transposedProduct(point.slip, set.forces);
+  kept.fromLeftOut.emplace_back().coefficients[0] = linalg::transposedProduct(slip, set.forces);
   //   S_C ≠ 0 only by round-off: (S_C)ᵀ N_V in P_CV, and (S_C)ᵀ N_C in P_CC
   auto& error = kept.toLeftOut.front().error;
-  error[0] += point.slipError * set.normal;
-  error[2] += point.slipError * set.inertia;
-  leftOut.rest[0] = point.slipError * set.leftNormal;
-  leftOut.rest[2] = point.slipError * set.leftInertia;
+  error[0] += slipOnC * set.normal;
+  error[2] += slipOnC * set.inertia;
+  leftOut.rest[0] = slipOnC * set.normalOnC;
+  leftOut.rest[2] = slipOnC * set.inertiaOnC;
   return result;
 }
 

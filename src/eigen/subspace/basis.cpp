@@ -192,9 +192,9 @@ linalg::DenseMatrix Basis::flexibility(const linalg::Block& forces) {
     const PetscInt last = std::min(first + panel, size);
     const linalg::Block solved = responses(linalg::Block(forces.columnRange(first, last)));
     const linalg::DenseMatrix part =
-        linalg::transposedProduct(comm_, forces.columnRange(0, last), solved);
+        linalg::transposedProductWithSparse(comm_, solved, forces.columnRange(0, last));
     for (PetscInt j = first; j < last; ++j)
-      for (PetscInt i = 0; i <= j; ++i) result(i, j) = result(j, i) = part(i, j - first);
+      for (PetscInt i = 0; i <= j; ++i) result(i, j) = result(j, i) = part(j - first, i);
   }
   return result;
 }
@@ -211,9 +211,10 @@ linalg::DenseMatrix Basis::addResponses(linalg::Block residuals) {
   if (residuals.columns() == 0) return {};
   clearBoundary(residuals);
   linalg::Block z = responses(residuals);
-  linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, residuals);
+  linalg::DenseMatrix energy = linalg::transposedProductWithSparse(comm_, z, residuals);
   ratio_ = ratio(residuals, energy);
-  linalg::DenseMatrix parts = linalg::transposedProduct(comm_, columns_, residuals);  // VᵀK z
+  // VᵀK z
+  linalg::DenseMatrix parts = linalg::transposedProductWithSparse(comm_, columns_, residuals);
   setBoundaryReactions(linalg::rowRange(parts, 0, boundarySize()), residuals);
   clearConstraintModes(parts, boundarySize());
   const PetscInt before = size();
@@ -323,7 +324,7 @@ double Basis::ratio(const linalg::Block& residuals, const linalg::DenseMatrix& e
         residuals.columnRange(first, std::min(first + atOnce, residuals.columns())));
     for (PetscInt j = 0; j < scaled.columns(); ++j)
       for (PetscInt i = 0; i < scaled.rows(); ++i) scaled(i, j) *= inverseDiagonal_[i];
-    gram.append(linalg::transposedProduct(comm_, residuals, scaled));
+    gram.append(linalg::transposedProductWithSparse(comm_, residuals, scaled));
   }
   const linalg::DenseMatrix combinations = orthonormalising(std::move(gram), 1e-8);
   if (combinations.empty()) return 0;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "eigen/completeness/damped_subspace.hpp"
+#include "eigen/completeness/kept_span.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "algebra/linalg/symmetric.hpp"
 #include "eigen/proof/norm_bound.hpp"
@@ -54,29 +55,46 @@ void normalise(DenseMatrix& columns) {
 
 }  // namespace
 
-Subspace subspace(const DampedSet& set, const DenseMatrix& jumps, const DampedPoint& point) {
-  constexpr double roundOffOfJumps = 1e-11, accurate = 1e-7;
-  const DenseMatrix factor = linalg::choleskyFactor(set.energy),
-                    turn = linalg::inverseTransposed(factor);
-  const PetscInt size = turn.rows(), fixed = set.modes.first + set.modes.count;
-  DenseMatrix responses = linalg::transposedProduct(turn, linalg::transposed(jumps)),
-              more(size - fixed);
-  DenseMatrix left = linalg::rowRange(responses, fixed, size);
+KeptSpan::KeptSpan(const KnownModes& modes, const DenseMatrix& energy, const DenseMatrix& rows)
+    : fixed_(modes.first + modes.count),
+      factor_(linalg::choleskyFactor(energy)),
+      turn_(linalg::inverseTransposed(factor_)),
+      responses_(energy.rows() - fixed_) {
+  constexpr double roundOff = 1e-11;
+  if (rows.empty()) return;
+  DenseMatrix responses = linalg::transposedProduct(turn_, linalg::transposed(rows)),
+              left = linalg::rowRange(responses, fixed_, responses.rows());
   normalise(responses);
-  extendSpan(more, linalg::rowRange(responses, fixed, size), roundOffOfJumps);
-  removePart(more, left);
-  DenseMatrix vectors(size);
-  if (point.vectors.columns() > 0) vectors = linalg::transposedProduct(factor, point.vectors);
-  if (point.forces.columns() > 0) vectors.append(linalg::transposedProduct(turn, point.forces));
-  if (vectors.columns() > 0) {
-    normalise(vectors);
-    extendSpan(more, linalg::rowRange(vectors, fixed, size), accurate);
+  extendSpan(responses_, linalg::rowRange(responses, fixed_, responses.rows()), roundOff);
+  removePart(responses_, left);
+  forcesLeft_ = proof::quickBound(linalg::DenseView(left));
+}
+
+/// Returns the modes and these vectors of the other coordinates.
+DenseMatrix KeptSpan::withModes(const DenseMatrix& others) const {
+  DenseMatrix whole(turn_.rows(), fixed_ + others.columns());
+  for (PetscInt j = 0; j < fixed_; ++j) whole(j, j) = 1;
+  for (PetscInt j = 0; j < others.columns(); ++j)
+    std::ranges::copy(others.column(j), whole.column(fixed_ + j).begin() + fixed_);
+  return whole;
+}
+
+/// Returns W for more vectors in the coordinates in which V is orthonormal.
+DenseMatrix KeptSpan::extended(DenseMatrix orthonormal) const {
+  constexpr double accurate = 1e-7;
+  DenseMatrix others = responses_;
+  if (orthonormal.columns() > 0) {
+    normalise(orthonormal);
+    extendSpan(others, linalg::rowRange(orthonormal, fixed_, orthonormal.rows()), accurate);
   }
-  Subspace result{DenseMatrix(turn.columnRange(0, fixed)),
-                  proof::quickBound(linalg::DenseView(left))};
-  if (more.columns() > 0)
-    result.vectors.append(linalg::product(turn.columnRange(fixed, size), more));
-  return result;
+  return withModes(others);
+}
+
+DenseMatrix KeptSpan::vectorsWith(const DenseMatrix& more, const DenseMatrix& forces) const {
+  DenseMatrix all(turn_.rows());
+  if (more.columns() > 0) all.append(linalg::transposedProduct(factor_, more));
+  if (forces.columns() > 0) all.append(linalg::transposedProduct(turn_, forces));
+  return extended(std::move(all));
 }
 
 }  // namespace squeal::completeness
