@@ -148,7 +148,7 @@ void ProjectedTerms::extend(Part& part) const {
 
 /// Returns true if A is K0 and the basis has K0 times the columns from `old` on.
 bool ProjectedTerms::hasProductsFrom(const Part& part, PetscInt old) const {
-  return part.term.matrix == basis_.stiffness() && basis_.forces().columns() == basis_.size() - old;
+  return isStiffness(part) && basis_.forces().columns() == basis_.size() - old;
 }
 
 void ProjectedTerms::combine(const linalg::DenseMatrix& combinations) {
@@ -166,33 +166,66 @@ void ProjectedTerms::addTo(const Weights& weights, linalg::DenseProblem& sum) co
       linalg::addScaled(sum.ofPower(part.term.power), weights.of(part.term), part.projection);
 }
 
-void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
-                           const linalg::DenseMatrix& combinations, linalg::Block& result) const {
+bool ProjectedTerms::hasStiffness() const {
+  return std::ranges::any_of(parts_, [&](const Part& part) { return isStiffness(part); });
+}
+
+/// Returns C of the sum V C on which the matrix of a term acts, basis × columns.
+linalg::DenseMatrix ProjectedTerms::coefficients(const Part& part,
+                                                 const std::vector<const PointPairs*>& points,
+                                                 const linalg::DenseMatrix& combinations) const {
+  linalg::DenseMatrix result(part.sketch.columns(), combinations.columns());
+  PetscInt first = 0;
+  for (const auto* point : points) {
+    const PetscInt last = first + point->pairs.columns;
+    linalg::multiplyAdd(
+        point->pairs.times(pencil::Side::right, part.term.power, point->weights.of(part.term)),
+        linalg::rowRange(combinations, first, last), result);
+    first = last;
+  }
+  return result;
+}
+
+void ProjectedTerms::addThinTo(const std::vector<const PointPairs*>& points,
+                               const linalg::DenseMatrix& combinations,
+                               linalg::Block& result) const {
+  for (const auto& part : parts_)
+    if (!part.rows.all())
+      linalg::multiplyAdd(part.rows, part.timesV, coefficients(part, points, combinations), result);
+}
+
+void ProjectedTerms::addWholeTo(const std::vector<const PointPairs*>& points,
+                                const linalg::DenseMatrix& combinations,
+                                const linalg::DenseMatrix& less, linalg::Block& result) const {
   for (const auto& part : parts_) {
-    linalg::DenseMatrix coefficients(part.sketch.columns(), result.columns());
-    PetscInt first = 0;
-    for (const auto* point : points) {
-      const PetscInt last = first + point->pairs.columns;
-      linalg::multiplyAdd(
-          point->pairs.times(pencil::Side::right, part.term.power, point->weights.of(part.term)),
-          linalg::rowRange(combinations, first, last), coefficients);
-      first = last;
+    if (!part.rows.all()) continue;
+    linalg::DenseMatrix of = coefficients(part, points, combinations);
+    if (isStiffness(part) && !less.empty()) {
+      // (VᵀK0V)⁻¹ ≈ 2 − VᵀK0V, as V is nearly orthonormal
+      linalg::addScaled(of, -2, less);
+      linalg::multiplyAdd(part.projection, less, of);
     }
-    if (!part.rows.all()) {
-      linalg::multiplyAdd(part.rows, part.timesV, coefficients, result);
-      continue;
-    }
-    const linalg::DenseView known = basis_.columns().columnRange(0, coefficients.rows());
+    const linalg::DenseView known = basis_.columns().columnRange(0, of.rows());
     for (PetscInt begin = 0; begin < result.columns(); begin += atOnce) {
       const PetscInt end = std::min(begin + atOnce, result.columns());
       linalg::Block forces(result.rows());
-      linalg::appendProduct(part.matrix,
-                            linalg::product(known, coefficients.columnRange(begin, end)), forces);
+      linalg::appendProduct(part.matrix, linalg::product(known, of.columnRange(begin, end)),
+                            forces);
       for (PetscInt j = begin; j < end; ++j)
         std::ranges::transform(result.column(j), forces.column(j - begin), result.column(j).begin(),
                                std::plus());
     }
   }
+}
+
+linalg::DenseMatrix ProjectedTerms::projectedWhole(const std::vector<const PointPairs*>& points,
+                                                   const linalg::DenseMatrix& combinations) const {
+  linalg::DenseMatrix sum;
+  for (const auto& part : parts_)
+    if (part.rows.all())
+      linalg::addScaled(sum, 1,
+                        linalg::product(part.projection, coefficients(part, points, combinations)));
+  return sum;
 }
 
 void ProjectedTerms::addTo(const PointPairs& point, pencil::Side side,

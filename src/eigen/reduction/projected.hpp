@@ -74,11 +74,22 @@ class ProjectedTerms {
   /// Not collective. Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the
   /// size of the basis.
   void addTo(const Weights& weights, linalg::DenseProblem& sum) const;
-  /// Collective. Adds to `result`, which has this rank's rows, combinations of the columns P(s) V q
-  /// of all points, with one product per term. `combinations` has one row per column P(s) V q,
-  /// point after point, and one column per column of the result.
-  void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations,
-             linalg::Block& result) const;
+  /// Not collective. Adds to `result`, which has this rank's rows, combinations of the columns
+  /// P(s) V q of all points, with one product per term, for the terms with few nonzero rows.
+  /// `combinations` has one row per column P(s) V q, point after point, and one column per column
+  /// of the result.
+  void addThinTo(const std::vector<const PointPairs*>& points,
+                 const linalg::DenseMatrix& combinations, linalg::Block& result) const;
+  /// Collective. Does the same for the other terms. If one of them is K0, the result is less
+  /// K0 V (VᵀK0V)⁻¹ `less`; an empty `less` is zero.
+  void addWholeTo(const std::vector<const PointPairs*>& points,
+                  const linalg::DenseMatrix& combinations, const linalg::DenseMatrix& less,
+                  linalg::Block& result) const;
+  /// Not collective. Returns Vᵀ times what addWholeTo() adds for an empty `less`.
+  linalg::DenseMatrix projectedWhole(const std::vector<const PointPairs*>& points,
+                                     const linalg::DenseMatrix& combinations) const;
+  /// Returns true if one of the terms is K0.
+  bool hasStiffness() const;
   /// Not collective. Adds the sketch of P(s) V q, or of P(s)ᴴ V y for the left side, to `sketch`,
   /// which is 2 Sketch::size × columns.
   void addTo(const PointPairs& point, pencil::Side side, linalg::DenseMatrix& sketch) const;
@@ -98,7 +109,10 @@ class ProjectedTerms {
   };
   Part partOf(pencil::Term term) const;
   void extend(Part& part) const;
+  bool isStiffness(const Part& part) const { return part.term.matrix == basis_.stiffness(); }
   bool hasProductsFrom(const Part& part, PetscInt old) const;
+  linalg::DenseMatrix coefficients(const Part& part, const std::vector<const PointPairs*>& points,
+                                   const linalg::DenseMatrix& combinations) const;
   const Basis& basis_;
   std::vector<Part> parts_;
 };

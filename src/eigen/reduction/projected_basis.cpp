@@ -144,17 +144,33 @@ linalg::Block ProjectedBasis::residuals(const std::vector<PairsOfPoint>& points,
                                         const linalg::DenseMatrix& combinations) const {
   linalg::Block columns(basis_.localRows(), combinations.columns());
   if (combinations.empty()) return columns;
-  std::vector<const PointPairs*> all;
-  for (const auto& point : points) all.push_back(point.pairs);
-  terms_.addTo(all, combinations, columns);
+  /// Pairs with terms that they alone have, or that all have.
+  struct Share {
+    const ProjectedTerms* terms;
+    std::vector<const PointPairs*> pairs;
+    linalg::DenseMatrix combinations;
+  };
+  std::vector<Share> shares{{&terms_, {}, combinations}};
   PetscInt first = 0;
   for (const auto& [state, pairs] : points) {
+    shares.front().pairs.push_back(pairs);
     const PetscInt last = first + pairs->pairs.columns;
-    const linalg::DenseMatrix some = linalg::rowRange(combinations, first, last);
     for (const auto* terms : {&state->set->terms.value(), &state->ownTerms})
-      terms->addTo({pairs}, some, columns);
+      shares.push_back({terms, {pairs}, linalg::rowRange(combinations, first, last)});
     first = last;
   }
+  for (const auto& share : shares) share.terms->addThinTo(share.pairs, share.combinations, columns);
+  linalg::DenseMatrix along;  // VᵀR of the residuals R
+  if (terms_.hasStiffness()) {
+    along = linalg::transposedProductWithSparse(basis_.comm(), basis_.columns(), columns);
+    for (const auto& share : shares)
+      linalg::addScaled(along, 1, share.terms->projectedWhole(share.pairs, share.combinations));
+    for (PetscInt j = 0; j < along.columns(); ++j)
+      std::ranges::fill(along.column(j).first(basis_.boundarySize()), 0.0);
+  }
+  for (const auto& share : shares)
+    share.terms->addWholeTo(share.pairs, share.combinations,
+                            share.terms == &terms_ ? along : linalg::DenseMatrix(), columns);
   basis_.clearBoundary(columns);
   return columns;
 }

@@ -82,8 +82,10 @@ class ProjectedBasis {
     const PointState* state;
     const PointPairs* pairs;
   };
-  /// Collective. Returns this rank's rows of combinations of the residuals of several pairs.
-  /// `combinations` has one row per column of all pairs, point after point.
+  /// Collective. Returns this rank's rows of combinations of R − K0 V (VᵀK0V)⁻¹ VᵀR for the
+  /// residuals R of several pairs. With V they span the same space as R after K0⁻¹, and K0⁻¹ times
+  /// them is orthogonal to V in energy. `combinations` has one row per column of all pairs, point
+  /// after point.
   linalg::Block residuals(const std::vector<PairsOfPoint>& points,
                           const linalg::DenseMatrix& combinations) const;
 
