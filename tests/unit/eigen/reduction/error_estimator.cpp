@@ -219,6 +219,38 @@ linalg::Block residuals(const Fixture& f, const reduction::CorrectionRequest& re
   return all;
 }
 
+// Vectors that do not solve the reduced problem have residuals R with VᵀR ≠ 0. What is asked for is
+// R − K0 V (VᵀK0V)⁻¹ VᵀR, which has none; V itself contains K0⁻¹ times the difference. V is
+// orthonormal within 1e-9 or so, the square of which is below round-off.
+TEST(ProjectedBasis, ResidualsAreOrthogonalToTheBasis) {
+  Fixture f;
+  f.solve();
+  for (auto& pair : f.state.solution.spectrum.band)
+    for (std::size_t i = 0; i < pair.q.size(); ++i) pair.q[i] *= 1 + 0.1 * std::sin(1.0 + i);
+  const auto request = f.corrector.requestOf(f.state);
+  linalg::Block whole(f.basis.basis().localRows());
+  for (const auto* pair : request.pairs.pairs.pairs) {
+    const auto x = std::move(f.basis.basis().expand({pair->q})[0]);
+    whole.append(f.basis.residualColumns(f.state, *pair, x, pencil::Side::right));
+  }
+  const PetscInt count = whole.columns();
+  ASSERT_GT(count, 5);
+  linalg::DenseMatrix unit(count, count);
+  for (PetscInt j = 0; j < count; ++j) unit(j, j) = 1;
+  const linalg::Block some = f.basis.residuals({{&f.state, &request.pairs}}, unit);
+  const auto along = [&](const linalg::Block& forces) {
+    const auto product =
+        linalg::transposedProduct(PETSC_COMM_WORLD, f.basis.basis().columns(), forces);
+    return std::sqrt(linalg::squaredLength(product.entries()));
+  };
+  EXPECT_LT(along(some), 1e-11 * along(whole));
+  linalg::Block difference = whole;
+  linalg::addScaled(difference, -1, some);
+  const linalg::Block nothing(whole.rows());
+  EXPECT_LT(energyOutside(*f.system, f.basis.basis().columns(), difference),
+            1e-7 * energyOutside(*f.system, nothing, difference));  // the root of round-off
+}
+
 // After a correction with all residuals r asked for wholly, what K0⁻¹ r/‖r‖ has outside of the
 // basis comes from a part of r/‖r‖ of length 0.03 at most; its energy norm is at most 0.03 over the
 // root of the lowest eigenvalue of K0. The residuals of the next solution are smaller.
