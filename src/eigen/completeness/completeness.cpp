@@ -194,7 +194,7 @@ void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& s
   for (const auto& set : sets) {
     const auto& problem = set.problems.front();
     const auto matrices =
-        matricesOf(set, reduced.space(problem.set), reduced.projectAssociated(problem), common);
+        matricesOf(set, reduced.space(problem.set), reduced.projectAssociated(problem.set), common);
     try {
       proveSet(reduced, factors, matrices, set, settings);
     } catch (const Error& error) {

@@ -173,7 +173,7 @@ void proveDamped(reduction::ReducedProblem& reduced, const DampedSweep& sweep,
   const std::size_t ranks = mpi::size(reduced.basis().comm());
   for (const auto& [number, some] : bySet) {
     DampedSet set = common.of(reduced.space(number));
-    auto ofSet = reduced.projectAssociated(*some.front().problem);
+    auto ofSet = reduced.projectAssociated(number);
     set.energy = std::move(ofSet.stiffness);
     set.mass = std::move(ofSet.mass);
     for (std::size_t first = 0; first < some.size(); first += ranks) {

@@ -70,7 +70,7 @@ linalg::Block remainderOf(const reduction::ReducedProblem& reduced,
                           const DenseMatrix& onV) {
   const auto& basis = reduced.basis();
   const PetscInt size = basis.size(), boundary = basis.boundarySize();
-  DenseMatrix energy = reduced.projectAssociated(point).stiffness;
+  DenseMatrix energy = reduced.projectAssociated(point.set).stiffness;
   std::vector<PetscInt> interior;
   for (PetscInt i = energy.rows() - (size - boundary); i < energy.rows(); ++i)
     interior.push_back(i);

@@ -109,6 +109,12 @@ linalg::DenseProblem ProjectedBasis::projectOnAll(const Weights& weights,
   return problem;
 }
 
+linalg::DenseProblem ProjectedBasis::projectAssociated() const {
+  linalg::DenseProblem problem;
+  terms_.addTo({.at = {}, .associated = true}, problem);
+  return problem;
+}
+
 linalg::DenseProblem ProjectedBasis::projectOwn(const PointState& state) const {
   linalg::DenseProblem problem;
   state.ownTerms.addTo({state.point->at, false}, problem);

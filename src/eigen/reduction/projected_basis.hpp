@@ -67,6 +67,8 @@ class ProjectedBasis {
   /// Not collective. Returns the projected problem with all boundary unknowns, in coordinates
   /// common to all points.
   linalg::DenseProblem projectOnAll(const PointState& state) const;
+  /// Not collective. Returns the projection of K0 and M0 with all boundary unknowns.
+  linalg::DenseProblem projectAssociated() const;
   /// Not collective. Returns the projection of the terms that belong only to the point.
   linalg::DenseProblem projectOwn(const PointState& state) const;
 

@@ -58,7 +58,7 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const factor::Assoc
   if (band_.top == 0) estimator_.acceptAll();
   const PetscInt boundary = basis().boundarySize();
   addSet(pencil, std::vector<unsigned char>(boundary, 0));
-  if (boundary > 0) count_.emplace(basis_.basis(), modes, pencil.associated().assembled(2, {}));
+  if (boundary > 0) count_.emplace(basis(), modes, basis_.projectAssociated().mass);
 }
 
 int ReducedProblem::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
@@ -341,12 +341,6 @@ void ReducedProblem::storeShapes(std::vector<pencil::ComplexModes>& points,
 
 linalg::DenseProblem ReducedProblem::project(const PointProblem& point) const {
   return basis_.project(basis_.state(point, {}));
-}
-
-linalg::DenseProblem ReducedProblem::projectAssociated(const PointProblem& point) const {
-  PointState state = basis_.state(point, {});
-  state.associated = true;
-  return basis_.project(state);
 }
 
 linalg::DenseMatrix ReducedProblem::addResponses(linalg::Block forces) {

@@ -128,9 +128,11 @@ class ReducedProblem {
   }
   /// Collective. Returns the projection of the terms that belong only to the point.
   linalg::DenseProblem projectOwn(const PointProblem& point) const;
-  /// Collective. Returns the projection as project() does, but only of K0 and M0; the damping
-  /// matrix is empty.
-  linalg::DenseProblem projectAssociated(const PointProblem& point) const;
+  /// Not collective. Returns the projection of K0 and M0, as project() does for the points of a
+  /// set; the damping matrix is empty.
+  linalg::DenseProblem projectAssociated(int set) const {
+    return space(set).restricted(basis_.projectAssociated());
+  }
   /// Returns the part of the basis that the points of a set use.
   const subspace::PointSpace& space(int set) const { return basis_.set(set).space; }
   /// Collective. Adds K0⁻¹ F to the basis for static forces F on the interior unknowns; `forces`

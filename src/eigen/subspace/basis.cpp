@@ -90,7 +90,7 @@ Basis::Basis(const modes::Modes& modes, const factor::AssociatedSystem& system,
   if (isPlain_) substructure_.stiffness = system.k0();
   PetscInt rows = 0;
   check(MatGetLocalSize(stiffness(), &rows, nullptr));
-  columns_ = linalg::Block(rows);
+  columns_ = forces_ = linalg::Block(rows);
   addConstraintModes();
   const linalg::ReadColumns columns(modes.vectors);
   linalg::Block shapes = prolonged(columns.view());
@@ -99,6 +99,7 @@ Basis::Basis(const modes::Modes& modes, const factor::AssociatedSystem& system,
   // Reserved memory is free until it is used, but moving V takes time.
   columns_.reserve(3 * (size() + shapes.columns()));
   columns_.append(shapes);
+  if (!isPlain_) addForces(shapes);
   OwnedVec diagonal;
   check(MatCreateVecs(stiffness(), diagonal.out(), nullptr));
   check(MatGetDiagonal(stiffness(), diagonal));
@@ -143,14 +144,24 @@ void Basis::addConstraintModes() {
   const Concatenation ranks(comm_, boundary.size());
   if (ranks.size() == 0) return;
   firstBoundary_ = ranks.ownBegin();
-  linalg::Block units(localRows(), ranks.size()), forces(localRows()), energies(localRows());
+  linalg::Block units(localRows(), ranks.size()), forces(localRows());
   for (std::size_t i = 0; i < boundary.size(); ++i) units(boundary[i], firstBoundary_ + i) = 1;
   linalg::appendProduct(stiffness(), units, forces);
   columns_ = responses(forces);
   linalg::addScaled(units, -1, columns_);
   columns_ = std::move(units);
-  linalg::appendProduct(stiffness(), columns_, energies);
-  boundaryStiffness_ = linalg::transposedProduct(comm_, columns_, energies);
+  linalg::appendProduct(stiffness(), columns_, forces_);
+  boundaryStiffness_ = linalg::transposedProduct(comm_, columns_, forces_);
+}
+
+/// Completes K V and VᵀK V, of which the columns of the constraint modes are known, by those of the
+/// free modes.
+void Basis::addForces(const linalg::Block& shapes) {
+  linalg::appendProduct(stiffness(), shapes, forces_);
+  const PetscInt boundary = boundarySize();
+  const auto right =
+      linalg::transposedProduct(comm_, columns_, forces_.columnRange(boundary, size()));
+  energies_ = linalg::bordered(boundaryStiffness_, right, linalg::DenseMatrix());
 }
 
 /// Sets the rows of the boundary to K z with z = K0⁻¹ r, which is −Yᵀr [M.60]; `answers` is Yᵀr.

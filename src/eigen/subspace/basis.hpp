@@ -74,9 +74,10 @@ class Basis {
   /// Collective. Appends the product of `matrix` and the columns [first, last) of V to the columns
   /// of `result`, which has this rank's rows of `matrix`.
   void appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
-  /// Return this rank's rows of K0 times the columns last added, and VᵀK0 times these columns,
-  /// size() × columns. Both have no columns after combine() and restore(), since they would need
-  /// further products.
+  /// Return this rank's rows of K times the columns last added, and VᵀK times these columns,
+  /// size() × columns. In a new basis these are all columns, if it has constraint modes. Otherwise,
+  /// and after combine() and restore(), both have no columns, since they would need further
+  /// products.
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
   /// Collective. Returns the vectors V q, of n entries each, for all q of the list. If a q has too
@@ -112,6 +113,7 @@ class Basis {
   void sketchColumns(PetscInt first);
 
   void addConstraintModes();
+  void addForces(const linalg::Block& shapes);
   void setBoundaryReactions(const linalg::DenseMatrix& answers, linalg::Block& residuals) const;
 
   MPI_Comm comm_;

@@ -10,18 +10,14 @@ namespace squeal::subspace {
 
 using linalg::DenseMatrix;
 
-ModeCount::ModeCount(const Basis& basis, const modes::Modes& modes, Mat mass)
+ModeCount::ModeCount(const Basis& basis, const modes::Modes& modes, const DenseMatrix& mass)
     : lambda_(modes.lambda),
       complete_(modes.countConfirmed ? modes.inertiaShift : 0),
       stiffness_(basis.boundaryStiffness()) {
   const PetscInt boundary = basis.boundarySize(), count = std::ssize(lambda_);
-  const auto constraint = basis.columns().columnRange(0, boundary),
-             shapes = basis.columns().columnRange(boundary, boundary + count);
-  linalg::Block inertia(basis.localRows());
-  linalg::appendProduct(mass, constraint, inertia);
-  mass_ = linalg::transposedProduct(basis.comm(), constraint, inertia);
-  modal_ = linalg::transposedProduct(basis.comm(), shapes, inertia);  // of Φ Λ^(−½)
-  for (PetscInt j = 0; j < boundary; ++j)
+  mass_ = linalg::rowRange(mass.columnRange(0, boundary), 0, boundary);
+  modal_ = linalg::rowRange(mass.columnRange(0, boundary), boundary, boundary + count);
+  for (PetscInt j = 0; j < boundary; ++j)  // the vectors in V are Φ Λ^(−½)
     for (PetscInt i = 0; i < count; ++i) modal_(i, j) *= modes.angularFrequency[i];
   isSharp_ = complete_ == 0;  // nothing is known
   if (isSharp_) return;

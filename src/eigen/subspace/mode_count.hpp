@@ -24,10 +24,11 @@ namespace squeal::subspace {
 
 class ModeCount {
  public:
-  /// Collective. `basis` must still begin with its constraint modes, followed by `modes`. `mass` is
-  /// M of all unknowns. The arguments may be destroyed after the call.
-  ModeCount(const Basis& basis, const modes::Modes& modes, Mat mass);
+  /// Not collective. `basis` must still begin with its constraint modes, followed by `modes`.
+  /// `mass` is VᵀMV for these vectors. The arguments may be destroyed after the call.
+  ModeCount(const Basis& basis, const modes::Modes& modes, const linalg::DenseMatrix& mass);
   /// Collective. Replaces the bound of D by D itself, with a block solve for all constraint modes.
+  /// `mass` is M of all unknowns.
   void sharpen(Basis& basis, Mat mass);
   /// Returns true if sharpen() would not help.
   bool isSharp() const { return isSharp_; }

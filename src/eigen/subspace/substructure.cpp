@@ -27,9 +27,12 @@ PointSpace::PointSpace(const DenseMatrix& boundaryStiffness, const std::vector<u
 
 std::vector<Complex> PointSpace::lifted(const std::vector<Complex>& q) const {
   if (isWhole() || q.empty()) return q;
-  std::vector<Complex> result(all_);
-  for (PetscInt j = 0; j < own(); ++j)
-    for (PetscInt i = 0; i <= j; ++i) result[boundary_[i]] += turn_(i, j) * q[j];
+  std::vector<Complex> result(all_), part(own());
+  for (PetscInt j = 0; j < own(); ++j) {
+    const auto column = turn_.column(j);
+    for (PetscInt i = 0; i <= j; ++i) part[i] += column[i] * q[j];
+  }
+  for (PetscInt i = 0; i < own(); ++i) result[boundary_[i]] = part[i];
   result.insert(result.end(), q.begin() + own(), q.end());
   return result;
 }

@@ -204,7 +204,10 @@ TEST(Substructure, NumberOfModesBelowAnyFrequency) {
   const auto free = f.modes();
   ASSERT_TRUE(free.countConfirmed);
   subspace::Basis basis(free, *f.system, f.substructure);
-  const subspace::ModeCount rough(basis, free, f.all->m0());
+  linalg::Block inertia(basis.localRows());
+  linalg::appendProduct(f.all->m0(), basis.columns(), inertia);
+  const subspace::ModeCount rough(
+      basis, free, linalg::transposedProduct(basis.comm(), basis.columns(), inertia));
   subspace::ModeCount sharp = rough;
   EXPECT_FALSE(rough.isSharp());
   sharp.sharpen(basis, f.all->m0());
