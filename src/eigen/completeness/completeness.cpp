@@ -51,27 +51,61 @@ DenseMatrix unit(PetscInt size) {
   return result;
 }
 
-/// Proves the list of a point, if the bounds suffice.
-void proveList(const SetBounds& set, PointMatrices matrices, const Settings& settings,
-               const pencil::WatchedBand& band, pencil::ComplexModes& point) {
-  auto& found = *point.completeness;
-  const double wanted = wantedTop(point.bandTop);
-  const auto isSingle = [](const auto& disc) { return disc.isolation == proof::Isolation::single; };
-  bool isLast = matrices.vectors.columns() == 0;
-  for (bool isDone = false; !isDone; isLast = true) {
-    if (isLast) matrices.vectors = unit(matrices.problem.order());  // all of V
-    const auto bounds = pointBounds(set, matrices);
-    const proof::DiagonalForm form(bounds.kept, wanted);
-    const proof::Region region{proof::placedTop(form.eigenvalues(), wanted, within)};
-    const auto count = proof::proveCount(form, bounds.leftOut, region, settings.discs);
-    const auto discs = proof::enclose(form, bounds.leftOut, region, count);
-    isDone =
-        isLast || (count.verdict == proof::Verdict::proved && std::ranges::all_of(discs, isSingle));
-    if (!isDone) continue;
-    recordCount(region, count, found);
-    found.reason = proof::reason(count, remedies("-modes_count"));
-    judgeList(discs, region, band, point);
+/// The data of a point, and the approximate eigenvectors of its list in coordinates of V.
+struct PointData {
+  PointMatrices matrices;
+  DenseMatrix vectors;
+};
+
+/// What the proof on a part of V has found.
+struct Attempt {
+  proof::Region region;
+  proof::CountProof count;
+  std::vector<proof::Enclosure> discs;
+  bool isProved() const { return count.verdict == proof::Verdict::proved; }
+  bool isComplete() const {
+    return isProved() && std::ranges::all_of(discs, [](const auto& disc) {
+             return disc.isolation == proof::Isolation::single;
+           });
   }
+};
+
+/// Tries the proof on V W. Without a proved count, discs are searched only if `isLast`.
+Attempt attempt(const SetBounds& set, const PointMatrices& matrices, const DenseMatrix& w,
+                const Settings& settings, double bandTop, bool isLast) {
+  const double wanted = wantedTop(bandTop);
+  const auto bounds = pointBounds(set, matrices, w);
+  const proof::DiagonalForm form(bounds.kept, wanted);
+  Attempt result{{proof::placedTop(form.eigenvalues(), wanted, within)}, {}, {}};
+  result.count = proof::proveCount(form, bounds.leftOut, result.region, settings.discs);
+  if (result.isProved() || isLast)
+    result.discs = proof::enclose(form, bounds.leftOut, result.region, result.count);
+  return result;
+}
+
+/// Proves the list of a point, if the bounds suffice: on the part of V with its eigenvectors, or on
+/// all of V. Not collective.
+void proveList(const SetBounds& set, const PointData& data, const Settings& settings,
+               const pencil::WatchedBand& band, pencil::ComplexModes& point) {
+  std::optional<Attempt> found;
+  try {
+    if (data.vectors.columns() > 0)
+      found = attempt(set, data.matrices, set.span.vectorsWith(data.vectors), settings,
+                      point.bandTop, false);
+    if (!found || !found->isComplete()) {
+      auto whole = attempt(set, data.matrices, unit(data.matrices.problem.order()), settings,
+                           point.bandTop, true);
+      if (!found || !found->isProved() || whole.isProved()) found = std::move(whole);
+    }
+  } catch (const Error& error) {
+    if (!found || !found->isProved()) {
+      point.completeness->reason = error.what();
+      return;
+    }
+  }
+  recordCount(found->region, found->count, *point.completeness);
+  point.completeness->reason = proof::reason(found->count, remedies("-modes_count"));
+  judgeList(found->discs, found->region, band, point);
 }
 
 /// Collective. Returns the products of the whole basis that all points share. Adds the static
@@ -122,13 +156,12 @@ SetMatrices matricesOf(const ProvedSet& set, const subspace::PointSpace& space,
 }
 
 /// Collective. Returns the data of a point.
-PointMatrices dataOf(const reduction::ReducedProblem& reduced,
-                     const pencil::FrictionFactors& factors,
-                     const reduction::PointProblem& problem) {
-  PointMatrices data{reduced.project(problem), {}, {}};
+PointData dataOf(const reduction::ReducedProblem& reduced, const pencil::FrictionFactors& factors,
+                 const reduction::PointProblem& problem) {
+  PointData data{{reduced.project(problem), {}}, {}};
   for (const auto& slip : factors.slip)
-    data.slipFactors.push_back(std::pow(problem.at.friction, slip.frictionExponent));
-  data.vectors = DenseMatrix(data.problem.order());
+    data.matrices.slipFactors.push_back(std::pow(problem.at.friction, slip.frictionExponent));
+  data.vectors = DenseMatrix(data.matrices.problem.order());
   if (const auto pairs = reduced.watchedPairs(problem.at, problem.set))
     for (const auto& pair : *pairs) appendParts(pair.q, data.vectors);
   return data;
@@ -142,13 +175,13 @@ void proveSet(reduction::ReducedProblem& reduced, const pencil::FrictionFactors&
   const std::size_t ranks = mpi::size(comm);
   for (std::size_t first = 0; first < set.points.size(); first += ranks) {
     const std::size_t count = std::min(ranks, set.points.size() - first);
-    std::optional<PointMatrices> own;
+    std::optional<PointData> own;
     for (std::size_t i = 0; i < count; ++i) {
       auto data = dataOf(reduced, factors, set.problems[first + i]);
       if (mpi::rank(comm) == static_cast<int>(i)) own = std::move(data);
     }
     linalg::onOwners(comm, count, [&](std::size_t i) {
-      proveList(bounds, std::move(*own), settings, reduced.band(), *set.points[first + i]);
+      proveList(bounds, *own, settings, reduced.band(), *set.points[first + i]);
     });
   }
 }
@@ -160,10 +193,10 @@ bool covers(const reduction::PointProblem& problem, const pencil::FrictionFactor
   if (!factors.missing.empty()) return false;
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const auto& term = terms[t];
-    if (term.coefficient(problem.at) == 0 || term.isAssociated()) continue;
-    if (t >= problem.pencil.affineCount() || term.power == 1 || term.speedExponent != 0 ||
-        !term.containsFriction())
-      return false;
+    if (term.coefficient(problem.at) == 0) continue;
+    if (t >= problem.pencil.affineCount()) return false;  // only of this point
+    if (term.isAssociated()) continue;
+    if (term.power == 1 || term.speedExponent != 0 || !term.containsFriction()) return false;
   }
   return true;
 }
@@ -199,7 +232,7 @@ void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& s
       proveSet(reduced, factors, matrices, set, settings);
     } catch (const Error& error) {
       for (auto* point : set.points)
-        if (!point->completeness->proved) point->completeness->reason = error.what();
+        if (point->completeness->top == 0) point->completeness->reason = error.what();
     }
     share(reduced.basis().comm(), set.points);
   }

@@ -150,11 +150,10 @@ SetBounds setBounds(const SetMatrices& set, double reach) {
   return bounds;
 }
 
-PointBounds pointBounds(const SetBounds& set, const PointMatrices& point) {
+PointBounds pointBounds(const SetBounds& set, const PointMatrices& point, const DenseMatrix& w) {
   PointBounds result;
   auto& [kept, leftOut] = result;
-  const DenseMatrix w = set.span.vectorsWith(point.vectors),
-                    ofV = linalg::product(set.span.turn(), w);
+  const DenseMatrix ofV = linalg::product(set.span.turn(), w);
   kept.matrices = {linalg::congruent(point.problem.stiffness, ofV), DenseMatrix(),
                    linalg::congruent(point.problem.mass, ofV)};
   kept.toLeftOut = {massCoupling(set, w, linalg::congruent(set.mass, w))};

@@ -47,8 +47,6 @@ SetBounds setBounds(const SetMatrices& set, double reach);
 struct PointMatrices {
   linalg::DenseProblem problem;     ///< P(s) on V; Z is empty
   std::vector<double> slipFactors;  ///< [power of the friction] its factor at this point
-  /// Approximate eigenvectors in coordinates of V, N × any number.
-  linalg::DenseMatrix vectors;
 };
 
 /// The blocks for the proof.
@@ -57,8 +55,10 @@ struct PointBounds {
   proof::LeftOut leftOut;
 };
 
-/// Returns the blocks of a point on the part of V that contains W and the eigenvectors of the
-/// point, or on all of V if the point has no eigenvectors. Throws Error if V lacks modes below θ.
-PointBounds pointBounds(const SetBounds& set, const PointMatrices& point);
+/// Returns the blocks of a point on the part of V with these vectors, which contains W, in the
+/// coordinates in which V is orthonormal (KeptSpan::vectorsWith(), or the unit matrix for all of
+/// V). Throws Error if V lacks modes below θ.
+PointBounds pointBounds(const SetBounds& set, const PointMatrices& point,
+                        const linalg::DenseMatrix& w);
 
 }  // namespace squeal::completeness

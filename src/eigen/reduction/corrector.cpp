@@ -70,19 +70,23 @@ CorrectionRequest Corrector::requestOf(const PointState& state) const {
 }
 
 PetscInt Corrector::correct(const std::vector<CorrectionRequest>& requests) {
-  return basis_.basis().add(directions(requests));
+  using enum ProjectedBasis::Residual;
+  const PetscInt added = basis_.basis().add(directions(requests, outside));
+  return added > 0 ? added : basis_.basis().add(directions(requests, whole));
 }
 
-/// Collective. Returns directions that span the residuals of all these pairs, each scaled to its
-/// weight, except for components of length `resolution`.
-linalg::Block Corrector::directions(const std::vector<CorrectionRequest>& requests) const {
+/// Collective. Returns directions that span the residuals of all these pairs, of this kind, except
+/// for components of length `resolution`. Each pair is scaled so that its whole residual has the
+/// length of its weight.
+linalg::Block Corrector::directions(const std::vector<CorrectionRequest>& requests,
+                                    ProjectedBasis::Residual kind) const {
   const MPI_Comm comm = basis_.basis().comm();
   const auto [sketches, factors] = scaledSketches(basis_, requests);
   std::vector<ProjectedBasis::PairsOfPoint> points;
   for (const auto& request : requests) points.push_back({request.state, &request.pairs});
   // Fewer columns than residuals: residuals of neighbouring points are similar.
   if (const auto leading = subspace::leadingCombinations(sketches, factors, 0.8 * resolution))
-    return linalg::principal(comm, basis_.residuals(points, *leading), resolution);
+    return linalg::principal(comm, basis_.residuals(points, *leading, kind), resolution);
   // The sketch does not resolve this many: take random combinations until they span the residuals.
   constexpr PetscInt atOnce = 3 * Sketch::size;
   const PetscInt all = factors.size();
@@ -90,7 +94,7 @@ linalg::Block Corrector::directions(const std::vector<CorrectionRequest>& reques
   for (PetscInt count = 0;;) {
     const PetscInt more = all - count <= atOnce + atOnce / 2 ? all - count : atOnce;
     columns.append(
-        basis_.residuals(points, subspace::randomCombinations(factors, count, count + more)));
+        basis_.residuals(points, subspace::randomCombinations(factors, count, count + more), kind));
     count += more;
     // A sum of `all` columns with random signs, divided by √count: lengths are preserved.
     linalg::Block leading = linalg::principal(comm, columns, resolution * std::sqrt(count));

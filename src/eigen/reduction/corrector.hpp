@@ -30,12 +30,14 @@ class Corrector {
   /// error is at most 1/√2 of its limit. The rest of the limit, in the sum of squares, is for the
   /// error of the correction itself.
   CorrectionRequest requestOf(const PointState& state) const;
-  /// Collective. Adds corrections for these residuals. Returns the number of vectors added; 0 if
-  /// the residuals are round-off.
+  /// Collective. Adds corrections for these residuals, less their part along V. If nothing else is
+  /// left of them, because the reduced problem is not solved accurately, this part is kept. Returns
+  /// the number of vectors added; 0 if the residuals are round-off.
   PetscInt correct(const std::vector<CorrectionRequest>& requests);
 
  private:
-  linalg::Block directions(const std::vector<CorrectionRequest>& requests) const;
+  linalg::Block directions(const std::vector<CorrectionRequest>& requests,
+                           ProjectedBasis::Residual kind) const;
 
   ProjectedBasis& basis_;
   ErrorEstimator& estimator_;

@@ -11,6 +11,7 @@ namespace squeal::reduction {
 ProjectedBasis::ProjectedBasis(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                                const modes::Modes& modes, Substructure substructure)
     : basis_(modes, system, std::move(substructure)), terms_(basis_, pencil.terms()) {
+  basis_.releaseForces();
   check(MatGetSize(basis_.stiffness(), &unknowns_, nullptr));
   serialised_ = basis_.size();
 }
@@ -147,7 +148,8 @@ linalg::Block ProjectedBasis::residualColumns(const PointState& state,
 }
 
 linalg::Block ProjectedBasis::residuals(const std::vector<PairsOfPoint>& points,
-                                        const linalg::DenseMatrix& combinations) const {
+                                        const linalg::DenseMatrix& combinations,
+                                        Residual kind) const {
   linalg::Block columns(basis_.localRows(), combinations.columns());
   if (combinations.empty()) return columns;
   /// Pairs with terms that they alone have, or that all have.
@@ -167,7 +169,7 @@ linalg::Block ProjectedBasis::residuals(const std::vector<PairsOfPoint>& points,
   }
   for (const auto& share : shares) share.terms->addThinTo(share.pairs, share.combinations, columns);
   linalg::DenseMatrix along;  // VᵀR of the residuals R
-  if (terms_.hasStiffness()) {
+  if (kind == Residual::outside && terms_.hasStiffness()) {
     along = linalg::transposedProductWithSparse(basis_.comm(), basis_.columns(), columns);
     for (const auto& share : shares)
       linalg::addScaled(along, 1, share.terms->projectedWhole(share.pairs, share.combinations));

@@ -84,12 +84,14 @@ class ProjectedBasis {
     const PointState* state;
     const PointPairs* pairs;
   };
-  /// Collective. Returns this rank's rows of combinations of R − K0 V (VᵀK0V)⁻¹ VᵀR for the
-  /// residuals R of several pairs. With V they span the same space as R after K0⁻¹, and K0⁻¹ times
-  /// them is orthogonal to V in energy. `combinations` has one row per column of all pairs, point
-  /// after point.
+  /// The residuals R of some pairs, or R − K0 V (VᵀK0V)⁻¹ VᵀR. K0⁻¹ times the latter is nearly
+  /// orthogonal to V in energy, and adds the same space to V as K0⁻¹ R. If K0 is not the matrix of
+  /// a term, the latter is R as well.
+  enum class Residual { whole, outside };
+  /// Collective. Returns this rank's rows of combinations of the residuals of several pairs.
+  /// `combinations` has one row per column of all pairs, point after point.
   linalg::Block residuals(const std::vector<PairsOfPoint>& points,
-                          const linalg::DenseMatrix& combinations) const;
+                          const linalg::DenseMatrix& combinations, Residual kind) const;
 
   /// Collective. Replaces the basis, except its constraint modes, by combinations of its vectors,
   /// whose coefficients are the columns of `directions`.

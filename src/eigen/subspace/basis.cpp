@@ -173,6 +173,11 @@ void Basis::setBoundaryReactions(const linalg::DenseMatrix& answers,
       residuals(boundary[i], j) = -answers(firstBoundary_ + i, j);
 }
 
+void Basis::releaseForces() {
+  forces_ = linalg::Block(localRows());
+  energies_ = {};
+}
+
 void Basis::appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const {
   linalg::appendProduct(matrix, columns_.columnRange(first, last), result);
 }
@@ -217,8 +222,7 @@ PetscInt Basis::add(linalg::Block residuals) {
 }
 
 linalg::DenseMatrix Basis::addResponses(linalg::Block residuals) {
-  forces_ = linalg::Block(localRows());
-  energies_ = {};
+  releaseForces();
   if (residuals.columns() == 0) return {};
   clearBoundary(residuals);
   linalg::Block z = responses(residuals);
@@ -235,8 +239,7 @@ linalg::DenseMatrix Basis::addResponses(linalg::Block residuals) {
 }
 
 void Basis::restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves) {
-  forces_ = linalg::Block(localRows());
-  energies_ = {};
+  releaseForces();
   const PetscInt before = size();
   columns_.append(columns);
   sketchColumns(before);

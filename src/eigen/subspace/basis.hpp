@@ -80,6 +80,8 @@ class Basis {
   /// products.
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
+  /// Frees them.
+  void releaseForces();
   /// Collective. Returns the vectors V q, of n entries each, for all q of the list. If a q has too
   /// few entries, the missing ones at its end are treated as zero.
   std::vector<linalg::ComplexVector> expand(const std::vector<std::vector<Complex>>& list) const;

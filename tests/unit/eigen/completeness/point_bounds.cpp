@@ -93,17 +93,11 @@ completeness::SetMatrices matricesOf(const Brake& brake, const DenseMatrix& basi
   return set;
 }
 
-/// Vectors with which the proof uses all of V.
+/// Returns W of all of V.
 DenseMatrix allOf(const DenseMatrix& basis) {
   DenseMatrix unit(basis.columns(), basis.columns());
   for (PetscInt i = 0; i < unit.rows(); ++i) unit(i, i) = 1;
   return unit;
-}
-
-/// Returns V W for the part of V that the proof uses with these vectors.
-DenseMatrix partOf(const DenseMatrix& basis, const completeness::SetBounds& set,
-                   const DenseMatrix& vectors) {
-  return linalg::product(basis, linalg::product(set.span.turn(), set.span.vectorsWith(vectors)));
 }
 
 /// Returns P of all unknowns, K and M.
@@ -123,14 +117,13 @@ linalg::DenseProblem fullProblem(const Brake& brake, double friction) {
 
 completeness::PointBounds boundsOf(const Brake& brake, const DenseMatrix& basis,
                                    const completeness::SetBounds& set, double friction,
-                                   DenseMatrix vectors) {
+                                   const DenseMatrix& w) {
   const auto full = fullProblem(brake, friction);
   completeness::PointMatrices point;
   point.problem.stiffness = linalg::congruent(full.stiffness, basis);
   point.problem.mass = linalg::congruent(full.mass, basis);
   point.slipFactors = {friction};
-  point.vectors = std::move(vectors);
-  return completeness::pointBounds(set, point);
+  return completeness::pointBounds(set, point, w);
 }
 
 /// Returns the exact couplings in coordinates of an orthonormal complement of V.
@@ -172,12 +165,14 @@ TEST(PointBounds, HoldForTheExactBlocks) {
     const auto set = completeness::setBounds(matricesOf(brake, basis, modes, theta), 1.2 * top);
     DenseMatrix one(basis.columns(), 1);
     one(basis.columns() - 1, 0) = one(3, 0) = 1;
-    for (const auto& [friction, vectors] :
-         {std::pair{0.1, allOf(basis)}, {1.0, allOf(basis)}, {0.1, one}, {1.0, one}}) {
-      const auto bounds = boundsOf(brake, basis, set, friction, vectors);
-      ASSERT_EQ(bounds.kept.order(), basis.columns() - (vectors.columns() == 1));
+    const DenseMatrix all = allOf(basis), some = set.span.vectorsWith(one);
+    ASSERT_EQ(some.columns(), basis.columns() - 1);
+    for (const auto& [friction, w] :
+         {std::pair{0.1, &all}, {1.0, &all}, {0.1, &some}, {1.0, &some}}) {
+      const auto bounds = boundsOf(brake, basis, set, friction, *w);
+      const DenseMatrix part = linalg::product(basis, linalg::product(set.span.turn(), *w));
       const proof::DiagonalForm form(bounds.kept, top),
-          exact(exactBlocks(brake, partOf(basis, set, vectors), friction), top);
+          exact(exactBlocks(brake, part, friction), top);
       for (int i = 0; i <= 12; ++i) {
         const Complex z = std::polar(1.05, M_PI * (0.97 - i / 12.0));
         const double bound = proof::Expansion(form, z, 0).boundAtCentre(),
@@ -201,7 +196,7 @@ TEST(PointBounds, ProveOnlyTrueCounts) {
     const auto set = completeness::setBounds(matricesOf(brake, basis, modes, theta), 1.2 * wanted);
     const double friction = 0.05 * (1 + draw);
     const auto bounds =
-        boundsOf(brake, basis, set, friction, draw % 2 == 0 ? allOf(basis) : DenseMatrix());
+        boundsOf(brake, basis, set, friction, draw % 2 == 0 ? allOf(basis) : set.span.vectors());
     const proof::DiagonalForm form(bounds.kept, wanted);
     const proof::Region region{proof::placedTop(form.eigenvalues(), wanted)};
     const auto count = proof::proveCount(form, bounds.leftOut, region);

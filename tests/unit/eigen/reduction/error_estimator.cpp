@@ -237,7 +237,8 @@ TEST(ProjectedBasis, ResidualsAreOrthogonalToTheBasis) {
   ASSERT_GT(count, 5);
   linalg::DenseMatrix unit(count, count);
   for (PetscInt j = 0; j < count; ++j) unit(j, j) = 1;
-  const linalg::Block some = f.basis.residuals({{&f.state, &request.pairs}}, unit);
+  const linalg::Block some = f.basis.residuals({{&f.state, &request.pairs}}, unit,
+                                               reduction::ProjectedBasis::Residual::outside);
   const auto along = [&](const linalg::Block& forces) {
     const auto product =
         linalg::transposedProduct(PETSC_COMM_WORLD, f.basis.basis().columns(), forces);
@@ -249,6 +250,44 @@ TEST(ProjectedBasis, ResidualsAreOrthogonalToTheBasis) {
   const linalg::Block nothing(whole.rows());
   EXPECT_LT(energyOutside(*f.system, f.basis.basis().columns(), difference),
             1e-7 * energyOutside(*f.system, nothing, difference));  // the root of round-off
+}
+
+// The pairs are so far from solutions of the reduced problem that less than 3 % of their residuals
+// lies outside of K0 V. Without anything else, a correction must use them whole: the basis grows,
+// so that the next solution starts from it.
+TEST(Corrector, UsesResidualsAlongTheBasisIfNothingElseIsLeft) {
+  Fixture f;
+  f.corrector.start(f.point,
+                    {f.free.angularFrequency.begin(), f.free.angularFrequency.begin() + 30});
+  for (int round = 0; round < 3; ++round) {  // until hardly anything is outside
+    f.solve();
+    f.corrector.correct({f.corrector.requestOf(f.state)});
+  }
+  f.solve();
+  auto& band = f.state.solution.spectrum.band;
+  const auto solved = band;
+  for (std::size_t j = 0; j < band.size(); ++j)  // a part of another eigenvector
+    for (std::size_t i = 0; i < band[j].q.size(); ++i)
+      band[j].q[i] += solved[(j + 3) % band.size()].q[i];
+  std::vector<const DensePair*> pairs;
+  for (const auto& pair : band) pairs.push_back(&pair);
+  const reduction::CorrectionRequest request{&f.state, f.state.pairs(pairs, f.state.damped),
+                                             std::vector<double>(pairs.size(), 1.0)};
+  linalg::DenseMatrix unit(request.pairs.pairs.columns, request.pairs.pairs.columns);
+  for (PetscInt j = 0; j < unit.columns(); ++j) unit(j, j) = 1;
+  const auto squares = [&](reduction::ProjectedBasis::Residual kind) {  // [pair]
+    const linalg::Block r = f.basis.residuals({{&f.state, &request.pairs}}, unit, kind);
+    std::vector<double> ofColumns;
+    for (PetscInt j = 0; j < r.columns(); ++j)
+      ofColumns.push_back(std::pow(linalg::length(PETSC_COMM_WORLD, r.column(j)), 2));
+    return request.pairs.pairs.perPair(ofColumns);
+  };
+  const auto outside = squares(reduction::ProjectedBasis::Residual::outside),
+             whole = squares(reduction::ProjectedBasis::Residual::whole);
+  double sum = 0;  // of the squared fractions outside, at least the largest square of a direction
+  for (std::size_t i = 0; i < pairs.size(); ++i) sum += outside[i] / whole[i];
+  ASSERT_LT(std::sqrt(sum), 0.03);
+  EXPECT_GT(f.corrector.correct({request}), 0);
 }
 
 // After a correction with all residuals r asked for wholly, what K0⁻¹ r/‖r‖ has outside of the
