@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The block of P(s) on the basis V at a point of the sweep, or on a part of V, and bounds of the
-/// blocks that couple it with C, the space that it leaves out. docs/method.md, section 13, derives
+/// P(s) at a point of the sweep: its block on the basis V or on a part of V, and bounds of the
+/// blocks that couple this part with C, the space left out. docs/method.md, section 13, derives
 /// the bounds. Not collective.
 #include <vector>
 
@@ -13,30 +13,33 @@
 namespace squeal::completeness {
 
 /// The products with V that all points with the same active set share. V has N vectors, first the
-/// constraint modes and the free modes. K0⁻¹ is that of the interior unknowns.
+/// constraint modes and the free modes. K0⁻¹ is the inverse of K0 on the interior unknowns. S_a are
+/// the slip rows of the power a of the friction, N_0 and N_2 the rows of the normal forces due to
+/// stiffness and mass (pencil::FrictionFactors); each has r rows.
 struct SetMatrices {
   KnownModes modes;
   linalg::DenseMatrix energy, mass;  ///< Vᵀ K0 V and Vᵀ M0 V, N × N
   linalg::DenseMatrix massProduct;   ///< Vᵀ M0 K0⁻¹ M0 V, N × N
-  /// [power of the friction] S_a V, r × N, and S_a K0⁻¹ S_aᵀ, r × r. V contains K0⁻¹ S_aᵀ.
+  /// [a] S_a V, r × N, and S_a K0⁻¹ S_aᵀ, r × r. V contains K0⁻¹ S_aᵀ.
   std::vector<linalg::DenseMatrix> slip, slipFlexibility;
   linalg::DenseMatrix normal, inertia;                        ///< N_0 V and N_2 V, r × N
   linalg::DenseMatrix normalFlexibility, inertiaFlexibility;  ///< N_k K0⁻¹ N_kᵀ, r × r
 };
 
 /// The products and bounds of an active set in coordinates in which V is orthonormal in energy. W
-/// spans the modes and the responses K0⁻¹ S_aᵀ. C is what any part of V that contains W leaves out.
+/// spans the modes and the responses K0⁻¹ S_aᵀ. C is the space that the kept part of V leaves out;
+/// the bounds hold for every part that contains W.
 struct SetBounds {
   KnownModes modes;
   KeptSpan span;                          ///< the coordinates, and W
   double reach;                           ///< the bounds hold for |s| up to this, rad/s
   double massOnC;                         ///< upper bound of M0 on C, s²
   linalg::DenseMatrix mass, massProduct;  ///< M0 and M0 K0⁻¹ M0 on V
-  std::vector<linalg::DenseMatrix> slip;  ///< [power of the friction] S_a V
-  std::vector<double> slipOnC;            ///< [power of the friction] bound of ‖S_a‖ on C
-  linalg::DenseMatrix forces;    ///< N_0C + s² N_2C = forces · X with ‖X‖ ≤ 1, r × r
-  double normal, inertia;        ///< ‖N_0 V‖ and ‖N_2 V‖
-  double normalOnC, inertiaOnC;  ///< ‖N_0C‖ and ‖N_2C‖
+  std::vector<linalg::DenseMatrix> slip;  ///< [a] S_a V
+  std::vector<double> slipOnC;            ///< [a] bound of ‖S_a‖ on C
+  linalg::DenseMatrix forces;             ///< r × r; N_0C + s² N_2C = forces · X, ‖X‖ ≤ 1
+  double normal, inertia;                 ///< ‖N_0 V‖ and ‖N_2 V‖
+  double normalOnC, inertiaOnC;           ///< ‖N_0C‖ and ‖N_2C‖
 };
 
 /// Returns the bounds of a set for |s| up to `reach`, rad/s. Throws Error if a Gram matrix has a
@@ -45,8 +48,8 @@ SetBounds setBounds(const SetMatrices& set, double reach);
 
 /// The data of a point.
 struct PointMatrices {
-  linalg::DenseProblem problem;     ///< P(s) on V; Z is empty
-  std::vector<double> slipFactors;  ///< [power of the friction] its factor at this point
+  linalg::DenseProblem problem;     ///< P(s) on V, without a damping matrix
+  std::vector<double> slipFactors;  ///< [a] the factor of S_a at this point
 };
 
 /// The blocks for the proof.
@@ -55,9 +58,9 @@ struct PointBounds {
   proof::LeftOut leftOut;
 };
 
-/// Returns the blocks of a point on the part of V with these vectors, which contains W, in the
-/// coordinates in which V is orthonormal (KeptSpan::vectorsWith(), or the unit matrix for all of
-/// V). Throws Error if V lacks modes below θ.
+/// Returns the blocks of a point on the span of the columns of `w`, which must contain W. They are
+/// in the coordinates in which V is orthonormal: from KeptSpan::vectorsWith(), or the unit matrix
+/// for all of V. Throws Error if V lacks modes below θ.
 PointBounds pointBounds(const SetBounds& set, const PointMatrices& point,
                         const linalg::DenseMatrix& w);
 

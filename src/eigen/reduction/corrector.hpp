@@ -22,17 +22,17 @@ class Corrector {
   /// Borrows both arguments during the lifetime of the object.
   Corrector(ProjectedBasis& basis, ErrorEstimator& estimator)
       : basis_(basis), estimator_(estimator) {}
-  /// Collective. Adds the static responses to friction at this point [M.29] for the free modes of
-  /// these frequencies, rad/s.
+  /// Collective. Adds the static responses to the forces of friction, and of the other terms of
+  /// this point only, on the free modes with these frequencies, rad/s [M.29].
   void start(const PointProblem& point, const std::vector<double>& frequencies);
-  /// Not collective. Returns the unconverged pairs of a point. The weight of a pair determines the
-  /// fraction of its residual that the correction may leave out: 3 %, or more if the resulting
-  /// error is at most 1/√2 of its limit. The rest of the limit, in the sum of squares, is for the
-  /// error of the correction itself.
+  /// Not collective. Returns the unconverged pairs of a point, except mirror images −s̄. If the
+  /// error of a pair is r > 1 times its limit, the correction may leave out 3 % or 1/(√2 r) of its
+  /// residual, whichever is more; its weight says so. In the second case half of the squared limit
+  /// remains for the error of the correction itself.
   CorrectionRequest requestOf(const PointState& state) const;
-  /// Collective. Adds corrections for these residuals, less their part along V. If nothing else is
-  /// left of them, because the reduced problem is not solved accurately, this part is kept. Returns
-  /// the number of vectors added; 0 if the residuals are round-off.
+  /// Collective. Adds corrections for these residuals, less their part along V. If they have hardly
+  /// any other part, since the reduced problem is not solved accurately, the whole residuals are
+  /// corrected. Returns the number of vectors added; 0 if the residuals are round-off.
   PetscInt correct(const std::vector<CorrectionRequest>& requests);
 
  private:

@@ -18,12 +18,12 @@ namespace squeal::reduction {
 
 using subspace::Substructure;
 
-/// Owns the basis, the terms of all points, and the terms of each set of points with the same
-/// boundary unknowns.
+/// Owns the basis, the terms common to all points, and the terms of each set of points with the
+/// same boundary unknowns.
 class ProjectedBasis {
  public:
-  /// Collective. Borrows the system during the lifetime of the object and shares the terms of
-  /// `pencil`, which must be those of all points.
+  /// Collective. Borrows the system during the lifetime of the object. Shares the terms of
+  /// `pencil`, which must be those common to all points.
   ProjectedBasis(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                  const modes::Modes& modes, Substructure substructure);
   Basis& basis() { return basis_; }
@@ -34,9 +34,9 @@ class ProjectedBasis {
   PetscInt unknowns() const { return unknowns_; }
 
   /// Collective. Adds a set of points with the same boundary unknowns and returns its index. has[i]
-  /// is 1 if boundary unknown i, numbered over all ranks, is one of them. `pencil` begins with the
-  /// terms of all points; the terms after these that belong to no single point become those of the
-  /// set. Throws Error if the stiffness is not positive definite.
+  /// is 1 if the points have boundary unknown i, numbered over all ranks. `pencil` begins with the
+  /// terms common to all points. The set takes the terms after these, except those of single
+  /// points. Throws Error if the stiffness is not positive definite.
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
   /// Collective. Sets the friction terms of the nodes that slide in some sets but not in all, as
   /// products of matrices. Must be called before addPassedSet().
@@ -44,7 +44,7 @@ class ProjectedBasis {
     friction_.emplace(basis_, std::move(factors));
   }
   /// Collective. Adds a set that contains no point of the sweep. `slidingRows` are the rows of the
-  /// factors whose nodes slide; load() calls `pencil`, on all ranks.
+  /// friction factors that belong to sliding nodes. Only load() calls `pencil`, on all ranks.
   int addPassedSet(std::function<pencil::Pencil()> pencil, const std::vector<unsigned char>& has,
                    std::vector<PetscInt> slidingRows);
   /// Collective. Projects the terms of a passed set, unless they are loaded. Required for residuals
@@ -61,7 +61,7 @@ class ProjectedBasis {
   void extend(const std::vector<PointState*>& states);
   /// Not collective. Returns the projected problem of a point.
   linalg::DenseProblem project(const PointState& state) const;
-  /// Not collective. Returns the projected problem with the terms that all points of a set have,
+  /// Not collective. Returns the terms common to all points of a set, projected on the whole basis,
   /// with all boundary unknowns.
   linalg::DenseProblem projectOnAll(const sweep::Parameters& at, const PointSet& set) const;
   /// Not collective. Returns the projected problem with all boundary unknowns, in coordinates
@@ -75,8 +75,9 @@ class ProjectedBasis {
   /// Not collective. Returns sketches of the residuals of one side, 2 Sketch::size × columns.
   linalg::DenseMatrix residualSketch(const PointState& state, const PointPairs& pairs,
                                      pencil::Side side) const;
-  /// Collective. Computes P(s) x, or P(s)ᴴ y, from the full matrices and returns this rank's rows
-  /// of its real and imaginary parts; only the real part for a pair of one column.
+  /// Collective. Computes P(s) x, or P(s)ᴴ y, from the full matrices, with zeros in the rows of the
+  /// boundary. Returns this rank's rows of the real and the imaginary part in two columns, or of
+  /// the real part if the pair takes one column (Coordinates).
   linalg::Block residualColumns(const PointState& state, const linalg::DensePair& pair,
                                 const linalg::ComplexVector& vector, pencil::Side side) const;
   /// Pairs of one point, both borrowed.
@@ -85,11 +86,12 @@ class ProjectedBasis {
     const PointPairs* pairs;
   };
   /// The residuals R of some pairs, or R − K0 V (VᵀK0V)⁻¹ VᵀR. K0⁻¹ times the latter is nearly
-  /// orthogonal to V in energy, and adds the same space to V as K0⁻¹ R. If K0 is not the matrix of
-  /// a term, the latter is R as well.
+  /// orthogonal to V in energy, and adds the same space to V as K0⁻¹ R. If no term has the matrix
+  /// K0, both are R.
   enum class Residual { whole, outside };
-  /// Collective. Returns this rank's rows of combinations of the residuals of several pairs.
-  /// `combinations` has one row per column of all pairs, point after point.
+  /// Collective. Returns this rank's rows of combinations of the residuals of several pairs, with
+  /// zeros in the rows of the boundary. `combinations` has a row for each column of each pair, in
+  /// the order of the points.
   linalg::Block residuals(const std::vector<PairsOfPoint>& points,
                           const linalg::DenseMatrix& combinations, Residual kind) const;
 

@@ -3,14 +3,15 @@
 /// The number of free modes below a frequency for any set of boundary unknowns, without another
 /// factorisation [M.61]. substructure.hpp defines the boundary unknowns w, Y and S.
 ///
-/// Let the modes Φ of the interior be complete below β, and let Z be their orthogonal complement in
-/// energy, with w = 0. On Z, K − σM is positive definite for σ < β. The Schur complement of K − σM
-/// on Φ and the constraint modes Y therefore counts the modes below σ:
+/// Let Φ be the modes of the interior unknowns, complete below β, and let Z be the space of the
+/// vectors with w = 0 that are orthogonal to Φ in energy. On Z, K − σM is positive definite for
+/// σ < β. If Z is eliminated from K − σM, the matrix that remains on Φ and the constraint modes Y
+/// therefore has as many negative eigenvalues as there are modes below σ:
 ///   count = number of λ_i < σ + number of negative eigenvalues of G − C,
 ///   G = S − σ YᵀM Y − σ² Pᵀ (Λ − σ)⁻¹ P,   P = ΦᵀM Y,
 ///   0 ≤ C ≤ σ²/(1 − σ/β) D,   D = QᵀK0⁻¹Q − PᵀΛ⁻¹P,   Q = M Y in the rows of the interior,
-/// where Λ contains the eigenvalues λ_i of Φ. The two bounds of C give bounds of the count, which
-/// agree for most σ. The solves for D are often not needed, since
+/// where Λ contains the eigenvalues λ_i of Φ, and C is the part due to Z. The two bounds of C give
+/// bounds of the count, which agree for most σ. The solves for D are often not needed, since
 ///   D ≤ (YᵀM Y − PᵀP)/β.
 /// A point uses only the rows and columns of its own boundary unknowns.
 #include <optional>
@@ -32,8 +33,8 @@ class ModeCount {
   void sharpen(Basis& basis, Mat mass);
   /// Returns true if sharpen() would not help.
   bool isSharp() const { return isSharp_; }
-  /// Not collective. Returns the number of modes below σ, rad²/s², of a point whose boundary
-  /// unknowns are `own`, ascending; none if the number is not certain.
+  /// Not collective. Returns the number of modes below σ, rad²/s², of a point with the boundary
+  /// unknowns `own`, in ascending order; std::nullopt if the number is uncertain.
   std::optional<int> below(double sigma, const std::vector<PetscInt>& own) const;
 
  private:
