@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/linalg/rows.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/log_events.hpp"
 #include "base/petsc/object.hpp"
@@ -18,18 +19,6 @@ DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView
   mpi::sumAlike(comm, result.entries());  // later decisions must not depend on the rank
   return result;
 }
-
-namespace {
-
-/// Returns these rows.
-Block rowsOf(const std::vector<PetscInt>& rows, const DenseView& x) {
-  Block some(std::ssize(rows), x.columns());
-  for (PetscInt j = 0; j < x.columns(); ++j)
-    for (PetscInt i = 0; i < some.rows(); ++i) some(i, j) = x(rows[i], j);
-  return some;
-}
-
-}  // namespace
 
 DenseMatrix transposedProductWithSparse(MPI_Comm comm, const DenseView& x, const DenseView& y) {
   constexpr double few = 0.25;  // of all rows: copies of more rows cost more than they save

@@ -41,13 +41,6 @@ std::vector<PetscInt> usedJumps(const pencil::PointFactors& friction) {
   return rows;
 }
 
-/// Returns A K0⁻¹ Aᵀ less its part on the interior vectors, from A on all vectors.
-DenseMatrix leftOf(DenseMatrix flexibility, const DenseMatrix& onV, PetscInt boundary) {
-  const DenseMatrix inner(onV.columnRange(boundary, onV.columns()));
-  linalg::addScaled(flexibility, -1, linalg::product(inner, linalg::transposed(inner)));
-  return linalg::symmetricPart(flexibility);
-}
-
 /// Returns [A, B; Bᵀ, D] for square blocks of one size.
 DenseMatrix blocks(const DenseMatrix& a, const DenseMatrix& b, const DenseMatrix& d) {
   const PetscInt size = a.rows();

@@ -55,6 +55,12 @@ void normalise(DenseMatrix& columns) {
 
 }  // namespace
 
+DenseMatrix leftOf(DenseMatrix flexibility, const DenseMatrix& onKept, PetscInt boundary) {
+  const DenseMatrix inner(onKept.columnRange(boundary, onKept.columns()));
+  linalg::addScaled(flexibility, -1, linalg::product(inner, linalg::transposed(inner)));
+  return linalg::symmetricPart(flexibility);
+}
+
 KeptSpan::KeptSpan(const KnownModes& modes, const DenseMatrix& energy, const DenseMatrix& rows)
     : fixed_(modes.first + modes.count),
       factor_(linalg::choleskyFactor(energy)),

@@ -14,6 +14,12 @@ struct KnownModes {
   double error = 0;
 };
 
+/// Returns F K0⁻¹ Fᵀ on the space that orthonormal vectors leave out: `flexibility` is that of all
+/// interior unknowns, and `onKept` is F times the vectors, of which the first `boundary` are not of
+/// the interior.
+linalg::DenseMatrix leftOf(linalg::DenseMatrix flexibility, const linalg::DenseMatrix& onKept,
+                           PetscInt boundary);
+
 /// The span of the constraint modes, the free modes and static responses. Its vectors are given in
 /// the basis V L⁻ᵀ, which is orthonormal in energy. In this basis the constraint modes and the free
 /// modes span the same space as the first unit vectors.

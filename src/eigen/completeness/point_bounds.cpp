@@ -49,14 +49,6 @@ DenseMatrix timesTransposed(const DenseMatrix& a) {
   return linalg::product(a, linalg::transposed(a));
 }
 
-/// Returns F K0⁻¹ Fᵀ less its part on the interior vectors of V or of W, from F on all of these
-/// vectors.
-DenseMatrix leftOf(DenseMatrix flexibility, const DenseMatrix& rows, PetscInt boundary) {
-  linalg::addScaled(flexibility, -1,
-                    timesTransposed(DenseMatrix(rows.columnRange(boundary, rows.columns()))));
-  return linalg::symmetricPart(flexibility);
-}
-
 /// Returns a bound of ‖S x‖ for x in the space that V leaves out, with energy 1, from S on V and
 /// S K0⁻¹ Sᵀ.
 double slipLeft(const DenseMatrix& rows, PetscInt boundary, const DenseMatrix& flexibility) {
