@@ -16,13 +16,15 @@ namespace squeal::tracking {
 struct Station {
   double friction = 0;
   bool swept = true;  ///< false: inserted to make a continuation certain
-  /// In the band or in its guard zone; with right and left vectors only while it is tracked.
+  /// Eigenpairs in the band or in the guard zone around it (band.hpp); without vectors in the
+  /// result of track().
   std::vector<linalg::DensePair> pairs;
-  std::vector<int> branch = {};      ///< [pair] number of its branch
-  std::vector<double> overlap = {};  ///< [pair] |tr(Π Π')| with the preceding station; 1 if a group
-                                     ///< was joined as a whole; 0 at the start of the branch
+  std::vector<int> branch = {};  ///< [pair] number of its branch
+  /// [pair] |tr(Π Π')| with the preceding station (track()); 1 if a group was joined as a whole; 0
+  /// at the start of the branch
+  std::vector<double> overlap = {};
   std::vector<unsigned char> inBand = {};  ///< [pair] 1 if it is in the band
-  std::size_t piece = 0;                   ///< index in the path
+  std::size_t piece = 0;                   ///< index of the Piece in the path
 };
 
 /// A change of stability between two frictions.
@@ -33,12 +35,12 @@ struct Event {
   bool loss = true;          ///< stability is lost with rising friction; false: it is regained
   double low = 0, high = 0;  ///< bracket of the friction; equal if the event is exactly at this
                              ///< friction, for example where a double eigenvalue splits
-  /// The pairs involved at `low` and at `high`. A crossing or divergence has two pairs if two equal
-  /// eigenvalues change their stability together. Each of them then has an event for the mean of
-  /// both.
+  /// The pairs involved at `low` and at `high`. If two equal eigenvalues cross the axis or diverge
+  /// together, there are two events, one for each branch. Each has both pairs, and is that of their
+  /// mean.
   std::vector<linalg::DensePair> below = {}, above = {};
   double isolation = 0;   ///< distance from other eigenvalues, rad/s
-  std::size_t piece = 0;  ///< index in the path; at a jump, of the piece that begins there
+  std::size_t piece = 0;  ///< index of the Piece in the path; at a jump, of that which begins there
 };
 
 /// A range of frictions with an uncertain continuation.
@@ -63,9 +65,10 @@ struct Branches {
 struct TrackLimits {
   /// Smallest step with a full solve, as a fraction of a step of the sweep.
   double smallest = 1. / 1024;
-  /// The other frictions between two needed ones (Piece::needed) are all examined if the families
-  /// are affine, or if there are at most this many. Otherwise, the path between the needed ones is
-  /// bisected until each continuation is certain and without a change of stability.
+  /// Frictions of a piece that are not needed (Piece::needed) may be omitted. Between two needed
+  /// ones, all are examined if the families are affine, or if there are at most this many.
+  /// Otherwise the interval is bisected. Bisection ends where the continuation is certain and no
+  /// eigenvalue changes its stability, or where no friction is left in between.
   std::size_t examined = 32;
 };
 
@@ -77,21 +80,22 @@ struct Piece {
   std::vector<unsigned char> needed = {};
 };
 
-/// Collective. Tracks all eigenvalues of the band through ascending frictions. A continuation is
-/// certain if the trace of the product of the spectral projectors at both ends, tr(Π Π') [M.41], is
-/// close to the number of eigenvalues joined. Otherwise the step is halved. If two eigenvalues mix,
-/// only their common subspace is followed on the smaller steps; in other cases all eigenvalues are
-/// computed there.
+/// Collective. Tracks all eigenvalues of the band and its guard zone through ascending frictions. A
+/// continuation is certain if the trace of the product of the spectral projectors at both ends,
+/// tr(Π Π') [M.41], is close to the number of eigenvalues joined. Otherwise the step is halved. If
+/// two eigenvalues mix, only their common subspace is followed on the smaller steps; in other cases
+/// all eigenvalues are computed there.
 ///
 /// By convention, where two neutral branches merge, the one of lower frequency becomes the growing
 /// one; where a growing and a decaying branch become neutral, the growing one gets the lower
-/// frequency. Branches of equal eigenvalues continue in the order of frequency, then of growth
-/// rate.
+/// frequency. Branches that leave a multiple eigenvalue are numbered by ascending frequency, then
+/// by descending growth rate.
 Branches track(Family& family, const std::vector<double>& frictions,
                const pencil::WatchedBand& band, const TrackLimits& limits = {});
-/// Collective. Does the same along a path. Eigenvalues jump from one piece to the next. They are
-/// joined by the same projectors, in common coordinates of the families, without frictions in
-/// between. A jump across the imaginary axis is an event, and an uncertain jump is a gap.
+/// Collective. Does the same along a path. Eigenvalues jump from one piece to the next. Those on
+/// both sides of a jump are joined by the same traces, in common coordinates of the families; no
+/// frictions are inserted. A jump across the imaginary axis is an event, and an uncertain jump is a
+/// gap.
 Branches track(const std::vector<Piece>& path, const pencil::WatchedBand& band,
                const TrackLimits& limits = {});
 

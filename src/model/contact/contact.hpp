@@ -15,19 +15,18 @@
 /// slave side; in this comment it is the pad (P), and the other side is the disc (D). A is the
 /// matrix of this change of variables, and n the unit normal from disc to pad:
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
-/// A selection B removes from z the held components, periodic images, components of tied nodes,
-/// closed gaps, and the tangential components of nodes that stick: T = A B. Once u_g is added to u,
-/// n·u_P − n·u_D equals g minus the initial gap [M.54].
+/// A selection B removes from z the supported components, periodic images, components of tied
+/// nodes, closed gaps, and the tangential components of nodes that stick: T = A B. For the whole u
+/// of [3.6], with u_g, n·u_P − n·u_D equals g minus the initial gap [M.54].
 ///
 /// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
 /// nodal gaps g = E h [M.12]. Under a uniform pressure, the forces conjugate to h are positive at
 /// all nodes; those conjugate to g are not. gap_basis.hpp defines E.
 ///
-/// Friction enters through two matrices, N and S. Only their rows that belong to the gaps of
-/// contact nodes are nonempty. N extracts the normal forces from the nodal forces r. S maps the
-/// unknowns x to the slip φ τ·[u], where [u] = u_P − u_D is the jump between pad and disc, τ the
-/// sliding direction, and φ the friction law. S includes the factor E⁻¹, which converts slips at
-/// the nodes to coefficients, as it converts the gaps g to h:
+/// Friction enters through two matrices, N and S. Their rows are empty, except those of the gaps of
+/// contact nodes. N extracts the normal forces from the nodal forces r. S maps the unknowns x to
+/// E⁻¹ φ τ·[u], where [u] = u_P − u_D is the jump between pad and disc, τ the sliding direction,
+/// and φ the friction law. E⁻¹ converts values at the nodes to coefficients, as it converts g to h:
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u],   u = T x.
 /// The test functions add the friction force due to R_N to the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.
@@ -59,8 +58,8 @@ struct Slip {
   double slope = 0;   ///< dφ/d|w|, s/m
   interfaces::Coefficient coefficient;  ///< of friction, without φ; zero if the node does not slide
 
-  /// Return the coefficient of friction of the node for the value `swept` of the swept friction,
-  /// and its derivative with respect to |w|, s/m.
+  /// Return the coefficient of friction of the node, with φ, for the value `swept` of the swept
+  /// friction, and its derivative with respect to |w|, s/m.
   double friction(double swept) const { return coefficient.at(swept) * law; }
   double frictionSlope(double swept) const { return coefficient.at(swept) * slope; }
 };
@@ -104,8 +103,8 @@ struct Contact {
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
   /// Collective. A soft layer has a layer node above each node of its face (mesh::LayerNode), and
   /// the layer node carries the gap. Returns the nodal forces, with the force on each layer node
-  /// moved to the node below it. The result is the contact force on the face, since the forces that
-  /// the layer exerts on its two nodes cancel.
+  /// added to that on the node below it. The forces of the layer on these two nodes cancel, so the
+  /// contact force on the face remains.
   OwnedVec movedFromLayers(Vec forces) const;
   /// Returns the exponents of the swept friction that occur in the coefficients of the interfaces:
   /// the list contains 0 if any coefficient is fixed, and 1 if any is swept. The same on all ranks.
@@ -116,14 +115,15 @@ struct Contact {
   bool hasFriction(double swept) const;
   /// Collective. Returns S_a, a = `exponent`, 0 or 1, with one row per entry of a nodal vector and
   /// one column per unknown x. Only the gaps of contact nodes whose flag in `slides` is set have
-  /// nonempty rows, with S_a x = E⁻¹ c φ τ·[u] and u = T x. Here c is the fixed coefficient of the
-  /// node if a = 0, and its factor on the swept friction if a = 1; zero if the node has none.
+  /// nonempty rows, with S_a x = E⁻¹ c φ τ·[u] and u = T x. If a = 0, c is the fixed coefficient of
+  /// the node; if a = 1, its factor on the swept friction. c = 0 if the node has no such value.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, int exponent) const;
   /// Collective. Returns S_0 + f S_1 at the swept friction f.
   OwnedMat slipRowsAt(const Transformation& transformation, const std::vector<Slip>& slip,
                       const Mask& slides, double swept) const;
-  /// Collective. Returns the matrix Φ, N×N, with S_0 + f S_1 = Φ J T at the swept friction f.
+  /// Collective. Returns the matrix Φ with S_0 + f S_1 = Φ J T at the swept friction f. J maps
+  /// displacements to jumps (sliding.hpp). Φ has a row and a column per entry of a nodal vector.
   OwnedMat slipOfJumpsAt(const std::vector<Slip>& slip, const Mask& slides, double swept) const;
 
  private:

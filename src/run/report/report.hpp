@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The output of a run: tables, fields, the summary and the stability table on the terminal.
+/// The output of a run: tables, fields and the summary in files, the stability table on the
+/// terminal.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,9 +16,9 @@ namespace squeal::report {
 /// soon as they are complete.
 class Directory : public output::Folder {
  public:
-  /// Collective. `points` are the points of the sweep. Call it after all settings have been read:
-  /// it writes the options to options.txt in staging(), so that even a killed run leaves them
-  /// there. Throws Error as output::Folder does.
+  /// Collective. `points` are the points of the sweep. Call it after all settings have been read.
+  /// It writes options.txt to the folder staging(), where the file remains even if the run is
+  /// killed. Throws Error as output::Folder does.
   Directory(MPI_Comm comm, const Settings& settings, std::vector<sweep::Parameters> points);
   /// Returns the points of the sweep, borrowed.
   const std::vector<sweep::Parameters>& points() const { return points_; }
@@ -28,11 +29,12 @@ class Directory : public output::Folder {
   std::vector<sweep::Parameters> points_;
 };
 
-/// Collective. Writes all reports, which then replace those of an earlier run, and prints the
-/// stability table. If the run was interrupted and has eigenvalues, its reports are written to
-/// interrupted() instead, and the results of an earlier run remain. An interrupted run without
-/// eigenvalues only prints a warning. Throws Error, naming -report_dir, if a file of a complete run
-/// cannot be written; the earlier results then remain.
+/// Collective. Writes all reports and prints the stability table. Once complete, the reports
+/// replace those of an earlier run. If the run was interrupted and has eigenvalues, its reports are
+/// written to interrupted() instead, and the results of an earlier run remain. If it has none, they
+/// remain too, except those in interrupted(), and a warning is printed. Throws Error, naming
+/// -report_dir, if a file of a complete run cannot be written; the earlier results then remain. For
+/// an interrupted run, this is only a warning.
 void write(const analysis::Analysis& analysis, const Settings& settings, Directory& directory);
 
 /// Collective. Removes the results of an interrupted run from interrupted(), except its checkpoint.

@@ -3,10 +3,10 @@
 /// Steady sliding: equilibrium with unilateral contact and Coulomb friction,
 ///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4],
 /// where g is the gap, R_N and R_T the normal and the friction force, f the coefficient of
-/// friction, φ the friction law and τ the sliding direction. src/README.md explains the other
-/// symbols. Numbers in brackets refer to equations in docs/method.md. Nodal vectors have one entry
-/// per component of each node. [contact node] marks a list with one entry per contact node of this
-/// rank.
+/// friction, φ the friction law and τ the sliding direction. On tri6 and quad8 faces, g stands for
+/// the gap coefficient h (ContactState). src/README.md explains the other symbols. Numbers in
+/// brackets refer to equations in docs/method.md. Nodal vectors have one entry per component of
+/// each node. [contact node] marks a list with one entry per contact node of this rank.
 #include <string>
 #include <vector>
 
@@ -36,14 +36,14 @@ struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
   Point moment{};  ///< of both forces on the pad about the origin, N·m (in plane problems, about z)
-  /// Largest |R_T| / R_N of those nodes of a sticking interface that stick under pressure: the
-  /// smallest coefficient of friction that holds them. Zero on other interfaces.
+  /// The smallest coefficient of friction that would hold all sticking nodes under pressure: their
+  /// largest |R_T| / R_N. Zero unless the interface sticks.
   double leastFriction = 0;
   Point worst{};  ///< position of the node with the largest ratio, m
   std::optional<double>
       stickingLimit;       ///< coefficient of friction of a sticking interface, if given
   PetscInt overLimit = 0;  ///< sticking nodes above the limit of the interface
-  PetscInt pulled = 0;     ///< of these, nodes under tension, for which no coefficient suffices
+  PetscInt pulled = 0;     ///< those of `overLimit` under tension; no coefficient suffices for them
   PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
   PetscInt unheld = 0;     ///< closed nodes of a sticking interface without tangential force
   /// Magnitude of the sum of the moments of the contact forces on both sides, N·m. It is nonzero if
@@ -56,8 +56,8 @@ struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< why SNES, PETSc's nonlinear solver, stopped, or why no solution exists
-  /// Set only if no solution was found at this point: the program then followed the solutions from
-  /// another point towards this one, and these are the last parameters with a solution.
+  /// Set only if no solution was found at this point. The program then followed the solutions from
+  /// another point towards this one; these are the parameters at which they end.
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES
   int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
@@ -75,11 +75,12 @@ struct Solution {
   PetscInt openNodes = 0;       ///< contact nodes that are not closed, over all ranks
   double smallestPressure = 0;  ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
-  /// The resultant of all forces (contact, supports and loads) on a connected part of the mesh: its
-  /// largest magnitude of all parts, divided by the sum of the magnitudes of all nodal forces.
+  /// Each connected part of the mesh has a resultant of contact, support and load forces. This is
+  /// the largest magnitude of these resultants, divided by the sum of the magnitudes of all nodal
+  /// forces.
   double imbalance = 0;
-  /// Number of contact nodes, over all ranks, whose state differs from that in another known
-  /// solution at the same parameters; 0 if no other solution is known.
+  /// Number of contact nodes, over all ranks, whose state is another one in a second known solution
+  /// at the same parameters; 0 if no second solution is known.
   PetscInt nodesOfAnother = 0;
 };
 
@@ -92,9 +93,9 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
 /// The matrix T maps the unknowns x to displacements, and N extracts normal forces from nodal
 /// forces. Here S includes the coefficients of friction; contact.hpp calls this matrix f S.
-/// The factors v and p scale speed and pressure. The loads are b_p, which scale with p, the
-/// constant loads b_0 and the centrifugal forces b_c. u_g closes the initial gaps [M.54] and
-/// shortens tightened bolts.
+/// The factors v and p scale speed and pressure. Of the loads, b_p are scaled by p, b_0 are
+/// constant, and b_c are the centrifugal forces. u_g closes the initial gaps [M.54] and shortens
+/// tightened bolts.
 ///
 /// Convective terms arise because moving matter carries its displacement along. Without them
 /// (-motion_convective off, approximation A of Moirot and Nguyen) the problem is linear except for
@@ -102,10 +103,9 @@ contact::ActiveSet activeSet(const Solution& solution);
 /// where V is the velocity of the disc or obstacle at v = 1, and D u_D = (V·∇) u_D the convective
 /// derivative of its displacement.
 ///
-/// A node of a sticking interface may be held (it sticks), free or released. This state is called
-/// its hold. A free node is not held: it has tangential unknowns and no tangential force. A
-/// released node has tangential unknowns and slides; its row in S has the sticking limit of the
-/// interface as coefficient of friction.
+/// The *hold* of a node of a sticking interface is one of three. A held node sticks. A free node
+/// has tangential unknowns and no tangential force. A released node has tangential unknowns and
+/// slides; its row in S has the sticking limit of the interface as coefficient of friction.
 class Problem {
  public:
   /// Collective. Borrows mesh, bodies and contact during the lifetime of the object. All nodes of
@@ -133,16 +133,16 @@ class Problem {
   }
   /// Collective. Returns r = (K + v² K^R) u − b, the nodal forces of supports and contact, newtons.
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
-  /// Collective. Throws Error if f > 0 and |w| = 0 at a node with friction.
+  /// Collective. Throws Error if |w| = 0, without convective terms, at a node with friction.
   void requireSlip(const sweep::Parameters& at) const;
   /// Collective. Returns the updated holds, or none if they do not change or if the solution has
   /// not converged. Returns none as well, and marks the solution as not converged, if the updated
   /// holds would leave a body under-constrained, if the limit of revisions is reached, or if a node
   /// with friction has a tensile normal force and its interface cannot separate.
   std::optional<Sticking> nextHolds(Solution& solution) const;
-  /// Collective. Completes, from the unknowns x, a solution in which `at`, `converged`, `reason`,
-  /// `tolerance`, `iterations` and `residual` are set. `left` is the 2-norm, in newtons, of the
-  /// natural residual at x (naturalResidual()).
+  /// Collective. Computes the other members of a solution from its unknowns x. The caller has set
+  /// `at`, `converged`, `reason`, `tolerance`, `iterations` and `residual`. `left` is the 2-norm,
+  /// in newtons, of the natural residual at x (naturalResidual()).
   void conclude(Vec x, double left, Solution& solution) const;
   /// Collective. Returns the loads b at this point, a nodal vector in newtons.
   OwnedVec load(const sweep::Parameters& at) const;
@@ -161,7 +161,8 @@ class Problem {
   /// released nodes of sticking interfaces.
   const contact::Transformation& transformation() const { return transformation_; }
   const elasticity::Bodies& bodies() const { return bodies_; }
-  /// Collective on the first call. Returns Tᵀ K T and N K T with T of transformation().
+  /// Returns Tᵀ K T and N K T with T of transformation(). The first call computes them and is
+  /// collective.
   const contact::Projection& stiffness() const;
 
  private:
