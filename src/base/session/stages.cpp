@@ -11,6 +11,7 @@
 
 #include "base/petsc/check.hpp"
 #include "base/session/events.hpp"
+#include "base/system/process_memory.hpp"
 #include "base/system/text.hpp"
 
 namespace squeal {
@@ -68,6 +69,7 @@ void Stage::printLine(const std::string& text) {
 void Stage::finish(const std::string& result) {
   const Traffic now = trafficSoFar();
   logged_.reset();
+  releaseFreedMemory();
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const double memory = 1024.0 * usage.ru_maxrss;

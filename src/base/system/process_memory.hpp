@@ -16,4 +16,9 @@ double addressSpace();
 /// the time of a run.
 void retainFreedMemory();
 
+/// Returns freed memory that lies between blocks in use to the kernel, if it is more than 0.5 GB.
+/// Long stages of a large model leave a third of the heap in such gaps. Less is retained, since the
+/// kernel takes long to clear the pages when they are used again.
+void releaseFreedMemory();
+
 }  // namespace squeal

@@ -81,6 +81,7 @@ void ProjectedBasis::extend(const std::vector<PointState*>& states) {
   for (auto& set : sets_)
     if (set->terms) set->terms->extend();
   for (auto* state : states) state->ownTerms.extend();
+  basis_.releaseForces();  // used by no later extension
 }
 
 linalg::DenseProblem ProjectedBasis::project(const PointState& state) const {
