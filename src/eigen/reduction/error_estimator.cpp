@@ -126,7 +126,9 @@ void ErrorEstimator::estimate(PointState& state, const linalg::DenseProblem& pro
     // rigidly.
     errors.roundOff = PETSC_MACHINE_EPSILON * (1 + std::pow(size / lowestMode_, 2) +
                                                std::sqrt(rightRigidity[j] * leftRigidity[j]));
-    errors.dense = conditions[j] * errors.roundOff;
+    // LAPACK's backward errors grow with the order, for most matrices as its root (Higham, Accuracy
+    // and Stability of Numerical Algorithms, SIAM 2002, section 2.8).
+    errors.dense = conditions[j] * std::sqrt(1.0 * problem.order()) * errors.roundOff;
     errors.right = conditions[j] * std::sqrt(right.weighted[j]);
     errors.isRoundOff = right.weighted[j] <= leastResidual * leastResidual * rightRigidity[j];
     errors.left = size < highestMode_

@@ -65,6 +65,7 @@ struct PointState {
   bool damped;
   bool associated = false;  ///< true for the problem of the free modes, with only K and M
   PointSolution solution = {};
+  PetscInt solvedIn = 0;  ///< size of the basis in which the spectrum was computed
 
   /// Returns these pairs, borrowed, with their columns. If `isDamped` is false, pairs with real
   /// vectors may take one column.

@@ -9,6 +9,7 @@
 #include "algebra/linalg/spread.hpp"
 #include "algebra/linalg/symmetric.hpp"
 #include "base/petsc/check.hpp"
+#include "base/system/process_memory.hpp"
 #include "eigen/reduction/free_modes.hpp"
 #include "eigen/reduction/serialization.hpp"
 #include "eigen/reduction/spectrum.hpp"
@@ -86,20 +87,33 @@ void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
       request.errorRatio.push_back(estimator_.errorRatio(solution, j));
   }
   solveSpectra(basis().comm(), band_, requests);
-  for (std::size_t i = 0; i < open.size(); ++i) estimator_.estimate(*open[i], problems[i]);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    estimator_.estimate(*open[i], problems[i]);
+    open[i]->solvedIn = basis().size();
+  }
 }
 
-/// Collective. Searches for missing eigenvalues at the points. Clears the spectra of the incomplete
-/// points and returns these points.
+/// Collective. Searches for missing eigenvalues at the points whose spectra were improved, or were
+/// computed in a smaller basis. Clears the spectra of the incomplete points and returns these
+/// points. In a small basis all eigenvalues of the latter are computed again; an empty list, which
+/// is always accurate, too.
 std::vector<PointState*> ReducedProblem::incompleteStates(std::vector<PointState>& states) {
   std::vector<PointState*> examined, open;
   std::vector<linalg::DenseProblem> problems;
-  for (auto& state : states)
-    if (state.solution.spectrum.improved) {
+  for (auto& state : states) {
+    // The number of free modes is confirmed by other means.
+    const bool isOutdated = state.solvedIn < basis().size() && !state.associated && band_.top > 0 &&
+                            std::isfinite(band_.top);
+    if (isOutdated && (basis().size() < smallestImproved || state.solution.spectrum.band.empty()))
+      open.push_back(&state);
+    else if (isOutdated || state.solution.spectrum.improved)
       examined.push_back(&state);
-      state.ownTerms.extend();
-      problems.push_back(basis_.project(state));
-    }
+  }
+  for (auto* state : open) state->solution.spectrum = {};
+  for (auto* state : examined) {
+    state->ownTerms.extend();
+    problems.push_back(basis_.project(*state));
+  }
   std::vector<SpectrumRequest> requests;
   for (std::size_t i = 0; i < examined.size(); ++i)
     requests.push_back({&problems[i], &examined[i]->solution.spectrum, {}});
@@ -107,6 +121,7 @@ std::vector<PointState*> ReducedProblem::incompleteStates(std::vector<PointState
   for (std::size_t i = 0; i < examined.size(); ++i) {
     Spectrum& spectrum = examined[i]->solution.spectrum;
     spectrum.improved = false;
+    examined[i]->solvedIn = basis().size();
     if (!are[i]) continue;
     spectrum = {};
     open.push_back(examined[i]);
@@ -171,6 +186,7 @@ void ReducedProblem::correct(std::vector<PointState>& states) {
     }
     if (round >= settings_.rounds || basis().size() >= largest) break;
     if (!addCorrections(open)) break;
+    releaseFreedMemory();
     store(states, open, round + 1, largest);
   }
   if (open = incompleteStates(states); !open.empty()) {  // corrections stopped early

@@ -14,9 +14,6 @@
 namespace squeal::reduction {
 namespace {
 
-/// Smaller problems are solved in full, which is at least as fast as an improvement.
-constexpr PetscInt smallestImproved = 400;
-
 /// Bounds of the fraction of a residual that may remain after improving a pair. A round of
 /// corrections gains a decade, and the remainder must be small compared with that. A pair near its
 /// tolerance needs less.

@@ -20,6 +20,9 @@ struct Spectrum {
   bool improved = false;
 };
 
+/// Smaller problems are solved in full, which is at least as fast as an improvement.
+inline constexpr PetscInt smallestImproved = 400;
+
 /// A request to solve a problem for its Spectrum.
 struct SpectrumRequest {
   const linalg::DenseProblem* problem;
