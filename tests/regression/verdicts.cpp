@@ -110,6 +110,47 @@ TEST(Verdicts, CriticalFrictionBesideAThirdEigenvalue) {
   }
 }
 
+// K = diag(1, 1, 4, 9, 16, 25) with one free mode, and friction that couples the rows in a chain
+// 1–3–4–2–5–6. At friction 0 the double eigenvalue i is exact in the first basis, which holds one
+// of its two vectors; the corrections at the other frictions add the second one. Both must be
+// listed.
+TEST(Verdicts, ListIsReadAgainInTheBasisOfAllPoints) {
+  std::vector<std::vector<double>> chain(6, std::vector<double>(6));
+  for (const auto& [i, j] : {std::pair{0, 2}, {2, 3}, {3, 1}, {1, 4}, {4, 5}})
+    chain[j][i] = 0.3, chain[i][j] = -0.1;
+  const auto run =
+      runProgram("verdicts_grown", 1,
+                 matrix("grown", "m", diagonal({1, 1, 1, 1, 1, 1}), "mass") +
+                     matrix("grown", "k", diagonal({1, 1, 4, 9, 16, 25}), "stiffness") +
+                     matrix("grown", "f", chain, "stiffness") +
+                     " -matrices_f_friction_exponent 1 -flutter_friction 0,0.01,1 -modes_count 1");
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  const auto table = readCsv(run.folder / "eigenvalues.csv");
+  const auto friction = table.column("friction"), frequency = table.column("frequency_hz");
+  ASSERT_EQ(std::ranges::count(friction, 0), 2) << run.out;
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(2 * M_PI * frequency[i], 1, 1e-9);
+}
+
+// K = diag(1 − 1.5 f, 4), M = I, C = 0.01 I: a complex pair becomes two real eigenvalues, one of
+// which is positive from f = 2/3 on. The step from 0 to 1 contains both, and the branches are not
+// matched there. The change of stability must be listed all the same.
+TEST(Verdicts, ChangeBetweenBranchesThatAreNotMatched) {
+  const auto run = runProgram("verdicts_unmatched", 1,
+                              matrix("unmatched", "m", diagonal({1, 1}), "mass") +
+                                  matrix("unmatched", "k", diagonal({1, 4}), "stiffness") +
+                                  matrix("unmatched", "c", diagonal({0.01, 0.01}), "damping") +
+                                  matrix("unmatched", "f", diagonal({-1.5, 0}), "stiffness") +
+                                  " -matrices_f_friction_exponent 1 -flutter_friction 0,1");
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  const auto critical = readCsv(run.folder / "critical.csv");
+  ASSERT_EQ(critical.rows.size(), 1U);
+  EXPECT_LE(std::abs(critical.column("friction")[0] - 2. / 3),
+            critical.column("friction_error_estimate")[0] + 1e-8);
+  EXPECT_LT(critical.column("friction_error_estimate")[0], 1e-3);
+  EXPECT_EQ(critical.words("direction")[0], "loss");
+  EXPECT_EQ(critical.column("converged")[0], 0);
+}
+
 // K = diag(1 − f, 2), M = I: at f = 1 the double root s = 0 has one vector. With damping 0.1 it is
 // simple, s = 0 and s = −0.1.
 TEST(Verdicts, ZeroIsAnEigenvalue) {

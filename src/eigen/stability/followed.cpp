@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/system/text.hpp"
+#include "eigen/stability/unlocated.hpp"
 #include "eigen/tracking/reducedfamily.hpp"
 #include "eigen/tracking/renumber.hpp"
 
@@ -80,6 +81,13 @@ std::string TrackedLine::statement() const {
       if (!gap.identityOnly)
         text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.reason.c_str());
   }
+  if (const auto jumps = directJumps(branches); !jumps.empty()) {
+    text += "; assumed: no eigenvalue changes its stability twice ";
+    text += jumps.size() == 1 ? formatted("between friction %g and %g, where", jumps.front().first,
+                                          jumps.front().second)
+                              : formatted("in each of the %zu steps in which", jumps.size());
+    text += " the active set changes at frictions that are not known";
+  }
   if (branches.omitted > 0)
     text += formatted(
         "; assumed: no eigenvalue changes its stability twice among the %d active sets that were "
@@ -144,7 +152,8 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
       auto& gaps = tracked.branches.gaps;
       std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= tracked.from; });
       gaps.push_back(
-          {*line.before, tracked.from, "no basis serves the active sets of both frictions"});
+          {*line.before, tracked.from,
+           "no basis serves the active sets of both frictions (" + line.whyNoBasis + ")"});
       std::erase_if(tracked.criticals,
                     [&](const Critical& critical) { return critical.friction < tracked.from; });
     }

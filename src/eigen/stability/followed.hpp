@@ -34,6 +34,7 @@ struct Line {
   /// Friction of the preceding point, if the active set changes between it and the first point and
   /// no basis serves both; none if the line continues another.
   std::optional<double> before;
+  std::string whyNoBasis;    ///< the reason for that; empty without `before`
   bool continues = false;    ///< begins with the last point of a line in the preceding basis
   bool isContinued = false;  ///< a line in the next basis begins with the last point
   const modes::Modes* modes = nullptr;  ///< free modes of the first piece, borrowed

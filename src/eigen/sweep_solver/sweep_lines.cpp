@@ -40,6 +40,7 @@ std::vector<LineOfSegment> linesOf(const SweepProblem& problem, const SweepPlan&
     line.at.friction = 0;
     const std::size_t from = plan.places[first].steadyPoint;
     line.before = from == 0 ? problem.frictionBefore : std::nullopt;
+    line.whyNoBasis = line.before ? problem.whyNoBasis : "";
     line.continues = !plan.places[first].isOwn;
     line.isContinued =
         problem.isContinued && plan.places[last - 1].steadyPoint + 1 == problem.steadyPoints.size();

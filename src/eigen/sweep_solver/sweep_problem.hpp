@@ -77,6 +77,7 @@ class SweepProblem {
   /// The friction of the last point of the preceding problem, if that point and the first one here
   /// differ only in friction and this problem does not continue it.
   std::optional<double> frictionBefore;
+  std::string whyNoBasis;  ///< why it does not; empty without `frictionBefore`
   /// True if steadyPoints[0] is the last point of the preceding problem and differs from the next
   /// point only in friction. It is solved again, in this basis, so that its eigenvalues can be
   /// continued, and has no results here.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/session/events.hpp"
+#include "eigen/stability/unlocated.hpp"
 #include "run/analysis/checks.hpp"
 #include "run/analysis/matrix_flutter.hpp"
 #include "run/analysis/mesh_flutter.hpp"
@@ -66,6 +67,9 @@ Analysis analyse(MPI_Comm comm, const Settings& settings,
     if (steady.complete && uniqueness.complete)
       flutter = meshFlutter({settings, sweep, model, steady}, request, checkpoint, current);
   }
+  if (settings.solver.stability.critical)
+    for (auto& segment : flutter.segments)
+      for (auto& tracked : segment.trackedLines) stability::addUnlocatedChanges(tracked);
   return {.comm = comm,
           .settings = settings,
           .sweep = sweep,

@@ -65,6 +65,7 @@ MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, int seg
   pencil = terms::affineTerms(contact, *all_);
   ranges = pointRanges();
   frictionBefore = frictionOfPointBefore();
+  if (frictionBefore) whyNoBasis = brake_.mesh().whySeparate;
   continues = group.continues;
   isContinued = group.isContinued;
   rangesBefore = segmentsBefore;

@@ -74,10 +74,15 @@ MeshSettings meshSettings(const Settings& others) {
   if (!std::ranges::all_of(interfaces, &interfaces::InterfaceSettings::isTie))
     settings.uniqueness = uniqueness::Settings::given();
   // These ask for the matrices of each active set.
-  const bool isSeparate = others.pencil.method == pencil::Method::direct ||
-                          others.solver.sensitivity.wanted || others.matrixExport.wanted() ||
-                          others.pencil.isModallyDamped();
-  settings.released = isSeparate ? 0 : releasedOption.get();
+  std::string reason;
+  if (others.pencil.method == pencil::Method::direct) reason = "-flutter_method direct";
+  if (others.solver.sensitivity.wanted) reason = "-flutter_sensitivities";
+  if (others.matrixExport.wanted()) reason = "-report_matrices";
+  if (others.pencil.isModallyDamped()) reason = "-flutter_modal_damping";
+  settings.released = reason.empty() ? releasedOption.get() : 0;
+  settings.whySeparate = reason.empty()
+                             ? "-flutter_released " + std::to_string(settings.released)
+                             : "with " + reason + ", each active set has a basis of its own";
   settings.audit = audit::wanted();
   settings.ownModes = componentModesOption.get();
   return settings;
