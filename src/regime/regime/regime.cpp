@@ -212,6 +212,14 @@ std::vector<Task> tasksOf(const StudiedPoint& point, const ReducedModel& model, 
 /// Collective. Adds the runs of a point to the study. An Error here means that the whole point
 /// fails.
 void addRuns(const StudiedPoint& point, linalg::Block free, Study& study) {
+  for (const auto& resultant : point.full.solution.resultants)
+    if (resultant.released > 0)
+      throw Error(formatted("%" PetscInt_FMT
+                            " nodes of the sticking interface '%s' slide at their limit of "
+                            "friction (-contact_%s_release); a motion is computed only if all of "
+                            "its closed nodes stick",
+                            resultant.released, resultant.interface.c_str(),
+                            resultant.interface.c_str()));
   const MPI_Comm comm = point.comm();
   if (point.shapes.empty())
     throw Error("the shapes of the unstable modes are not stored; raise -flutter_shapes");

@@ -87,7 +87,7 @@ Task taskOn(const ReducedModel& model, const NumberedMode& one) {
   else if (!(task.onset.factor > 0))
     task.failure =
         "a sticking node is at its limit of friction in steady sliding, so the motion has no "
-        "linear range to start from (-contact_<interface>_release)";
+        "linear range to start from; raise -contact_<interface>_friction";
   else
     scale(task.mode, task.onset.factor);
   return task;

@@ -26,6 +26,12 @@ void reportSticking(const steady::Solution& solution, MPI_Comm comm) {
                                        "; nodes without a consistent state (held, they separate; "
                                        "free, they close), which are left free: %" PetscInt_FMT,
                                        solution.revisions, resultant.released, resultant.unheld));
+    if (resultant.returned > 0)
+      printWarning(comm, head + formatted("%" PetscInt_FMT
+                                          " nodes that slide have no consistent state: held, they "
+                                          "exceed their limit of friction; released, they slide "
+                                          "back; they keep their friction",
+                                          resultant.returned));
     if (const PetscInt pressed = resultant.overLimit - resultant.pulled; pressed > 0)
       printWarning(
           comm, head + formatted("%s beyond its coefficient of friction and %s up to %.4g, "

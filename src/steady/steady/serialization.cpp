@@ -11,14 +11,14 @@ void fields(Stream& stream, Sticking& sticking);
 
 void fields(Stream& stream, Resultant& resultant) {
   auto& [interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
-         overLimit, pulled, released, unheld, momentDefect] = resultant;
+         overLimit, pulled, released, returned, unheld, momentDefect] = resultant;
   stream(interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
-         overLimit, pulled, released, unheld, momentDefect);
+         overLimit, pulled, released, returned, unheld, momentDefect);
 }
 
 void fields(Stream& stream, Sticking& sticking) {
-  auto& [holds, direction, heldAgain] = sticking;
-  stream(holds, direction, heldAgain);
+  auto& [holds, direction, heldAgain, slidBack] = sticking;
+  stream(holds, direction, heldAgain, slidBack);
 }
 
 void serialise(checkpoint::Archive& archive, Solution& solution) {

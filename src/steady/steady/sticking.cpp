@@ -42,6 +42,7 @@ double largestLength(MPI_Comm comm, const std::vector<Point>& points) {
 Sticking Sticking::allHeld(const contact::Contact& contact) {
   return {std::vector<Hold>(contact.interfaces.nodes.size(), Hold::held),
           std::vector<Point>(contact.interfaces.nodes.size(), Point{}),
+          contact::Mask(contact.interfaces.nodes.size(), 0),
           contact::Mask(contact.interfaces.nodes.size(), 0)};
 }
 
@@ -84,13 +85,38 @@ bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std
              *limit * std::max(state.normalForce, 0.0) + solution.negligibleForce;
 }
 
+namespace {
+
+/// Collective. Returns by what factor each node exceeds its limit of friction, [contact node]; 0
+/// where it does not, or where its interface does not release nodes.
+std::vector<double> excesses(const contact::Contact& contact, const Solution& solution) {
+  std::vector<double> found;
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
+    const auto& options = contact.interfaces.options[contact.interfaces.nodes[i].interface];
+    const auto& state = solution.contact[i];
+    const bool exceeds = options.releases && exceedsLimit(contact, solution, i);
+    found.push_back(exceeds ? mesh::length(state.frictionForce) /
+                                  (*options.stickingLimit * std::max(state.normalForce, 0.0) +
+                                   solution.negligibleForce)
+                            : 0);
+  }
+  return found;
+}
+
+}  // namespace
+
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution) {
-  const auto& options = contact.interfaces.options;
   if (!contact.hasSticking()) return {};
   const MPI_Comm comm = contact.mesh->comm;
   const auto jumps = tangentialJumps(contact, solution.displacement);
   const double nothing = slipRounding * largestLength(comm, jumps);
   Sticking next = solution.sticking;
+  const auto excess = excesses(contact, solution);
+  double largest = 0;  // of the nodes that have slid back
+  for (std::size_t i = 0; i < excess.size(); ++i)
+    if (next.slidBack[i] > 0) largest = std::max(largest, excess[i]);
+  largest = mpi::max(comm, largest);
+  const double most = 1 + 0.5 * (largest - 1);
   for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
     const auto& node = contact.interfaces.nodes[i];
     Hold& hold = next.holds[i];
@@ -99,11 +125,14 @@ std::optional<Sticking> revised(const contact::Contact& contact, const Solution&
         hold == Hold::released && mesh::dot(next.direction[i], jumps[i]) < -nothing;
     if (!solution.closed[i]) {
       hold = Hold::open;
-    } else if (hold == Hold::open || slidesBack) {
+    } else if (hold == Hold::open) {
       hold = next.heldAgain[i] ? Hold::open : Hold::held;
       next.heldAgain[i] = 1;
-    } else if (hold == Hold::held && options[node.interface].releases &&
-               exceedsLimit(contact, solution, i)) {
+    } else if (slidesBack) {
+      if (next.slidBack[i] == mostReturns) continue;
+      hold = Hold::held;
+      ++next.slidBack[i];
+    } else if (excess[i] > 0 && (next.slidBack[i] == 0 || excess[i] >= most)) {
       hold = Hold::released;
       next.direction[i] = mesh::scaled(mesh::unit(solution.contact[i].frictionForce), -1);
     }

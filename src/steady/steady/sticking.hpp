@@ -26,7 +26,10 @@ enum class Hold : unsigned char {
 struct Sticking {
   std::vector<Hold> holds;       ///< [contact node]
   std::vector<Point> direction;  ///< [contact node] unit vector d, if released
-  contact::Mask heldAgain;       ///< [contact node] 1 if it has been held again
+  contact::Mask heldAgain;       ///< [contact node] 1 if it has been held again after it closed
+  /// [contact node] number of times that it was released and, as it slid against its friction, held
+  /// again
+  contact::Mask slidBack;
 
   /// Returns holds with all nodes held.
   static Sticking allHeld(const contact::Contact& contact);
@@ -49,11 +52,16 @@ bool isPulled(const contact::Contact& contact, const Solution& solution, std::si
 bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std::size_t i);
 
 /// Collective. Returns the revised holds of a solution; none if they do not change. A held or
-/// released node that has opened is freed, and a free node that has closed is held again. On
-/// interfaces with `_release`, a node above its limit is released, and a node that slides in the
-/// direction of its friction is held again. Each node is held again at most once, so that the
-/// revisions end. If it is freed once more, it stays free, without tangential force, even if it
-/// closes.
+/// released node that has opened is freed, and a free node that has closed is held again, at most
+/// once, so that the revisions end: if it is freed once more, it stays free, without tangential
+/// force, even if it closes. On interfaces with `_release`, a node above its limit is released, and
+/// a node that slides against its friction is held again. Many nodes released together may slide
+/// back, each because of the others. Of the nodes that have slid back, therefore, only those that
+/// exceed their limit most are released in a revision. After `mostReturns` times a node remains
+/// released.
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution);
+
+/// The largest number of times that a node is held again after it has slid back.
+inline constexpr unsigned char mostReturns = 3;
 
 }  // namespace squeal::steady
