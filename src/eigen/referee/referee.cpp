@@ -70,20 +70,26 @@ FreeModes freeModes(const ShiftedSystem& shifted, double top, const modes::Setti
   return found;
 }
 
-/// Returns the first gap of the eigenvalues on V above the list: an eigenvalue is in the list if
-/// it is within 1 % of an entry.
+/// Returns the middle of the first gap of the eigenvalues on V above the list that is wider than 1
+/// % of |s|. An eigenvalue is in the list if it is within 1 % of an entry. Narrower gaps occur
+/// within flutter pairs, whose members belong together.
 double topAbove(std::span<const Complex> list, std::span<const Complex> values, double limit) {
   constexpr double same = 0.01;
-  double inside = largest(list), outside = limit;
+  double inside = largest(list);
   for (const auto s : values) {
     const double size = std::abs(s);
     const bool known = std::ranges::any_of(
         list, [&](Complex entry) { return std::abs(entry - s) <= same * size; });
     if (known && size < limit) inside = std::max(inside, size);
   }
+  std::vector<double> above;
   for (const auto s : values)
-    if (std::abs(s) > inside) outside = std::min(outside, std::abs(s));
-  return (inside + outside) / 2;
+    if (const double size = std::abs(s); size > inside && size < limit) above.push_back(size);
+  std::ranges::sort(above);
+  above.push_back(std::max(limit, inside));
+  std::size_t k = 0;
+  while (k + 1 < above.size() && above[k] - inside < same * inside) inside = above[k++];
+  return (inside + above[k]) / 2;
 }
 
 /// Collective. Adds to `bounds` the bounds of M_a, C and G on the space that V leaves out, for

@@ -18,22 +18,26 @@ namespace {
 /// for its own.
 void setUpperHalf(const std::vector<Complex>& all, List& list) {
   constexpr double same = 1e-6;  // of |s|: fewer digits than lists print
-  for (const auto s : all)
-    if (s.imag() >= 0) list.values.push_back(s);
-  std::vector<bool> paired(list.values.size(), false);
-  for (const auto s : all) {
-    if (s.imag() >= 0) continue;
+  std::vector<bool> paired(all.size(), false);
+  const auto isConjugateOf = [&](Complex s, std::size_t i) {
+    return all[i].imag() >= 0 && !paired[i] &&
+           std::abs(all[i] - std::conj(s)) <= same * std::abs(s);
+  };
+  std::vector<bool> dropped(all.size(), false);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].imag() >= 0) continue;
     std::size_t i = 0;
-    while (i < paired.size() &&
-           (paired[i] || !(std::abs(list.values[i] - std::conj(s)) <= same * std::abs(s))))
-      ++i;
-    if (i < paired.size()) {
-      paired[i] = true;
-      ++list.conjugates;
-    } else {
-      list.values.push_back(std::conj(s));
-      ++list.mirrored;
-    }
+    while (i < all.size() && !isConjugateOf(all[k], i)) ++i;
+    if (i == all.size()) continue;
+    paired[i] = dropped[k] = true;
+    ++list.conjugates;
+  }
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (dropped[k]) continue;
+    const bool isMirrored = all[k].imag() < 0;
+    list.values.push_back(isMirrored ? std::conj(all[k]) : all[k]);
+    list.numbers.push_back(static_cast<long>(k) + 1);
+    list.mirrored += isMirrored;
   }
 }
 
@@ -73,6 +77,7 @@ List read(MPI_Comm comm, const Settings& settings) {
   onFirstRank(comm, "option " + listOption() + ": " + settings.file + ": ",
               [&] { list = parse(contentOf(settings.file), settings.format, settings.unit); });
   mpi::broadcast(comm, list.values);
+  mpi::broadcast(comm, list.numbers);
   mpi::broadcast(comm, list.layout);
   mpi::broadcast(comm, list.conjugates);
   mpi::broadcast(comm, list.mirrored);

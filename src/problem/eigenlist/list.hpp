@@ -13,12 +13,14 @@
 namespace squeal::eigenlist {
 
 /// Eigenvalues of a real problem, each with Im s ≥ 0; the list implies their conjugates. They are
-/// in the order of the file, except that the mirrored ones come last.
+/// in the order of the file.
 struct List {
   std::vector<Complex> values;  ///< growth rate + i angular frequency, 1/s
-  std::string layout;           ///< program, units and signs, for messages
-  long conjugates = 0;          ///< dropped entries, whose conjugates are listed too
-  long mirrored = 0;            ///< entries with Im s < 0, replaced by their conjugates
+  /// [value] its number in the file, which begins with 1 and counts dropped entries too
+  std::vector<long> numbers;
+  std::string layout;   ///< program, units and signs, for messages
+  long conjugates = 0;  ///< dropped entries, whose conjugates are listed too
+  long mirrored = 0;    ///< entries with Im s < 0, replaced by their conjugates
 };
 
 /// Returns the list in this text. Throws Error, without the name of the file, if the text contains

@@ -20,9 +20,10 @@ std::string placeText(Complex s, double radius = 0) {
                    std::abs(s.real()) <= radius ? 0 : s.real());
 }
 
-std::string lineOf(const referee::Row& row) {
+std::string lineOf(const referee::Row& row, const eigenlist::List& list) {
   const std::string entry =
-      row.entry ? formatted("entry %zu (", *row.entry + 1) + placeText(row.listed) + ")" : "";
+      row.entry ? formatted("entry %ld (", list.numbers[*row.entry]) + placeText(row.listed) + ")"
+                : "";
   const std::string proved = row.proved ? placeText(*row.proved, row.radius) + " (radius " +
                                               roundedUp(row.radius, 2) + " rad/s)"
                                         : "";
@@ -53,7 +54,7 @@ std::string refereeTable(const analysis::JudgedList& judged) {
       "entry,growth_rate_1_per_s,angular_frequency_rad_per_s,verdict,proved_growth_rate_1_per_s,"
       "proved_angular_frequency_rad_per_s,radius_rad_per_s,distance_rad_per_s\n";
   for (const auto& row : judged.judgement.rows)
-    table += (row.entry ? formatted("%zu", *row.entry + 1) : "") + "," +
+    table += (row.entry ? formatted("%ld", judged.list.numbers[*row.entry]) : "") + "," +
              (row.entry || !row.proved ? pair(row.listed) : ",") + "," + text(row.verdict) + "," +
              (row.proved ? pair(*row.proved) : ",") + "," +
              (row.proved ? roundedUp(row.radius, 4) : "") + "," +
@@ -78,7 +79,7 @@ nlohmann::ordered_json refereeEntry(const analysis::JudgedList& judged) {
   entry["layout"] = judged.list.layout;
   entry["faults"] = nlohmann::ordered_json::array();
   for (const auto& row : found.rows)
-    if (const auto line = lineOf(row); !line.empty()) entry["faults"].push_back(line);
+    if (const auto line = lineOf(row, judged.list); !line.empty()) entry["faults"].push_back(line);
   for (const auto verdict : referee::allVerdicts)
     entry["verdicts"][referee::text(verdict)] = found.number(verdict);
   return entry;
@@ -86,10 +87,13 @@ nlohmann::ordered_json refereeEntry(const analysis::JudgedList& judged) {
 
 std::string refereeText(const analysis::JudgedList& judged) {
   const auto& found = judged.judgement;
-  std::string text = found.isComplete() ? "\nThe list is complete and right: " : "\nThe list: ";
+  const bool isJudged = found.number(referee::Verdict::right) > 0;
+  std::string text = !found.isComplete() ? "\nThe list: "
+                     : isJudged          ? "\nThe list is complete and right: "
+                                         : "\nThe list has no eigenvalue in the region: ";
   text += found.sentence() + ".";
   for (const auto& row : found.rows)
-    if (const auto line = lineOf(row); !line.empty()) text += "\n  " + line;
+    if (const auto line = lineOf(row, judged.list); !line.empty()) text += "\n  " + line;
   return text;
 }
 

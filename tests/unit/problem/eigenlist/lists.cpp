@@ -106,6 +106,16 @@ TEST(Lists, OfColumns) {
              1e-12, 2);
 }
 
+// The numbers count all eigenvalues of the file, whether they are kept, dropped or mirrored.
+TEST(Lists, NumbersAreThoseOfTheFile) {
+  const auto list =
+      eigenlist::parse("1 -10\n2 20\n2 -20\n0 30\n3 40\n3 -40\n", Format::columns, Unit::radians);
+  EXPECT_EQ(list.values, (std::vector<Complex>{{1, 10}, {2, 20}, {0, 30}, {3, 40}}));
+  EXPECT_EQ(list.numbers, (std::vector<long>{1, 2, 4, 5}));
+  EXPECT_EQ(list.conjugates, 2);
+  EXPECT_EQ(list.mirrored, 1);
+}
+
 std::string refusal(const std::string& text, Format format, std::optional<Unit> unit) {
   try {
     eigenlist::parse(text, format, unit);
