@@ -2,6 +2,9 @@
 #include "eigen/completeness/list_judgement.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "base/system/text.hpp"
 
 namespace squeal::completeness {
 namespace {
@@ -61,6 +64,11 @@ void judgeList(const std::vector<proof::Enclosure>& discs, const proof::Region& 
   }
   // Nothing is known about the place of such an eigenvalue of the full problem.
   for (const auto& disc : judged.unresolved) found.undecided.push_back(disc.s);
+  if (found.proved && !judged.unresolved.empty())
+    found.reason = formatted(
+        "%zu eigenvalues near %.6g Hz have no discs of their own, so that their places in the "
+        "region are not known",
+        judged.unresolved.size(), judged.unresolved.front().s.imag() / (2 * M_PI));
 }
 
 }  // namespace squeal::completeness

@@ -179,7 +179,7 @@ struct Completeness {
   double ratio = 0;         ///< largest φ found on the boundary of the region; below 1 if proved
   Complex place = 0;        ///< where `ratio` is reached, or where the proof fails, 1/s
   int discs = 0;            ///< number of discs that cover the upper half of the boundary
-  std::string reason;       ///< why the count is not proved; empty if it is
+  std::string reason;       ///< why the count or the place of an eigenvalue is not proved, or empty
   std::vector<MissingEigenvalue> missing;  ///< eigenvalues that the list should contain
   std::vector<Complex> spurious;  ///< listed values that are proved not to be eigenvalues, 1/s
   /// Eigenvalues of the reduced problem that the list does not contain, 1/s, without a proof that
@@ -216,6 +216,8 @@ struct ComplexModes {
   /// Returns true if the full problem is proved to have exactly the listed eigenvalues in the band,
   /// each in its own proved disc.
   bool listIsProved() const;
+  /// Returns true if no eigenvalue is listed, without a proof that the band contains none.
+  bool stabilityIsUnknown() const { return eigenvalues.empty() && !listIsProved(); }
   /// Returns the number of eigenvalues that are treated as unstable.
   int unstableCount() const;
   /// Returns the number of eigenvalues with this verdict.

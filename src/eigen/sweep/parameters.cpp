@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/sweep/parameters.hpp"
 
-#include <vector>
-
 #include "base/system/text.hpp"
 
 namespace squeal::sweep {
@@ -11,6 +9,17 @@ bool growsInFriction(const Parameters& before, const Parameters& at) {
   Parameters lower = at;
   lower.friction = before.friction;
   return lower == before && before.friction < at.friction;
+}
+
+std::vector<Parameter> sweptParameters(const std::vector<Parameters>& points) {
+  std::vector<Parameter> swept;
+  for (const auto& parameter : allParameters)
+    for (const auto& at : points)
+      if (at.*parameter.value != points.front().*parameter.value) {
+        swept.push_back(parameter);
+        break;
+      }
+  return swept;
 }
 
 std::string parameterColumns() {

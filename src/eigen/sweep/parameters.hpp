@@ -3,6 +3,7 @@
 /// The parameters that a sweep varies.
 #include <array>
 #include <string>
+#include <vector>
 
 namespace squeal::sweep {
 
@@ -29,6 +30,8 @@ inline constexpr std::array<Parameter, 4> allParameters{{{"friction", &Parameter
                                                          {"pressure", &Parameters::pressure},
                                                          {"damping", &Parameters::damping}}};
 
+/// Returns the parameters that do not have the same value at all points.
+std::vector<Parameter> sweptParameters(const std::vector<Parameters>& points);
 /// Returns true if `at` has a larger friction than `before` and equal other parameters.
 bool growsInFriction(const Parameters& before, const Parameters& at);
 /// Returns the header row of a comma-separated table, "friction,speed,…".

@@ -98,7 +98,7 @@ void proveLists(const SweepProblem& problem, reduction::ReducedProblem& reduced,
                 const ProofRequest& request) {
   const MPI_Comm comm = reduced.basis().comm();
   if (const std::string why = whyNothing(reduced); !why.empty()) {
-    return printLine(comm, "proof: nothing to prove (" + why + ")");
+    return printLine(comm, "proof: not attempted (" + why + ")");
   }
   const auto factors = problem.frictionFactors();
   const auto jumps = problem.jumpFactors();

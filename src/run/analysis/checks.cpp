@@ -95,14 +95,15 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms,
                        const pencil::Settings& pencil, const sweep::Sweep& sweep) {
   const auto require = [&](const std::vector<double>& values, const std::string& name,
                            auto exponent) {
-    if (values.size() > 1 && std::none_of(terms.begin(), terms.end(), [&](const auto& named) {
-          return exponent(named.term) != 0;
-        }))
-      throw Error("option -flutter_" + name + ": a sweep, but no matrix has -matrices_<name>_" +
-                  name + "_exponent");
+    const bool isUsed =
+        std::ranges::any_of(terms, [&](const auto& named) { return exponent(named.term) != 0; });
+    if (isUsed || values == std::vector<double>{1}) return;
+    throw Error("option -flutter_" + name +
+                ": no matrix depends on it; none has -matrices_<name>_" + name + "_exponent");
   };
-  require(sweep.frictions, "friction",
-          [](const pencil::Term& term) { return term.frictionExponent; });
+  if (sweep.frictions.size() > 1)
+    require(sweep.frictions, "friction",
+            [](const pencil::Term& term) { return term.frictionExponent; });
   require(sweep.speeds, "speed", [](const pencil::Term& term) { return term.speedExponent; });
   if (!pencil.isModallyDamped())
     require(sweep.dampings, "damping",

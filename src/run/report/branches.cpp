@@ -9,6 +9,7 @@
 #include "base/system/text.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/report/components.hpp"
+#include "run/report/verdict.hpp"
 
 namespace squeal::report {
 namespace {
@@ -32,6 +33,19 @@ template <class Action>
 void forEachTrackedLine(const analysis::Analysis& analysis, const Action& action) {
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& tracked : segment.trackedLines) action(tracked);
+}
+
+/// Returns the parameters of a line that are swept or not 1, except friction, as ", speed 2".
+std::string lineLabel(const sweep::Parameters& line, const std::vector<sweep::Parameter>& swept) {
+  std::string label;
+  for (const auto& parameter : sweep::allParameters) {
+    const auto value = parameter.value;
+    if (value == &sweep::Parameters::friction) continue;
+    const bool isSwept =
+        std::ranges::any_of(swept, [&](const auto& one) { return one.value == value; });
+    if (isSwept || line.*value != 1) label += formatted(", %s %g", parameter.name, line.*value);
+  }
+  return label;
 }
 
 std::string parametersAt(sweep::Parameters at, double friction) {
@@ -134,9 +148,13 @@ std::string criticalSensitivityTable(const analysis::Analysis& analysis) {
 
 std::string trackingText(const analysis::Analysis& analysis) {
   constexpr int shown = 8;
+  const auto swept = sweep::sweptParameters(analysis.sweep.points());
+  const double top = largestBandTop(analysis);
   std::string text;
   forEachTrackedLine(analysis, [&](const stability::TrackedLine& tracked) {
-    const auto list = [&](bool converged, const char* head, const auto& item, const char* more) {
+    const std::string line = lineLabel(tracked.line, swept);
+    const auto list = [&](bool converged, const std::string& head, const auto& item,
+                          const char* more) {
       int count = 0;
       for (const auto& c : tracked.criticals)
         if (c.converged == converged && ++count <= shown)
@@ -144,14 +162,15 @@ std::string trackingText(const analysis::Analysis& analysis) {
       if (count > shown) text += formatted(more, count - shown);
     };
     list(
-        true, "\nStability changes at friction ",
-        [](const stability::Critical& c) {
-          return formatted("%.8g (%s, %.6g Hz%s)", c.friction, kindName(c.kind),
-                           c.angularFrequency / (2 * M_PI), c.loss ? "" : ", regained");
+        true, "\nStability changes" + line + (line.empty() ? "" : ",") + " at friction ",
+        [&](const stability::Critical& c) {
+          return formatted("%.8g (%s, %.6g Hz%s%s)", c.friction, kindName(c.kind),
+                           c.angularFrequency / (2 * M_PI), c.loss ? "" : ", regained",
+                           c.angularFrequency > top ? ", above the band" : "");
         },
         ", and at %d more in critical.csv");
     list(
-        false, "\nStability also changes, at a friction not computed, ",
+        false, "\nStability also changes" + line + ", at a friction not computed, ",
         [](const stability::Critical& c) {
           return formatted("between %.6g and %.6g (%s near %.4g Hz%s)",
                            c.friction - c.errorEstimate, c.friction + c.errorEstimate,
@@ -159,11 +178,7 @@ std::string trackingText(const analysis::Analysis& analysis) {
                            c.loss ? "" : ", regained");
         },
         ", and %d more in critical.csv");
-    text += "\nCompleteness";
-    for (const auto& parameter : sweep::allParameters)
-      if (parameter.value != &sweep::Parameters::friction && tracked.line.*parameter.value != 1)
-        text += formatted(", %s %g", parameter.name, tracked.line.*parameter.value);
-    text += ": " + tracked.statement() + ".";
+    text += "\nCompleteness" + line + ": " + tracked.statement() + ".";
   });
   return text;
 }

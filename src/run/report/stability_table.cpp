@@ -48,7 +48,8 @@ std::string uncertaintyText(const pencil::ComplexModes& point) {
 std::string stableText(const analysis::Analysis& analysis,
                        const sweep_solver::ModalSegment& segment,
                        const pencil::ComplexModes& point) {
-  if (point.eigenvalues.empty()) return "no eigenvalue was found, so stability is unknown";
+  if (point.stabilityIsUnknown()) return "no eigenvalue was found, so stability is unknown";
+  if (point.eigenvalues.empty()) return "none: the band is proved to contain no eigenvalue";
   if (segment.openNodes > 0 && segment.openNodes == analysis.model.contact.interfaces.totalNodes)
     return "none: no contact is closed, nothing slides";
   if (point.verdict() == pencil::Verdict::undecided) return "none" + uncertaintyText(point);
@@ -123,10 +124,11 @@ std::string uncertifiedText(const analysis::Analysis& analysis) {
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.uncertifiedCount() > 0)
-        text += formatted(
-            "\n%s: %d eigenvalues could not be certified, see eigenvalues.csv; raise -modes_count "
-            "or -flutter_rounds",
-            sweep::parameterText(point.at).c_str(), point.uncertifiedCount());
+        text += formatted("\n%s: %d eigenvalues could not be certified, see eigenvalues.csv; %s",
+                          sweep::parameterText(point.at).c_str(), point.uncertifiedCount(),
+                          std::isinf(point.bandTop)
+                              ? "the basis is the whole space, so round-off limits their accuracy"
+                              : "raise -modes_count or -flutter_rounds");
   return text;
 }
 

@@ -293,6 +293,7 @@ Json verdictEntry(const RunVerdict& verdict) {
       {"points", verdict.points},
       {"points_solved", verdict.pointsSolved},
       {"points_unstable", verdict.pointsUnstable},
+      {"points_unknown", verdict.pointsUnknown},
       {"most_unstable_modes", verdict.mostUnstable},
       {"undecided_eigenvalues", verdict.undecided},
       {"uncertified_eigenvalues", verdict.uncertified},

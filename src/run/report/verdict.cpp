@@ -20,17 +20,6 @@ struct UnstableModes {
   int eigenvalues = 0;                          ///< of all points, stable ones included
 };
 
-/// Returns the parameters that have more than one value in the sweep.
-std::vector<sweep::Parameter> sweptParameters(const std::vector<sweep::Parameters>& points) {
-  std::vector<sweep::Parameter> swept;
-  for (const auto& parameter : sweep::allParameters)
-    if (std::ranges::any_of(points, [&](const sweep::Parameters& at) {
-          return at.*parameter.value != points.front().*parameter.value;
-        }))
-      swept.push_back(parameter);
-  return swept;
-}
-
 /// Counts points and eigenvalues by verdict.
 UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
   UnstableModes modes;
@@ -40,6 +29,7 @@ UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
       verdict.undecided += point.count(pencil::Verdict::undecided);
       verdict.uncertified += point.count(pencil::Verdict::uncertified);
       modes.eigenvalues += std::ssize(point.eigenvalues);
+      verdict.pointsUnknown += point.stabilityIsUnknown();
       const int unstable = point.unstableCount();
       verdict.mostUnstable = std::max(verdict.mostUnstable, unstable);
       if (unstable == 0) continue;
@@ -56,13 +46,14 @@ UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
   return modes;
 }
 
-/// Returns the lowest critical friction at which stability is lost.
+/// Returns the lowest critical friction at which stability is lost by an eigenvalue in the band.
 std::optional<double> firstLoss(const analysis::Analysis& analysis) {
   std::optional<double> lowest;
+  const double top = largestBandTop(analysis);
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& tracked : segment.trackedLines)
       for (const auto& critical : tracked.criticals)
-        if (critical.loss && critical.converged)
+        if (critical.loss && critical.converged && critical.angularFrequency <= top)
           lowest = std::min(lowest.value_or(INFINITY), critical.friction);
   return lowest;
 }
@@ -75,13 +66,30 @@ std::string placeText(const std::vector<sweep::Parameters>& points, int solved) 
                            : formatted("at friction %g", points.front().friction);
 }
 
+/// Returns what the sentence on stability must not hide: points and eigenvalues without verdict.
+std::string openText(const RunVerdict& verdict) {
+  std::string text;
+  const auto add = [&](int count, const char* one, const char* several) {
+    if (count > 0) text += formatted("; %d %s", count, count == 1 ? one : several);
+  };
+  add(verdict.undecided, "eigenvalue is undecided", "eigenvalues are undecided");
+  add(verdict.uncertified, "eigenvalue is uncertified", "eigenvalues are uncertified");
+  add(verdict.pointsUnknown, "point has no eigenvalue in the band, so its stability is unknown",
+      "points have no eigenvalue in the band, so their stability is unknown");
+  return text;
+}
+
 std::string stableSentence(const std::vector<sweep::Parameters>& points, const RunVerdict& verdict,
                            int eigenvalues) {
-  const std::string where = placeText(points, verdict.pointsSolved);
-  if (eigenvalues == 0) return "No eigenvalue was found in the band " + where + ".";
-  std::string rest;
-  if (verdict.undecided > 0) rest = formatted("; %d eigenvalues are undecided", verdict.undecided);
-  return "Stable " + where + rest + ".";
+  const int known = verdict.pointsSolved - verdict.pointsUnknown;
+  if (eigenvalues == 0)
+    return "No eigenvalue was found in the band " + placeText(points, verdict.pointsSolved) + ".";
+  const std::string where =
+      verdict.pointsUnknown > 0
+          ? formatted("at the %d of %zu points of the sweep with a known stability", known,
+                      points.size())
+          : placeText(points, known);
+  return "Stable " + where + openText(verdict) + ".";
 }
 
 std::string onsetText(const std::vector<sweep::Parameters>& points, const RunVerdict& verdict,
@@ -99,7 +107,7 @@ std::string onsetText(const std::vector<sweep::Parameters>& points, const RunVer
 std::string unstableSentence(const std::vector<sweep::Parameters>& points,
                              const RunVerdict& verdict, const UnstableModes& modes) {
   std::string others;
-  for (const auto& parameter : sweptParameters(points))
+  for (const auto& parameter : sweep::sweptParameters(points))
     if (parameter.value != &sweep::Parameters::friction)
       others += formatted(", %s %g", parameter.name, modes.at.*parameter.value);
   const auto& fastest = *modes.fastest;
@@ -110,7 +118,7 @@ std::string unstableSentence(const std::vector<sweep::Parameters>& points,
              verdict.mostUnstable, verdict.mostUnstable > 1 ? "s" : "",
              fastest.s.imag() / (2 * M_PI), fastest.s.real(), 100 * fastest.dampingRatio(),
              modes.at.friction) +
-         others + (modes.name.empty() ? "" : ": " + modes.name) + ".";
+         others + (modes.name.empty() ? "" : ": " + modes.name) + openText(verdict) + ".";
 }
 
 std::string interruptedSentence(const RunVerdict& verdict, const UnstableModes& modes) {
@@ -118,17 +126,26 @@ std::string interruptedSentence(const RunVerdict& verdict, const UnstableModes& 
                    verdict.pointsSolved, verdict.points) +
          (modes.fastest ? formatted("the lowest friction among them with an unstable mode is %g.",
                                     modes.lowestFriction)
-                        : "all of them are stable.");
+          : verdict.pointsUnknown > 0
+              ? "none of them has an unstable mode" + openText(verdict) + "."
+              : "all of them are stable.");
 }
 
 }  // namespace
+
+double largestBandTop(const analysis::Analysis& analysis) {
+  double top = 0;
+  for (const auto& segment : analysis.flutter.segments)
+    for (const auto& point : segment.points) top = std::max(top, point.bandTop);
+  return top > 0 ? top : INFINITY;
+}
 
 RunVerdict runVerdict(const analysis::Analysis& analysis) {
   const auto points = analysis.sweep.points();
   RunVerdict verdict;
   verdict.points = int(points.size());
   const UnstableModes modes = count(analysis, verdict);
-  if (modes.fastest && sweptParameters(points).size() <= 1)
+  if (modes.fastest && sweep::sweptParameters(points).size() <= 1)
     if (const auto loss = firstLoss(analysis); loss && *loss <= modes.lowestFriction)
       verdict.criticalFriction = loss;
   if (analysis.interrupted())

@@ -15,13 +15,17 @@ struct RunVerdict {
   int pointsSolved = 0;    ///< points with a list of eigenvalues, which may be empty
   int pointsUnstable = 0;  ///< points with an unstable mode
   int mostUnstable = 0;    ///< largest number of unstable modes at one point
+  int pointsUnknown = 0;   ///< points with an empty list that is not proved to be complete
   int undecided = 0;       ///< eigenvalues of all points with the verdict `undecided`
   int uncertified = 0;     ///< eigenvalues of all points with the verdict `uncertified`
-  /// The lowest critical friction at which stability is lost. None if it was not computed, if more
-  /// than one parameter is swept, or if a point of the sweep at a lower friction is unstable.
+  /// The lowest critical friction at which an eigenvalue in the band loses stability. None if it
+  /// was not computed, if more than one parameter is swept, or if a point of the sweep at a lower
+  /// friction is unstable.
   std::optional<double> criticalFriction;
 };
 
+/// Returns the largest top of the band of all points, rad/s; infinity if no point has one.
+double largestBandTop(const analysis::Analysis& analysis);
 /// Returns the verdict of a run, complete or interrupted.
 RunVerdict runVerdict(const analysis::Analysis& analysis);
 

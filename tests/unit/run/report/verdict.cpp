@@ -72,8 +72,25 @@ TEST(RunVerdict, OfStablePoints) {
             "Stable at the 2 of 3 points of the sweep that have a result.");
   several.flutter.segments.emplace_back().points.push_back(
       point({0.4}, {stable(100), Eigenvalue{}}));
-  EXPECT_EQ(report::runVerdict(several).sentence, "Stable at all points of the sweep.");
+  EXPECT_EQ(report::runVerdict(several).sentence,
+            "Stable at all points of the sweep; 1 eigenvalue is uncertified.");
   EXPECT_EQ(report::runVerdict(several).uncertified, 1);
+}
+
+// An empty list says nothing, unless it is proved to be complete.
+TEST(RunVerdict, EmptyListIsNoStability) {
+  analysis::Analysis run = over({0, 0.2, 0.4}, {1});
+  auto& points = run.flutter.segments[0].points;
+  points.push_back(point({0.}, {stable(100)}));
+  points.push_back(point({0.2}, {}));
+  points.push_back(point({0.4}, {}));
+  EXPECT_EQ(report::runVerdict(run).sentence,
+            "Stable at the 1 of 3 points of the sweep with a known stability; 2 points have no "
+            "eigenvalue in the band, so their stability is unknown.");
+  EXPECT_EQ(report::runVerdict(run).pointsUnknown, 2);
+  for (std::size_t i : {1, 2}) points[i].completeness.emplace().proved = true;
+  ASSERT_TRUE(points[1].listIsProved());
+  EXPECT_EQ(report::runVerdict(run).sentence, "Stable at all points of the sweep.");
 }
 
 /// Frictions 0, 0.2, 0.4, of which the last two have unstable modes, the fastest at 1000 Hz with 20
