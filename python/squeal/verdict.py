@@ -20,23 +20,31 @@ def _verdict_of_merge(results):
         if len(points) > 1
         else f"at friction {points['friction'].iloc[0]:g}"
     )
-    undecided = int((table["verdict"] == "undecided").sum())
+    solved = points[points["unstable_modes"].notna()]
+    listed = set(table[list(PARAMETERS)].itertuples(index=False, name=None))
+    unknown = sum(
+        point not in listed for point in solved[list(PARAMETERS)].itertuples(index=False, name=None)
+    )
+    rest = _open(table, unknown)
     if results.summary.get("complete") is False:
-        solved = int(points["unstable_modes"].notna().sum())
-        found = (
-            "all of them are stable"
-            if grows.empty
-            else (
+        found = "all of them are stable"
+        if not grows.empty:
+            found = (
                 "the lowest friction among them with an unstable mode is"
                 f" {grows['friction'].min():g}"
             )
-        )
+        elif unknown:
+            found = "none of them has an unstable mode"
         return (
-            f"The run was stopped before its end: {solved} of {len(points)} points are solved, and"
-            f" {found}."
+            f"The run was stopped before its end: {len(solved)} of {len(points)} points are solved,"
+            f" and {found}{rest}."
         )
     if grows.empty:
-        rest = f"; {undecided} eigenvalues are undecided" if undecided else ""
+        if unknown:
+            where = (
+                f"at the {len(solved) - unknown} of {len(points)} points of the sweep with a known"
+                " stability"
+            )
         return (
             f"Stable {where}{rest}."
             if len(table)
@@ -70,7 +78,31 @@ def _verdict_of_merge(results):
         f"{begins}; above it, up to {most} unstable mode{'s' if most > 1 else ''} at once. The"
         f" fastest has {worst['frequency_hz']:.6g} Hz and a growth rate of"
         f" {worst['growth_rate_1_per_s']:.4g} 1/s (damping {100 * worst['damping_ratio']:.3g} %) at"
-        f" friction {worst['friction']:g}{others}."
+        f" friction {worst['friction']:g}{others}{rest}."
+    )
+
+
+def _open(table, unknown):
+    """Returns what a sentence must not hide: points and eigenvalues without a verdict."""
+    counts = (
+        (
+            int((table["verdict"] == "undecided").sum()),
+            "eigenvalue is undecided",
+            "eigenvalues are undecided",
+        ),
+        (
+            int((table["verdict"] == "uncertified").sum()),
+            "eigenvalue is uncertified",
+            "eigenvalues are uncertified",
+        ),
+        (
+            unknown,
+            "point has no eigenvalue in the band, so its stability is unknown",
+            "points have no eigenvalue in the band, so their stability is unknown",
+        ),
+    )
+    return "".join(
+        f"; {count} {one if count == 1 else several}" for count, one, several in counts if count
     )
 
 

@@ -149,6 +149,7 @@ TEST(Verdicts, ChangeBetweenBranchesThatAreNotMatched) {
   EXPECT_LT(critical.column("friction_error_estimate")[0], 1e-3);
   EXPECT_EQ(critical.words("direction")[0], "loss");
   EXPECT_EQ(critical.column("converged")[0], 0);
+  for (const char* number : {"branch", "partner"}) EXPECT_EQ(critical.column(number)[0], 0);
 }
 
 // K = diag(1 − f, 2), M = I: at f = 1 the double root s = 0 has one vector. With damping 0.1 it is

@@ -63,9 +63,11 @@ void retainFreedMemory() {
 }
 
 void releaseFreedMemory() {
-#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+#ifdef __GLIBC__
+#if __GLIBC_PREREQ(2, 33)
   constexpr std::size_t much = 512 << 20;
   if (mallinfo2().fordblks > much) malloc_trim(0);
+#endif
 #endif
 }
 

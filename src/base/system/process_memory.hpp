@@ -16,9 +16,10 @@ double addressSpace();
 /// the time of a run.
 void retainFreedMemory();
 
-/// Returns freed memory that lies between blocks in use to the kernel, if it is more than 0.5 GB.
-/// Long stages of a large model leave a third of the heap in such gaps. Less is retained, since the
-/// kernel takes long to clear the pages when they are used again.
+/// Returns the freed memory of the heap to the kernel, also between blocks in use, if the heap has
+/// more than 0.5 GB of it. Long stages of a large model leave a third of the heap in such gaps. In
+/// smaller models they are retained, since the kernel takes long to clear the pages when they are
+/// used again.
 void releaseFreedMemory();
 
 }  // namespace squeal

@@ -70,9 +70,9 @@ FreeModes freeModes(const ShiftedSystem& shifted, double top, const modes::Setti
   return found;
 }
 
-/// Returns the middle of the first gap of the eigenvalues on V above the list that is wider than 1
-/// % of |s|. An eigenvalue is in the list if it is within 1 % of an entry. Narrower gaps occur
-/// within flutter pairs, whose members belong together.
+/// Returns the middle of a gap of the eigenvalues on V above the list: of the first one, or of a
+/// wider one that begins at most 1 % higher, since the first one may divide a flutter pair. An
+/// eigenvalue is in the list if it is within 1 % of an entry.
 double topAbove(std::span<const Complex> list, std::span<const Complex> values, double limit) {
   constexpr double same = 0.01;
   double inside = largest(list);
@@ -82,14 +82,14 @@ double topAbove(std::span<const Complex> list, std::span<const Complex> values, 
         list, [&](Complex entry) { return std::abs(entry - s) <= same * size; });
     if (known && size < limit) inside = std::max(inside, size);
   }
-  std::vector<double> above;
+  std::vector<double> ends{inside, std::max(limit, inside)};
   for (const auto s : values)
-    if (const double size = std::abs(s); size > inside && size < limit) above.push_back(size);
-  std::ranges::sort(above);
-  above.push_back(std::max(limit, inside));
-  std::size_t k = 0;
-  while (k + 1 < above.size() && above[k] - inside < same * inside) inside = above[k++];
-  return (inside + above[k]) / 2;
+    if (const double size = std::abs(s); size > inside && size < limit) ends.push_back(size);
+  std::ranges::sort(ends);
+  std::size_t widest = 1;
+  for (std::size_t k = 2; k < ends.size() && ends[k - 1] <= (1 + same) * inside; ++k)
+    if (ends[k] - ends[k - 1] > ends[widest] - ends[widest - 1]) widest = k;
+  return (ends[widest - 1] + ends[widest]) / 2;
 }
 
 /// Collective. Adds to `bounds` the bounds of M_a, C and G on the space that V leaves out, for

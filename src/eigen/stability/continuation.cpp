@@ -165,6 +165,7 @@ void omitBelow(TrackedLine& line, double friction) {
   std::erase_if(branches.stations,
                 [&](const Station& station) { return station.friction < friction; });
   std::erase_if(branches.gaps, [&](const Gap& gap) { return gap.to < friction; });
+  std::erase_if(line.unlocated, [&](const auto& step) { return step.first < friction; });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < line.criticals.size(); ++i) {
     if (line.criticals[i].friction < friction) continue;
@@ -247,6 +248,7 @@ void append(TrackedLine& earlier, TrackedLine later) {
   move(later.activeSet, earlier.activeSet);
   move(after.stations, before.stations);
   move(after.gaps, before.gaps);
+  move(later.unlocated, earlier.unlocated);
   move(later.criticals, earlier.criticals);
   move(later.criticalModes, earlier.criticalModes);
   before.entered += after.entered;

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "base/system/text.hpp"
-#include "eigen/stability/unlocated.hpp"
 #include "eigen/tracking/reducedfamily.hpp"
 #include "eigen/tracking/renumber.hpp"
 
@@ -81,7 +80,7 @@ std::string TrackedLine::statement() const {
       if (!gap.identityOnly)
         text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.reason.c_str());
   }
-  if (const auto jumps = directJumps(branches); !jumps.empty()) {
+  if (const auto& jumps = unlocated; !jumps.empty()) {
     text += "; assumed: no eigenvalue changes its stability twice ";
     text += jumps.size() == 1 ? formatted("between friction %g and %g, where", jumps.front().first,
                                           jumps.front().second)
@@ -132,6 +131,10 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
       first.frictions.insert(first.frictions.begin(), 0);
       first.needed.insert(first.needed.begin(), 1);
     }
+    for (std::size_t k = 1; k < path.size(); ++k)
+      if (const double from = path[k - 1].frictions.back(), to = path[k].frictions.front();
+          from < to)
+        tracked.unlocated.emplace_back(from, to);
     tracking::TrackLimits limits;
     limits.smallest = settings.smallest;
     tracked.branches = track(path, reduced.band(), limits);

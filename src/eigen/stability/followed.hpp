@@ -4,6 +4,7 @@
 /// statement on whether any eigenvalue is missing.
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eigen/modes/modes.hpp"
@@ -55,6 +56,8 @@ struct TrackedLine {
   bool countExact = false;  ///< a Sturm count confirms the number at friction 0, the start
   bool wholeSpace = false;  ///< the basis spans the whole space of the full problem
   bool isDamped = false;    ///< the problem has a damping matrix
+  /// Steps between whose ends the active set changes at frictions that are not known.
+  std::vector<std::pair<double, double>> unlocated;
 
   /// Returns true if no eigenvalue of the band is missing at any friction.
   bool complete() const;

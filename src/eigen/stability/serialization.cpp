@@ -33,10 +33,10 @@ namespace squeal::stability {
 
 void fields(Stream& stream, TrackedLine& tracked) {
   auto& [line, activeSet, from, begin, continues, isContinued, branches, criticals, modes,
-         countExact, wholeSpace, isDamped] = tracked;
+         countExact, wholeSpace, isDamped, unlocated] = tracked;
   auto& [band, stations, events, gaps, count, entered, left, omitted] = branches;
   stream(line, activeSet, from, begin, continues, isContinued, band, stations, events, gaps, count,
-         entered, left, omitted, criticals, modes, countExact, wholeSpace, isDamped);
+         entered, left, omitted, criticals, modes, countExact, wholeSpace, isDamped, unlocated);
 }
 
 }  // namespace squeal::stability

@@ -9,53 +9,70 @@
 namespace squeal::stability {
 namespace {
 
-/// Returns the unstable eigenvalue of the band that grows fastest; null if all are stable.
-const linalg::DensePair* fastest(const Station& station, bool damped) {
+bool isUnstable(const Station& station, std::size_t pair, bool damped) {
+  return tracking::sign(station.pairs[pair].s, damped) > 0;
+}
+
+/// Returns true if the band has an unstable eigenvalue.
+bool isUnstable(const Station& station, bool damped) {
+  for (std::size_t j = 0; j < station.pairs.size(); ++j)
+    if (station.inBand[j] && isUnstable(station, j, damped)) return true;
+  return false;
+}
+
+/// Returns true if the branch is unstable at the station, in the band or in its guard zone.
+bool isUnstable(const Station& station, int branch, bool damped) {
+  for (std::size_t j = 0; j < station.pairs.size(); ++j)
+    if (branch != 0 && station.branch[j] == branch) return isUnstable(station, j, damped);
+  return false;
+}
+
+/// Returns the unstable eigenvalue of the band that grows fastest, of those that are not unstable
+/// at the other station; null if there is none.
+const linalg::DensePair* changed(const Station& station, const Station& other, bool damped) {
   const linalg::DensePair* found = nullptr;
   for (std::size_t j = 0; j < station.pairs.size(); ++j) {
     const auto& pair = station.pairs[j];
-    if (station.inBand[j] && tracking::sign(pair.s, damped) > 0 &&
+    if (station.inBand[j] && isUnstable(station, j, damped) &&
+        !isUnstable(other, station.branch[j], damped) &&
         (!found || pair.s.real() > found->s.real()))
       found = &pair;
   }
   return found;
 }
 
-}  // namespace
-
-std::vector<std::pair<double, double>> directJumps(const tracking::Branches& branches) {
-  std::vector<std::pair<double, double>> jumps;
-  const auto& stations = branches.stations;
-  for (std::size_t k = 1; k < stations.size(); ++k)
-    if (stations[k].piece != stations[k - 1].piece &&
-        stations[k].friction > stations[k - 1].friction)
-      jumps.emplace_back(stations[k - 1].friction, stations[k].friction);
-  return jumps;
+Event::Kind kindOf(const Station& low, const Station& high, Complex s, bool damped) {
+  if (low.piece != high.piece) return Event::Kind::contact;
+  if (s.imag() == 0) return Event::Kind::divergence;
+  return damped ? Event::Kind::crossing : Event::Kind::coalescence;
 }
+
+}  // namespace
 
 void addUnlocatedChanges(TrackedLine& line) {
   const auto& stations = line.branches.stations;
   std::vector<Critical> found;
   for (std::size_t k = 1; k < stations.size(); ++k) {
     const Station &low = stations[k - 1], &high = stations[k];
-    const auto *below = fastest(low, line.isDamped), *above = fastest(high, line.isDamped);
-    if ((below == nullptr) == (above == nullptr)) continue;
-    if (std::ranges::any_of(line.criticals, [&](const Critical& known) {
-          return known.friction + known.errorEstimate >= low.friction &&
-                 known.friction - known.errorEstimate <= high.friction;
-        }))
-      continue;
-    const Complex s = (above ? above : below)->s;
-    Critical added{.kind = low.piece != high.piece ? Event::Kind::contact
-                           : s.imag() == 0         ? Event::Kind::divergence
-                                                   : Event::Kind::crossing,
-                   .friction = 0.5 * (low.friction + high.friction),
-                   .angularFrequency = s.imag(),
-                   .loss = above != nullptr,
-                   .errorEstimate = 0.5 * (high.friction - low.friction),
-                   .converged = false,
-                   .piece = low.piece};
-    found.push_back(added);
+    if (low.friction < line.from) continue;  // another active set applies there
+    const bool isLoss = isUnstable(high, line.isDamped);
+    if (isUnstable(low, line.isDamped) == isLoss) continue;
+    const auto* pair =
+        isLoss ? changed(high, low, line.isDamped) : changed(low, high, line.isDamped);
+    const auto explains = [&](const Critical& known) {
+      return known.loss == isLoss && known.friction + known.errorEstimate >= low.friction &&
+             known.friction - known.errorEstimate <= high.friction;
+    };
+    if (!pair || std::ranges::any_of(line.criticals, explains)) continue;
+    const auto kind = kindOf(low, high, pair->s, line.isDamped);
+    found.push_back({.kind = kind,
+                     .partner = 0,
+                     .friction = 0.5 * (low.friction + high.friction),
+                     .angularFrequency = pair->s.imag(),
+                     .loss = isLoss,
+                     .errorEstimate = 0.5 * (high.friction - low.friction),
+                     .converged = low.friction == high.friction,
+                     .piece = high.piece});
   }
   for (const auto& critical : found) {
     const auto place =

@@ -5,6 +5,7 @@
 
 #include "base/options/options.hpp"
 #include "base/petsc/finite.hpp"
+#include "base/petsc/object.hpp"
 #include "eigen/modes/settings.hpp"
 #include "eigen/pencil/settings.hpp"
 #include "regime/regime/checks.hpp"
@@ -98,8 +99,10 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms,
     const bool isUsed =
         std::ranges::any_of(terms, [&](const auto& named) { return exponent(named.term) != 0; });
     if (isUsed || values == std::vector<double>{1}) return;
-    throw Error("option -flutter_" + name +
-                ": no matrix depends on it; none has -matrices_<name>_" + name + "_exponent");
+    const std::string none = "no matrix has -matrices_<name>_" + name + "_exponent";
+    if (values.size() > 1) throw Error("option -flutter_" + name + ": a sweep, but " + none);
+    printWarning(commOf(terms.front().term.matrix),
+                 "option -flutter_" + name + " was not used: " + none);
   };
   if (sweep.frictions.size() > 1)
     require(sweep.frictions, "friction",

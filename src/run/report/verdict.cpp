@@ -46,16 +46,22 @@ UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
   return modes;
 }
 
-/// Returns the lowest critical friction at which stability is lost by an eigenvalue in the band.
+/// Returns the lowest critical friction at which stability is lost by an eigenvalue in the band;
+/// none if an eigenvalue may lose it at a lower one.
 std::optional<double> firstLoss(const analysis::Analysis& analysis) {
   std::optional<double> lowest;
+  double uncertain = INFINITY;  // lower end of the lowest step with a loss
   const double top = largestBandTop(analysis);
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& tracked : segment.trackedLines)
       for (const auto& critical : tracked.criticals)
-        if (critical.loss && critical.converged && critical.angularFrequency <= top)
+        if (!critical.loss || critical.angularFrequency > top)
+          continue;
+        else if (critical.converged)
           lowest = std::min(lowest.value_or(INFINITY), critical.friction);
-  return lowest;
+        else
+          uncertain = std::min(uncertain, critical.friction - critical.errorEstimate);
+  return lowest && uncertain < *lowest ? std::nullopt : lowest;
 }
 
 std::string placeText(const std::vector<sweep::Parameters>& points, int solved) {
@@ -122,13 +128,15 @@ std::string unstableSentence(const std::vector<sweep::Parameters>& points,
 }
 
 std::string interruptedSentence(const RunVerdict& verdict, const UnstableModes& modes) {
+  std::string found = "all of them are stable";
+  if (modes.fastest)
+    found = formatted("the lowest friction among them with an unstable mode is %g",
+                      modes.lowestFriction);
+  else if (verdict.pointsUnknown > 0)
+    found = "none of them has an unstable mode";
   return formatted("The run was stopped before its end: %d of %d points are solved, and ",
                    verdict.pointsSolved, verdict.points) +
-         (modes.fastest ? formatted("the lowest friction among them with an unstable mode is %g.",
-                                    modes.lowestFriction)
-          : verdict.pointsUnknown > 0
-              ? "none of them has an unstable mode" + openText(verdict) + "."
-              : "all of them are stable.");
+         found + openText(verdict) + ".";
 }
 
 }  // namespace

@@ -223,7 +223,7 @@ class PathTracer {
     const contact::ActiveSet before = set();
     const Sticking heldBefore = sticking_;
     const double next = std::min(1.0, s + behind);
-    sticking_.heldAgain.assign(closed_.size(), 0);
+    for (auto* mask : {&sticking_.heldAgain, &sticking_.slidBack}) mask->assign(closed_.size(), 0);
     for (int together = 0; together < mostTogether; ++together) {
       if (rank_ == place.rank) change(place.node);
       place = worstAt(next);

@@ -52,10 +52,7 @@ void addSticking(const contact::Contact& contact, int interface, const Solution&
   std::vector<std::size_t> held;
   for (std::size_t k = 0; k < contact.interfaces.nodes.size(); ++k) {
     if (contact.interfaces.nodes[k].interface != interface || !solution.closed[k]) continue;
-    if (solution.sticking.holds[k] == Hold::released) {
-      ++resultant.released;
-      resultant.returned += solution.sticking.slidBack[k] == mostReturns;
-    }
+    if (solution.sticking.holds[k] == Hold::released) ++resultant.released;
     if (solution.sticking.holds[k] == Hold::open) ++resultant.unheld;
     const bool over = exceedsLimit(contact, solution, k), pulled = isPulled(contact, solution, k);
     if (solution.sticking.holds[k] == Hold::held && !pulled) held.push_back(k);
@@ -70,8 +67,8 @@ void addSticking(const contact::Contact& contact, int interface, const Solution&
     if (ratio(k) >= (1 - 1e-9) * resultant.leastFriction)
       worst.push_back(contact.interfaces.nodes[k].position);
   resultant.worst = firstOf(comm, worst);
-  for (PetscInt* count : {&resultant.released, &resultant.returned, &resultant.unheld,
-                          &resultant.overLimit, &resultant.pulled})
+  for (PetscInt* count :
+       {&resultant.released, &resultant.unheld, &resultant.overLimit, &resultant.pulled})
     *count = mpi::sum(comm, *count);
 }
 

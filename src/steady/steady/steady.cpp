@@ -24,7 +24,7 @@ namespace {
 /// The largest relative residual of an accepted solution.
 constexpr double meaningful = 1e-6;
 /// The largest number of revisions of sticking nodes; a few are usual.
-constexpr int mostRevisions = 50;
+constexpr int mostRevisions = 200;
 
 }  // namespace
 
@@ -216,6 +216,7 @@ std::optional<Sticking> Problem::nextHolds(Solution& solution) const {
   if (next && failure.empty() && solution.revisions == mostRevisions)
     failure = formatted("the active set of sticking nodes has not settled after %d revisions",
                         mostRevisions);
+  if (!next && failure.empty()) countReturned(contact_, solution);
   if (failure.empty()) return next;
   solution.converged = false;
   solution.reason = std::move(failure);

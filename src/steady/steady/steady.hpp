@@ -45,7 +45,7 @@ struct Resultant {
   PetscInt overLimit = 0;  ///< sticking nodes above the limit of the interface
   PetscInt pulled = 0;     ///< those of `overLimit` under tension; no coefficient suffices for them
   PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
-  PetscInt returned = 0;   ///< those of `released` that have slid back mostReturns times
+  PetscInt returned = 0;   ///< those of `released` that slide against their friction
   PetscInt unheld = 0;     ///< closed nodes of a sticking interface without tangential force
   /// Magnitude of the sum of the moments of the contact forces on both sides, N·m. It is nonzero if
   /// surfaces whose meshes do not match are a distance apart.

@@ -2,6 +2,7 @@
 #include "steady/steady/sticking.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/petsc/arrays.hpp"
 #include "base/system/mpi.hpp"
@@ -87,48 +88,70 @@ bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std
 
 namespace {
 
-/// Collective. Returns by what factor each node exceeds its limit of friction, [contact node]; 0
-/// where it does not, or where its interface does not release nodes.
+/// Returns by what factor each pressed node exceeds its limit of friction, [contact node]; infinity
+/// for a node without pressure, 0 where the limit is not exceeded or the interface releases no
+/// node.
 std::vector<double> excesses(const contact::Contact& contact, const Solution& solution) {
   std::vector<double> found;
   for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
     const auto& options = contact.interfaces.options[contact.interfaces.nodes[i].interface];
     const auto& state = solution.contact[i];
-    const bool exceeds = options.releases && exceedsLimit(contact, solution, i);
-    found.push_back(exceeds ? mesh::length(state.frictionForce) /
-                                  (*options.stickingLimit * std::max(state.normalForce, 0.0) +
-                                   solution.negligibleForce)
-                            : 0);
+    if (!options.releases || !exceedsLimit(contact, solution, i))
+      found.push_back(0);
+    else if (const double limit = *options.stickingLimit * state.normalForce; limit > 0)
+      found.push_back(mesh::length(state.frictionForce) / limit);
+    else
+      found.push_back(INFINITY);
   }
+  return found;
+}
+
+/// Collective. Returns 1 for the released nodes that are closed and slide against their friction,
+/// [contact node].
+contact::Mask slidingBack(const contact::Contact& contact, const Solution& solution) {
+  const auto jumps = tangentialJumps(contact, solution.displacement);
+  const double nothing = slipRounding * largestLength(contact.mesh->comm, jumps);
+  const auto& sticking = solution.sticking;
+  contact::Mask found;
+  for (std::size_t i = 0; i < jumps.size(); ++i)
+    found.push_back(sticking.holds[i] == Hold::released && solution.closed[i] &&
+                    mesh::dot(sticking.direction[i], jumps[i]) < -nothing);
   return found;
 }
 
 }  // namespace
 
+void countReturned(const contact::Contact& contact, Solution& solution) {
+  if (!contact.hasSticking()) return;
+  const auto back = slidingBack(contact, solution);
+  std::vector<PetscInt> counts(solution.resultants.size(), 0);
+  for (std::size_t i = 0; i < back.size(); ++i)
+    counts[contact.interfaces.nodes[i].interface] += back[i];
+  mpi::reduce<PetscInt>(contact.mesh->comm, counts, MPI_SUM);
+  for (std::size_t k = 0; k < counts.size(); ++k) solution.resultants[k].returned = counts[k];
+}
+
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution) {
   if (!contact.hasSticking()) return {};
   const MPI_Comm comm = contact.mesh->comm;
-  const auto jumps = tangentialJumps(contact, solution.displacement);
-  const double nothing = slipRounding * largestLength(comm, jumps);
+  const auto back = slidingBack(contact, solution);
   Sticking next = solution.sticking;
   const auto excess = excesses(contact, solution);
   double largest = 0;  // of the nodes that have slid back
   for (std::size_t i = 0; i < excess.size(); ++i)
-    if (next.slidBack[i] > 0) largest = std::max(largest, excess[i]);
+    if (next.slidBack[i] > 0 && std::isfinite(excess[i])) largest = std::max(largest, excess[i]);
   largest = mpi::max(comm, largest);
   const double most = 1 + 0.5 * (largest - 1);
   for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
     const auto& node = contact.interfaces.nodes[i];
     Hold& hold = next.holds[i];
     if (node.role != contact::Role::sticking) continue;
-    const bool slidesBack =
-        hold == Hold::released && mesh::dot(next.direction[i], jumps[i]) < -nothing;
     if (!solution.closed[i]) {
       hold = Hold::open;
     } else if (hold == Hold::open) {
       hold = next.heldAgain[i] ? Hold::open : Hold::held;
       next.heldAgain[i] = 1;
-    } else if (slidesBack) {
+    } else if (back[i]) {
       if (next.slidBack[i] == mostReturns) continue;
       hold = Hold::held;
       ++next.slidBack[i];

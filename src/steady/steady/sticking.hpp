@@ -61,6 +61,9 @@ bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std
 /// released.
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution);
 
+/// Collective. Counts the released nodes that slide against their friction, Resultant::returned.
+void countReturned(const contact::Contact& contact, Solution& solution);
+
 /// The largest number of times that a node is held again after it has slid back.
 inline constexpr unsigned char mostReturns = 3;
 

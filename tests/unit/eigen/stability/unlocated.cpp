@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace squeal::test {
 namespace {
 
@@ -15,6 +17,7 @@ tracking::Station stationOf(double friction, const std::vector<Complex>& values,
   tracking::Station station{.friction = friction, .pairs = {}, .piece = piece};
   for (const Complex s : values) station.pairs.push_back({s, {}});
   station.inBand.assign(values.size(), 1);
+  station.branch.assign(values.size(), 0);
   return station;
 }
 
@@ -46,16 +49,19 @@ TEST(UnlocatedChanges, AreListedInTheirSteps) {
     EXPECT_EQ(critical.kind, kind[i]);
     EXPECT_EQ(critical.loss, loss[i]);
     EXPECT_FALSE(critical.converged);
+    EXPECT_EQ(critical.partner, 0);
   }
 }
 
 // A known critical friction, or one known to lie in the step, explains the change.
 TEST(UnlocatedChanges, AreNotListedTwice) {
   TrackedLine tracked = line();
-  for (const auto& [friction, error] : {std::pair{0.12, 0.}, {0.26, 1e-9}, {0.35, 0.05}}) {
+  for (const auto& [friction, error, loss] :
+       {std::tuple{0.12, 0., true}, {0.26, 1e-9, false}, {0.35, 0.05, true}}) {
     stability::Critical known;
     known.friction = friction;
     known.errorEstimate = error;
+    known.loss = loss;
     tracked.criticals.push_back(known);
     tracked.criticalModes.emplace_back();
   }
@@ -63,19 +69,47 @@ TEST(UnlocatedChanges, AreNotListedTwice) {
   EXPECT_EQ(tracked.criticals.size(), 3U);
 }
 
-// The active set changes between 0.1 and 0.2. A jump whose friction is known has a station of both
-// pieces there.
-TEST(DirectJumps, LieBetweenStationsOfDifferentPieces) {
+// A critical friction of the other direction explains nothing.
+TEST(UnlocatedChanges, HaveADirection) {
   TrackedLine tracked = line();
-  const auto jumps = stability::directJumps(tracked.branches);
-  ASSERT_EQ(jumps.size(), 1U);
-  EXPECT_EQ(jumps[0], std::pair(0.1, 0.2));
+  tracked.criticals.emplace_back().friction = 0.15;
+  tracked.criticals.back().loss = false;
+  tracked.criticalModes.emplace_back();
+  stability::addUnlocatedChanges(tracked);
+  EXPECT_EQ(tracked.criticals.size(), 4U);
+}
+
+// An unstable branch that enters the band from the guard zone has lost its stability elsewhere.
+TEST(UnlocatedChanges, AreNoneAtTheEdgeOfTheBand) {
+  TrackedLine tracked = line();
+  auto& stations = tracked.branches.stations;
+  stations.resize(3);
+  for (auto& station : stations) station.branch = {1, 2};
+  for (std::size_t k : {0, 1}) {
+    stations[k].pairs.push_back({{8, 300}, {}});
+    stations[k].inBand.push_back(0);
+    stations[k].branch.push_back(3);
+  }
+  stations[2].pairs[0].s = {-1, 110};
+  stations[2].branch[1] = 3;
+  stability::addUnlocatedChanges(tracked);
+  EXPECT_TRUE(tracked.criticals.empty());
+}
+
+// Below the first friction of a line without an earlier one, another active set applies.
+TEST(UnlocatedChanges, BeginWhereTheLineDoes) {
+  TrackedLine tracked = line();
+  tracked.from = 0.25;
+  stability::addUnlocatedChanges(tracked);
+  ASSERT_EQ(tracked.criticals.size(), 1U);
+  EXPECT_DOUBLE_EQ(tracked.criticals[0].friction, 0.35);
+}
+
+TEST(UnlocatedChanges, AreNamedByTheStatement) {
+  TrackedLine tracked = line();
+  tracked.unlocated.emplace_back(0.1, 0.2);
   EXPECT_NE(tracked.statement().find("between friction 0.1 and 0.2, where the active set changes"),
             std::string::npos);
-  tracked.branches.stations.insert(
-      tracked.branches.stations.begin() + 2,
-      {stationOf(0.15, {{-1, 100}}, 0), stationOf(0.15, {{5, 110}}, 1)});
-  EXPECT_TRUE(stability::directJumps(tracked.branches).empty());
 }
 
 }  // namespace
