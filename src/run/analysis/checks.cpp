@@ -6,6 +6,7 @@
 #include "base/options/options.hpp"
 #include "base/petsc/finite.hpp"
 #include "base/petsc/object.hpp"
+#include "base/session/stages.hpp"
 #include "eigen/modes/settings.hpp"
 #include "eigen/pencil/settings.hpp"
 #include "regime/regime/checks.hpp"

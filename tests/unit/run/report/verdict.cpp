@@ -118,11 +118,11 @@ TEST(RunVerdict, OfUnstablePoints) {
   EXPECT_EQ(report::runVerdict(run).sentence, "Unstable at friction 0 already" + fastest + "0.4.");
 }
 
-// The lowest friction of a loss that has settled, if no unstable point lies below it.
+// The lowest friction of a loss, if it has settled and no unstable point lies below it.
 TEST(RunVerdict, NamesTheFirstLoss) {
   analysis::Analysis run = unstableFrom(0);
   addCritical(run, 0.01, false, true);  // regained
-  addCritical(run, 0.02, true, false);  // not settled
+  addCritical(run, 0.15, true, false);  // not settled
   addCritical(run, 0.3, true, true);
   EXPECT_FALSE(report::runVerdict(run).criticalFriction);  // 0.2 is unstable
   addCritical(run, 0.1234567, true, true);
@@ -131,6 +131,16 @@ TEST(RunVerdict, NamesTheFirstLoss) {
   addCritical(run, 0, true, true);
   EXPECT_EQ(report::runVerdict(run).sentence,
             "Unstable as soon as there is friction" + fastest + "0.4.");
+}
+
+// A loss between 0.05 and 0.1 leaves open which one is the first.
+TEST(RunVerdict, NamesNoLossAboveAnUnsettledOne) {
+  analysis::Analysis run = unstableFrom(0);
+  addCritical(run, 0.1234567, true, true);
+  addCritical(run, 0.075, true, false);
+  run.flutter.segments.back().trackedLines.back().criticals.back().errorEstimate = 0.025;
+  EXPECT_FALSE(report::runVerdict(run).criticalFriction);
+  EXPECT_EQ(report::runVerdict(run).sentence, "Unstable from friction 0.2 on" + fastest + "0.4.");
 }
 
 // With two swept parameters there is no single critical friction, and the fastest mode is placed by
