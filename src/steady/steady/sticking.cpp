@@ -124,11 +124,13 @@ contact::Mask slidingBack(const contact::Contact& contact, const Solution& solut
 void countReturned(const contact::Contact& contact, Solution& solution) {
   if (!contact.hasSticking()) return;
   const auto back = slidingBack(contact, solution);
-  std::vector<PetscInt> counts(solution.resultants.size(), 0);
+  std::vector<PetscInt> counts(contact.interfaces.names.size(), 0);
   for (std::size_t i = 0; i < back.size(); ++i)
     counts[contact.interfaces.nodes[i].interface] += back[i];
   mpi::reduce<PetscInt>(contact.mesh->comm, counts, MPI_SUM);
-  for (std::size_t k = 0; k < counts.size(); ++k) solution.resultants[k].returned = counts[k];
+  auto resultant = solution.resultants.begin();  // tied interfaces have none
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    if (!contact.interfaces.options[k].isTied()) (resultant++)->returned = counts[k];
 }
 
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution) {
