@@ -30,8 +30,9 @@ struct Sliding {
   /// x = 0, by 60 % at the next one, by 20 % at all others.
   void holdBeyondLimit(unsigned char slidBack) {
     for (std::size_t i = 0; i < state.contact.size(); ++i) {
-      const double x = contact.interfaces.nodes[i].position[0],
-                   factor = x < 0.25 ? 2 : x < 0.75 ? 1.6 : 1.2;
+      const double x = contact.interfaces.nodes[i].position[0], factor = x < 0.25   ? 2
+                                                                         : x < 0.75 ? 1.6
+                                                                                    : 1.2;
       state.sticking.holds[i] = Hold::held;
       state.sticking.slidBack[i] = slidBack;
       state.contact[i].frictionForce = {factor * 0.05 * state.contact[i].normalForce};
