@@ -55,6 +55,9 @@ struct PointSolution {
   Spectrum spectrum;
   std::vector<PairErrors> errors;  ///< [pair of the band]
   pencil::Symmetry symmetry = pencil::Symmetry::none;
+
+  /// Moves the pairs of the band with |s| > `top` (rad/s) to the guard zone.
+  void truncate(double top);
 };
 
 /// A point in the current basis.

@@ -15,32 +15,6 @@
 #include "eigen/reduction/spectrum.hpp"
 
 namespace squeal::reduction {
-namespace {
-
-/// Returns the frequencies of a list up to a limit, rad/s.
-std::vector<double> upTo(double top, std::vector<double> frequencies) {
-  std::erase_if(frequencies, [&](double w) { return w > top; });
-  return frequencies;
-}
-
-/// Moves the listed pairs of a point above `top` to the guard zone.
-void truncateBand(PointSolution& solution, double top) {
-  auto& [band, guard, improved] = solution.spectrum;
-  std::size_t kept = 0;
-  for (std::size_t j = 0; j < band.size(); ++j) {
-    if (std::abs(band[j].s) > top) {
-      guard.push_back(std::move(band[j]));
-      continue;
-    }
-    solution.errors[kept] = solution.errors[j];
-    if (kept != j) band[kept] = std::move(band[j]);
-    ++kept;
-  }
-  band.resize(kept);
-  solution.errors.resize(kept);
-}
-
-}  // namespace
 
 ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                                const modes::Modes& modes, const Settings& settings,
@@ -64,6 +38,13 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const factor::Assoc
 
 int ReducedProblem::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
   return withBand(basis_.addSet(pencil, has));
+}
+
+/// Returns the frequencies of the free modes up to a limit, rad/s.
+std::vector<double> ReducedProblem::frequenciesUpTo(double top) const {
+  auto frequencies = frequencies_;
+  std::erase_if(frequencies, [&](double w) { return w > top; });
+  return frequencies;
 }
 
 /// Gives a new set the band of the basis, and returns its index.
@@ -220,11 +201,11 @@ std::vector<PointState> ReducedProblem::statesOf(const std::vector<PointProblem>
 std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointProblem>& batch,
                                                         Mat trial) {
   if (!std::exchange(started_, true) && settings_.corrected && !basis_.isComplete())
-    corrector_.start(batch.front(), upTo(band_.top, frequencies_));
+    corrector_.start(batch.front(), frequenciesUpTo(band_.top));
   std::vector<PointState> states = statesOf(batch);
   correct(states);
   for (auto& state : states)
-    if (state.set->top != band_.top) truncateBand(state.solution, state.set->top);
+    if (state.set->top != band_.top) state.solution.truncate(state.set->top);
   std::vector<pencil::ComplexModes> points;
   for (const auto& state : states) points.push_back(result(state));
   storeShapes(points, states, trial);

@@ -156,6 +156,7 @@ class ReducedProblem {
       const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 
  private:
+  std::vector<double> frequenciesUpTo(double top) const;
   int withBand(int number);
   std::vector<PointState> statesOf(const std::vector<PointProblem>& batch);
   void correct(std::vector<PointState>& states);

@@ -37,6 +37,87 @@ bool isCounted(const Branches& branches, const modes::Modes& modes) {
          top * top <= modes.inertiaShift && areFreeModes(branches.stations.front(), w, below);
 }
 
+/// The pieces of a line, ready to be tracked.
+struct TrackedPath {
+  std::vector<std::unique_ptr<tracking::ReducedFamily>> families;  ///< [piece]
+  std::vector<Piece> pieces;                                       ///< borrow the families
+};
+
+/// Collective. Returns the path of a line; it begins at friction 0 unless the line continues
+/// another one.
+TrackedPath pathOf(reduction::ReducedProblem& reduced, const Line& line, MPI_Comm comm,
+                   const std::function<void(const std::string&)>& progress) {
+  TrackedPath path;
+  for (const auto& piece : line.pieces) {
+    auto& family = path.families.emplace_back(
+        std::make_unique<tracking::ReducedFamily>(reduced, comm, line.at, piece.source, progress));
+    auto& added = path.pieces.emplace_back(family.get(), piece.frictions);
+    for (const double friction : piece.frictions)
+      added.needed.push_back(std::ranges::binary_search(line.swept, friction));
+  }
+  if (auto& first = path.pieces.front(); first.frictions.front() != 0 && !line.continues) {
+    first.frictions.insert(first.frictions.begin(), 0);
+    first.needed.insert(first.needed.begin(), 1);
+  }
+  return path;
+}
+
+/// Returns the steps between pieces, within which the active set changes at unknown frictions.
+std::vector<std::pair<double, double>> stepsBetween(const std::vector<Piece>& pieces) {
+  std::vector<std::pair<double, double>> steps;
+  for (std::size_t k = 1; k < pieces.size(); ++k)
+    if (const double from = pieces[k - 1].frictions.back(), to = pieces[k].frictions.front();
+        from < to)
+      steps.emplace_back(from, to);
+  return steps;
+}
+
+/// Lets a line begin at its lowest friction of the sweep, after a step that no basis serves.
+void beginAfterStep(const Line& line, TrackedLine& tracked) {
+  tracked.from = line.swept.front();
+  auto& gaps = tracked.branches.gaps;
+  std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= tracked.from; });
+  gaps.push_back({*line.before, tracked.from,
+                  "no basis serves the active sets of both frictions (" + line.whyNoBasis + ")"});
+  std::erase_if(tracked.criticals,
+                [&](const Critical& critical) { return critical.friction < tracked.from; });
+}
+
+/// Collective. Follows the eigenvalues of one line.
+TrackedLine trackLine(reduction::ReducedProblem& reduced, const Line& line,
+                      const Settings& settings, MPI_Comm comm,
+                      const std::function<void(const std::string&)>& progress) {
+  TrackedLine tracked;
+  tracked.line = line.at;
+  tracked.begin = line.swept.front();
+  tracked.continues = line.continues;
+  tracked.isContinued = line.isContinued;
+  PetscInt unknowns = 0;
+  check(MatGetSize(reduced.basis().stiffness(), &unknowns, nullptr));
+  tracked.wholeSpace = reduced.basisSize() == unknowns;
+  for (const auto& piece : line.pieces) tracked.activeSet.push_back(piece.activeSet);
+  const TrackedPath path = pathOf(reduced, line, comm, progress);
+  tracked.unlocated = stepsBetween(path.pieces);
+  tracking::TrackLimits limits;
+  limits.smallest = settings.smallest;
+  tracked.branches = track(path.pieces, reduced.band(), limits);
+  auto& stations = tracked.branches.stations;
+  for (auto& station : stations)
+    station.swept = std::ranges::binary_search(line.swept, station.friction);
+  if (!stations.empty()) {
+    auto& family = *path.families[stations.front().piece];
+    const auto problem = family.at(stations.front().friction);
+    tracked.isDamped = problem && !problem->damping.empty();
+    tracked.countExact = problem && !tracked.isDamped && isCounted(tracked.branches, *line.modes);
+  }
+  renumber(tracked.branches);
+  if (settings.critical)
+    tracked.criticals = criticalFrictions(path.pieces, tracked.branches, settings.tolerance);
+  if (line.before) beginAfterStep(line, tracked);
+  tracked.branches.events.clear();  // their vectors take much memory
+  return tracked;
+}
+
 }  // namespace
 
 bool worthTracking(const Line& line, bool requested) {
@@ -108,61 +189,8 @@ std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
                                     MPI_Comm comm,
                                     const std::function<void(const std::string&)>& progress) {
   std::vector<TrackedLine> result;
-  PetscInt unknowns = 0;
-  check(MatGetSize(reduced.basis().stiffness(), &unknowns, nullptr));
-  for (const auto& line : lines) {
-    TrackedLine tracked;
-    tracked.line = line.at;
-    tracked.begin = line.swept.front();
-    tracked.continues = line.continues;
-    tracked.isContinued = line.isContinued;
-    tracked.wholeSpace = reduced.basisSize() == unknowns;
-    std::vector<std::unique_ptr<tracking::ReducedFamily>> families;
-    std::vector<Piece> path;
-    for (const auto& piece : line.pieces) {
-      families.push_back(std::make_unique<tracking::ReducedFamily>(reduced, comm, line.at,
-                                                                   piece.source, progress));
-      auto& added = path.emplace_back(families.back().get(), piece.frictions);
-      for (const double friction : piece.frictions)
-        added.needed.push_back(std::ranges::binary_search(line.swept, friction));
-      tracked.activeSet.push_back(piece.activeSet);
-    }
-    if (auto& first = path.front(); first.frictions.front() != 0 && !line.continues) {
-      first.frictions.insert(first.frictions.begin(), 0);
-      first.needed.insert(first.needed.begin(), 1);
-    }
-    for (std::size_t k = 1; k < path.size(); ++k)
-      if (const double from = path[k - 1].frictions.back(), to = path[k].frictions.front();
-          from < to)
-        tracked.unlocated.emplace_back(from, to);
-    tracking::TrackLimits limits;
-    limits.smallest = settings.smallest;
-    tracked.branches = track(path, reduced.band(), limits);
-    auto& stations = tracked.branches.stations;
-    for (auto& station : stations)
-      station.swept = std::ranges::binary_search(line.swept, station.friction);
-    if (!stations.empty()) {
-      auto& family = *families[stations.front().piece];
-      const auto problem = family.at(stations.front().friction);
-      tracked.isDamped = problem && !problem->damping.empty();
-      tracked.countExact = problem && !tracked.isDamped && isCounted(tracked.branches, *line.modes);
-    }
-    renumber(tracked.branches);
-    if (settings.critical)
-      tracked.criticals = criticalFrictions(path, tracked.branches, settings.tolerance);
-    if (line.before) {
-      tracked.from = line.swept.front();
-      auto& gaps = tracked.branches.gaps;
-      std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= tracked.from; });
-      gaps.push_back(
-          {*line.before, tracked.from,
-           "no basis serves the active sets of both frictions (" + line.whyNoBasis + ")"});
-      std::erase_if(tracked.criticals,
-                    [&](const Critical& critical) { return critical.friction < tracked.from; });
-    }
-    tracked.branches.events.clear();  // their vectors take much memory
-    result.push_back(std::move(tracked));
-  }
+  for (const auto& line : lines)
+    result.push_back(trackLine(reduced, line, settings, comm, progress));
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include "run/analysis/flutter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "base/session/stages.hpp"
@@ -39,6 +40,13 @@ void continueLines(std::vector<sweep_solver::ModalSegment>& segments,
 }
 
 }  // namespace
+
+double Flutter::bandTop() const {
+  double top = 0;
+  for (const auto& segment : segments)
+    for (const auto& point : segment.points) top = std::max(top, point.bandTop);
+  return top > 0 ? top : INFINITY;
+}
 
 void Flutter::addFailure(MPI_Comm comm, const std::string& reason) {
   printWarning(comm, reason);

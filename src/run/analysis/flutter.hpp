@@ -26,6 +26,8 @@ struct Flutter {
   std::vector<std::string> failures = {};
   bool complete = true;  ///< false if a request to stop ended the computation
 
+  /// Returns the largest top of the band of all points, rad/s; infinity if no point has one.
+  double bandTop() const;
   /// Not collective. Prints the reason why a stage has no result, and adds it to `failures`.
   void addFailure(MPI_Comm comm, const std::string& reason);
   /// Adds the results `more` of further points. Tracked lines with the same speed, pressure and

@@ -9,7 +9,6 @@
 #include "base/system/text.hpp"
 #include "eigen/sweep/parameters.hpp"
 #include "run/report/components.hpp"
-#include "run/report/verdict.hpp"
 
 namespace squeal::report {
 namespace {
@@ -149,7 +148,7 @@ std::string criticalSensitivityTable(const analysis::Analysis& analysis) {
 std::string trackingText(const analysis::Analysis& analysis) {
   constexpr int shown = 8;
   const auto swept = sweep::sweptParameters(analysis.sweep.points());
-  const double top = largestBandTop(analysis);
+  const double top = analysis.flutter.bandTop();
   std::string text;
   forEachTrackedLine(analysis, [&](const stability::TrackedLine& tracked) {
     const std::string line = lineLabel(tracked.line, swept);

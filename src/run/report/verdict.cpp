@@ -51,7 +51,7 @@ UnstableModes count(const analysis::Analysis& analysis, RunVerdict& verdict) {
 std::optional<double> firstLoss(const analysis::Analysis& analysis) {
   std::optional<double> lowest;
   double uncertain = INFINITY;  // lower end of the lowest step with a loss
-  const double top = largestBandTop(analysis);
+  const double top = analysis.flutter.bandTop();
   for (const auto& segment : analysis.flutter.segments)
     for (const auto& tracked : segment.trackedLines)
       for (const auto& critical : tracked.criticals)
@@ -140,13 +140,6 @@ std::string interruptedSentence(const RunVerdict& verdict, const UnstableModes& 
 }
 
 }  // namespace
-
-double largestBandTop(const analysis::Analysis& analysis) {
-  double top = 0;
-  for (const auto& segment : analysis.flutter.segments)
-    for (const auto& point : segment.points) top = std::max(top, point.bandTop);
-  return top > 0 ? top : INFINITY;
-}
 
 RunVerdict runVerdict(const analysis::Analysis& analysis) {
   const auto points = analysis.sweep.points();

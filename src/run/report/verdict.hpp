@@ -24,8 +24,6 @@ struct RunVerdict {
   std::optional<double> criticalFriction;
 };
 
-/// Returns the largest top of the band of all points, rad/s; infinity if no point has one.
-double largestBandTop(const analysis::Analysis& analysis);
 /// Returns the verdict of a run, complete or interrupted.
 RunVerdict runVerdict(const analysis::Analysis& analysis);
 
