@@ -47,8 +47,6 @@ class OpenProjections {
   OpenProjections(const elasticity::Bodies& bodies, const Contact& contact);
   /// Collective. Returns the projections of an active set.
   Projections of(const Contact& contact, const ActiveSet& set) const;
-  /// Returns TᵀKT, borrowed.
-  Mat stiffness() const { return all_.stiffness.matrix; }
 
  private:
   Projections all_;

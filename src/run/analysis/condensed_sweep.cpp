@@ -27,7 +27,6 @@ CondensedSweep::CondensedSweep(const SteadyInput& input, CurrentSystem& current,
     : input_(input),
       comm_(input.model.mesh->comm),
       problem_(*input.model.mesh, input.model.bodies, input.model.contact),
-      current_(current),
       closed_(current.of(input.model.bonded())),
       isExact_(condensed::CondensedProblem::isExact(input.model.contact, input.model.bodies)),
       states_(states) {}
@@ -54,7 +53,6 @@ void CondensedSweep::solveBatch(const std::vector<sweep::Parameters>& points) {
   Stage stage(comm_, "steady");
   if (!condensed_) {
     condensed_.emplace(problem_, closed_);
-    condensed_->offer([this] { return current_.open().stiffness(); });
     continueFromLast();
   }
   const long before = condensed_->solves();

@@ -46,7 +46,6 @@ class CondensedSweep {
   const SteadyInput input_;
   const MPI_Comm comm_;
   const steady::Problem problem_;
-  CurrentSystem& current_;
   const contact::CoupledSystem& closed_;  // system with all contact nodes closed
   const bool isExact_;                    // solutions between points are exact without corrections
   std::optional<condensed::CondensedProblem> condensed_;

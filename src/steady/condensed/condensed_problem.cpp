@@ -88,10 +88,6 @@ CondensedProblem::CondensedProblem(const Problem& problem, const contact::Couple
 
 CondensedProblem::~CondensedProblem() = default;
 
-void CondensedProblem::offer(std::function<Mat()> openStiffness) {
-  impedance_->offer(std::move(openStiffness));
-}
-
 const Loads& CondensedProblem::loads() {
   if (!loads_) loads_ = std::make_unique<Loads>(open(), *impedance_);
   return *loads_;

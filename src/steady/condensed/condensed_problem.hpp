@@ -2,7 +2,6 @@
 #pragma once
 /// Solves for steady sliding in the unknowns of the contact; all other equations are linear or
 /// nearly so [3.10–3.13, M.59].
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -53,9 +52,6 @@ class CondensedProblem {
   /// sticking nodes held, during the lifetime of the object.
   CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed);
   ~CondensedProblem();
-  /// Passes on a function that returns TᵀKT with all contact open and no sticking node held;
-  /// Impedance::offer() describes when it is used.
-  void offer(std::function<Mat()> openStiffness);
   /// Collective. Solves at all points as Problem::solve() does, starting from the gaps and holds of
   /// the last solution of the previous call. The call needs memory for several vectors of all
   /// unknowns per point.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "algebra/factor/schur.hpp"
@@ -218,29 +219,32 @@ DenseMatrix Impedance::responsesToUnits(const std::vector<PetscInt>& released) c
   return result;
 }
 
-/// Collective. Computes S, unless it differs from some of the responses that it replaces.
-void Impedance::condense() const {
-  if (!openStiffness_) return;
-  Stage stage(comm(), "factor");
-  const Mat stiffness = openStiffness_();
-  PetscInt unknowns = 0, size = 0;
-  check(MatGetLocalSize(stiffness, &unknowns, nullptr));
-  check(ISGetLocalSize(inner_, &size));
-  ensure(unknowns == size + std::ssize(nodeOf_), "the offered stiffness has the open unknowns");
+/// Collective. Returns S_c of the matrix [K0 K_yw; K_wy K_ww], in which each rank has its y before
+/// its w.
+DenseMatrix Impedance::schurComplement() const {
+  const std::array<Mat, 4> blocks{closed_.k0(), innerReleased_, forceInner_, forceReleased_};
+  OwnedMat nested, stiffness;
+  check(MatCreateNest(comm(), 2, nullptr, 2, nullptr, blocks.data(), nested.out()));
+  check(MatConvert(nested, MATAIJ, MAT_INITIAL_MATRIX, stiffness.out()));
+  PetscInt end = 0;
+  check(MatGetOwnershipRange(stiffness, nullptr, &end));
   std::vector<PetscInt> own(nodeOf_.size());
-  const PetscInt* columns = nullptr;
-  check(ISGetIndices(released_, &columns));
-  std::copy_n(columns, own.size(), own.begin());
-  check(ISRestoreIndices(released_, &columns));
-  DenseMatrix schur = factor::schurComplement(stiffness, own);
-  size = schur.columns();
-  const PetscInt first = mpi::sumBefore<PetscInt>(comm(), own.size());
+  std::iota(own.begin(), own.end(), end - std::ssize(own));
+  return factor::schurComplement(stiffness, own);
+}
+
+/// Collective. Computes S_c, unless it differs from some of the responses that it replaces.
+void Impedance::condense() const {
+  Stage stage(comm(), "factor");
+  DenseMatrix schur = schurComplement();
+  const PetscInt size = schur.columns();
+  const PetscInt count = std::ssize(nodeOf_), first = mpi::sumBefore(comm(), count);
   constexpr PetscInt samples = 8;
   DenseMatrix units(length(), samples);
   std::vector<PetscInt> chosen;
   for (PetscInt j = 0; j < samples; ++j) {
     chosen.push_back(j * (size - 1) / (samples - 1));
-    if (const PetscInt i = chosen[j] - first; i >= 0 && i < std::ssize(own))
+    if (const PetscInt i = chosen[j] - first; i >= 0 && i < count)
       units(nodes() + i, j) = 1;
   }
   const DenseMatrix exact = responses(units);

@@ -16,10 +16,9 @@
 ///
 /// The responses to w are the columns of the Schur complement of the contact,
 ///   S_c = K_ww − K_wy K0⁻¹ K_yw,   F = S_c w,   R = F in the rows of the gaps.
-/// One factorisation of K with all contact open gives S_c. Its cost is given at
+/// One factorisation of the stiffness with all contact open gives S_c. Its cost is given at
 /// Impedance::worthwhile.
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -44,14 +43,10 @@ class Impedance {
   /// solves for 1,300, 2,000, 3,500 and 8,000 unknowns, so it pays if about a third of them is
   /// needed; the first request is for the unknowns that are free on the first active set.
   static long worthwhile(PetscInt unknowns) { return std::max<long>(300, unknowns / 4); }
-  /// Collective. Takes a function that returns TᵀKT with all contact open and no sticking node
-  /// held, in the unknowns of `open`. Once more than `after` responses to unit vectors of w have
-  /// been requested (by default worthwhile()), further ones are taken from the Schur complement of
-  /// this matrix, if w has at most 8,000 entries and the complement passes a check of its accuracy.
-  void offer(std::function<Mat()> openStiffness, std::optional<long> after = {}) {
-    openStiffness_ = std::move(openStiffness);
-    after_ = after;
-  }
+  /// Once more responses to unit vectors of w than this have been requested (by default
+  /// worthwhile()), further ones are taken from the Schur complement, if w has at most 8,000 entries
+  /// and the complement passes a check of its accuracy.
+  void condenseAfter(long requests) { after_ = requests; }
   /// Returns true if the Schur complement is in use.
   bool isCondensed() const { return isCondensed_; }
 
@@ -84,6 +79,7 @@ class Impedance {
   long solves() const { return solves_; }  ///< total number of right-hand sides so far
 
  private:
+  linalg::DenseMatrix schurComplement() const;
   void condense() const;
   linalg::Block solved(const linalg::DenseView& forces) const;
   linalg::Block innerOf(const linalg::DenseView& t, const linalg::DenseView& w) const;
@@ -98,7 +94,6 @@ class Impedance {
   OwnedMat normalInner_, normalReleased_;                // N K T for y and for w
   OwnedMat forceInner_, forceReleased_, forceFriction_;  // K_wy, K_ww and S_wᵀ
   OwnedVec work_;                                        // y
-  std::function<Mat()> openStiffness_;                   // empty: not offered
   mutable long solves_ = 0;
   mutable long units_ = 0;             // number of requested responses to units of w
   std::optional<long> after_;          // none: worthwhile()
