@@ -28,7 +28,7 @@ constexpr PetscInt mostDirections = 500;
 /// The remainder of a direction, a unit vector, must be longer than this after orthogonalisation
 /// against the space of friction magnitudes, and against its block. The next block contains the
 /// directions omitted here.
-constexpr double newInSpace = 1e-10, newInBlock = 0.3;
+constexpr double newInSpace = 1e-10, newInBlock = 0.05;
 
 /// Collective. Returns for each column b the coefficients a that minimise |b − G a|. It refines the
 /// normal equations, which gives all digits if the condition number of G is below some 1e7. `gram`
@@ -115,11 +115,24 @@ double ContactSolver::stiffness(std::size_t unknown) const {
   return place < 0 ? 0 : free_.columns()(impedance_.nodes() + unknown, place);
 }
 
-/// Releases the free unknowns until F = 0 there. Returns their values, [known column], and adds
-/// their effects to `effects`.
-DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects) const {
-  DenseMatrix amounts = free_.released(block, effects);
-  if (!amounts.empty()) linalg::multiplyAdd(free_.columns(), amounts, effects);
+/// Releases the free unknowns of each search until F = 0 there. Returns their values, [known
+/// column], and adds their effects to its `effects`.
+std::vector<DenseMatrix> ContactSolver::release(const std::vector<Search>& searches,
+                                                std::vector<DenseMatrix>& effects) const {
+  std::vector<ReleaseTask> tasks;
+  for (std::size_t k = 0; k < searches.size(); ++k)
+    tasks.push_back({*searches[k].block, effects[k]});
+  auto amounts = free_.released(tasks);
+  const DenseMatrix& columns = free_.columns();
+  if (columns.columns() == 0) return amounts;
+  DenseMatrix all(columns.columns());  // one product reads the columns once
+  for (const auto& some : amounts) all.append(some);
+  const DenseMatrix changes = linalg::product(columns, all);
+  PetscInt first = 0;
+  for (auto& one : effects) {
+    linalg::addScaled(one, 1, changes.columnRange(first, first + one.columns()));
+    first += one.columns();
+  }
   return amounts;
 }
 
@@ -134,23 +147,34 @@ void ContactSolver::addDirect(const FreeBlock& block, const DenseView& t,
     for (PetscInt i = 0; i < forces.rows(); ++i) effects(n + i, j) += forces(i, j);
 }
 
-/// Updates a block to the present space of friction magnitudes.
-void ContactSolver::update(FreeBlock& block) const {
-  const PetscInt known = block.normal.columns(), all = magnitudes_.columns();
-  if (known == all) return;
-  DenseMatrix fresh(responses_.columnRange(known, all));
-  addDirect(block, magnitudes_.columnRange(known, all), fresh);
-  // Elsewhere c = 0, and R is not needed: most of the nodes of a brake have no friction.
-  DenseMatrix normal = linalg::rowsOf(frictional_, fresh);
-  const DenseMatrix amounts =
-      block.direct ? free_.released(block, fresh) : free_.released(block, responses_, known, all);
-  if (!amounts.empty()) linalg::multiplyAdd(frictionalColumns_, amounts, normal);
-  block.normal.append(normal);
+/// Updates these blocks, each listed once, to the present space of friction magnitudes.
+void ContactSolver::update(const std::vector<FreeBlock*>& blocks) const {
+  const PetscInt all = magnitudes_.columns();
+  std::vector<DenseMatrix> fresh(blocks.size());  // of the blocks with direct friction
+  std::vector<ReleaseTask> tasks;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    FreeBlock& block = *blocks[k];
+    const PetscInt known = block.normal.columns();
+    const DenseView responses = responses_.columnRange(known, all);
+    if (block.direct) {
+      fresh[k] = DenseMatrix(responses);
+      addDirect(block, magnitudes_.columnRange(known, all), fresh[k]);
+      tasks.push_back({block, fresh[k]});
+    } else {
+      tasks.push_back({block, responses, known});
+    }
+  }
+  const auto amounts = free_.released(tasks);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    // Elsewhere c = 0, and R is not needed: most of the nodes of a brake have no friction.
+    DenseMatrix normal = linalg::rowsOf(frictional_, tasks[k].effects);
+    if (!amounts[k].empty()) linalg::multiplyAdd(frictionalColumns_, amounts[k], normal);
+    blocks[k]->normal.append(normal);
+  }
 }
 
-/// Updates a search to the present space of friction magnitudes.
+/// Updates a search, whose block is up to date, to the present space of friction magnitudes.
 void ContactSolver::update(Search& search) const {
-  update(*search.block);
   const PetscInt known = search.g.columns(), all = magnitudes_.columns();
   if (known == all) return;
   const auto& coefficient = search.conditions.coefficient;
@@ -200,12 +224,14 @@ void ContactSolver::begin(std::vector<Search>& searches) {
                          free_.blockOf(search.conditions.free, search.conditions.direct));
   free_.makeReady(blocks);
   const PetscInt n = impedance_.nodes();
-  for (Search& search : searches) {
-    DenseMatrix effects = search.given;
-    release(*search.block, effects);
+  std::vector<DenseMatrix> effects;
+  for (const Search& search : searches) effects.push_back(search.given);
+  release(searches, effects);
+  for (std::size_t k = 0; k < searches.size(); ++k) {
+    Search& search = searches[k];
     search.g = DenseMatrix(n);
-    search.wanted = linalg::rowRange(effects, 0, n);
-    for (PetscInt j = 0; j < effects.columns(); ++j)
+    search.wanted = linalg::rowRange(effects[k], 0, n);
+    for (PetscInt j = 0; j < effects[k].columns(); ++j)
       for (PetscInt i = 0; i < n; ++i) search.wanted(i, j) *= search.conditions.coefficient[i];
     search.left = lengths(impedance_.comm(), search.wanted);
     for (std::size_t j = 0; j < search.unit.size(); ++j)
@@ -222,6 +248,13 @@ void ContactSolver::balance(std::vector<Search>& searches, double accuracy) {
   DenseMatrix unbalanced(n);
   do {
     unbalanced.resizeColumns(0);
+    std::vector<FreeBlock*> blocks;
+    for (const Search& search : searches)
+      if (FreeBlock* block = search.block.get(); !search.isBalanced(accuracy) &&
+                                                 block->normal.columns() < magnitudes_.columns() &&
+                                                 std::ranges::find(blocks, block) == blocks.end())
+        blocks.push_back(block);
+    update(blocks);
     for (Search& search : searches) {
       if (search.isBalanced(accuracy)) continue;
       update(search);
@@ -248,16 +281,34 @@ void ContactSolver::balance(std::vector<Search>& searches, double accuracy) {
   } while (unbalanced.columns() > 0 && magnitudes_.columns() < most && extend(unbalanced));
 }
 
-ContactResponses ContactSolver::responses(const Search& search, double accuracy) const {
-  const PetscInt n = impedance_.nodes(), known = search.weights.rows(),
-                 columns = search.given.columns();
-  const DenseMatrix t = linalg::product(magnitudes_.columnRange(0, known), search.weights);
-  ContactResponses result{DenseMatrix(impedance_.length(), columns), search.given,
+std::vector<ContactResponses> ContactSolver::responses(const std::vector<Search>& searches,
+                                                       double accuracy) const {
+  std::vector<DenseMatrix> friction, effects;
+  for (const Search& search : searches) {
+    const PetscInt known = search.weights.rows();
+    const auto& t =
+        friction.emplace_back(linalg::product(magnitudes_.columnRange(0, known), search.weights));
+    auto& all = effects.emplace_back(search.given);
+    linalg::multiplyAdd(responses_.columnRange(0, known), search.weights, all);
+    addDirect(*search.block, t, all);
+  }
+  const auto freed = release(searches, effects);
+  std::vector<ContactResponses> result;
+  for (std::size_t k = 0; k < searches.size(); ++k)
+    result.push_back(
+        concluded(searches[k], friction[k], freed[k], std::move(effects[k]), accuracy));
+  return result;
+}
+
+/// Collective. Returns the responses of a search, whose friction is t and whose free unknowns have
+/// these values.
+ContactResponses ContactSolver::concluded(const Search& search, const DenseMatrix& t,
+                                          const DenseMatrix& freed, DenseMatrix all,
+                                          double accuracy) const {
+  const PetscInt n = impedance_.nodes(), columns = search.given.columns();
+  ContactResponses result{DenseMatrix(impedance_.length(), columns), std::move(all),
                           std::vector<int>(columns)};
-  DenseMatrix& effects = result.effects;
-  linalg::multiplyAdd(responses_.columnRange(0, known), search.weights, effects);
-  addDirect(*search.block, t, effects);
-  const DenseMatrix freed = release(*search.block, effects);
+  const DenseMatrix& effects = result.effects;
   const auto& local = search.block->unknowns.local;
   // No reaction balances forces on a rigid-body mode.
   std::vector<double> largest(2 * columns, 0.0);  // of forces on free unknowns, and of given ones
@@ -313,12 +364,10 @@ std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> c
           {cases[k].conditions, DenseMatrix(length, 1, cases[k].given), {cases[k].frictionUnit}});
     begin(searches);
     balance(searches, accuracy);
-    for (const auto& search : searches) {
-      const auto [causes, effects, found] = responses(search, accuracy);
+    for (const auto& [causes, effects, found] : responses(searches, accuracy))
       solutions.push_back({{causes.entries().begin(), causes.entries().end()},
                            {effects.entries().begin(), effects.entries().end()},
                            found[0] != 0});
-    }
   }
   return solutions;
 }
@@ -356,7 +405,8 @@ std::vector<ContactResponses> ContactSolver::respond(std::span<const ContactCase
     searches.push_back({one.conditions, std::move(given), units});
     begin(searches);
     balance(searches, balanced);
-    auto& [t, effects, found] = result.emplace_back(responses(searches.front(), balanced));
+    auto& [t, effects, found] =
+        result.emplace_back(std::move(responses(searches, balanced).front()));
     for (std::size_t k = 0; k < changed.size(); ++k) {
       if (!isOwn(changed[k])) continue;
       const PetscInt row = n + changed[k] - first;

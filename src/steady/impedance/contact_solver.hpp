@@ -84,16 +84,21 @@ class ContactSolver {
  private:
   struct Search;
   void computeColumns(std::span<const unsigned char> free);
-  linalg::DenseMatrix release(const FreeBlock& block, linalg::DenseMatrix& effects) const;
+  std::vector<linalg::DenseMatrix> release(const std::vector<Search>& searches,
+                                           std::vector<linalg::DenseMatrix>& effects) const;
   void addDirect(const FreeBlock& block, const linalg::DenseView& t,
                  linalg::DenseMatrix& effects) const;
   void noteFriction(std::span<const ContactCase> cases);
-  void update(FreeBlock& block) const;
+  void update(const std::vector<FreeBlock*>& blocks) const;
   void update(Search& search) const;
   std::vector<std::size_t> groups(std::span<const ContactCase> cases) const;
   void begin(std::vector<Search>& searches);
   void balance(std::vector<Search>& searches, double accuracy);
-  ContactResponses responses(const Search& search, double accuracy) const;
+  std::vector<ContactResponses> responses(const std::vector<Search>& searches,
+                                          double accuracy) const;
+  ContactResponses concluded(const Search& search, const linalg::DenseMatrix& t,
+                             const linalg::DenseMatrix& freed, linalg::DenseMatrix all,
+                             double accuracy) const;
   bool extend(const linalg::DenseMatrix& directions);
 
   const Impedance& impedance_;

@@ -53,6 +53,7 @@ struct FreeBlock {
   /// Returns the memory of the inverses in bytes, the same on all ranks.
   double bytes() const;
   const FreeBlock& baseOrSelf() const { return base ? *base : *this; }
+  FreeBlock& baseOrSelf() { return base ? *base : *this; }
 };
 
 /// Collective. Computes the inverses of those blocks that are not ready; all owners work at the

@@ -157,47 +157,45 @@ DenseMatrix FreeUnknowns::forcesAt(const Unknowns& at, const DenseView& effects)
   return linalg::gatheredRows(at.ranks, rows);
 }
 
-DenseMatrix FreeUnknowns::released(const FreeBlock& block, const DenseView& effects) const {
-  const FreeBlock& base = block.baseOrSelf();
-  DenseMatrix inBase = forcesAt(base.unknowns, effects);
-  if (mpi::rank(impedance_.comm()) == base.owner) base.stiffness.apply(inBase);
-  return finished(block, std::move(inBase), effects);
-}
-
-/// Collective. Returns the values of the free unknowns from the solutions of the base, which the
-/// owner has.
-DenseMatrix FreeUnknowns::finished(const FreeBlock& block, DenseMatrix inBase,
-                                   const DenseView& effects) const {
+std::vector<DenseMatrix> FreeUnknowns::released(std::span<const ReleaseTask> tasks) const {
   const MPI_Comm comm = impedance_.comm();
-  DenseMatrix amounts(columns_.columns(), inBase.columns()), more(0, inBase.columns());
-  if (block.base) more = forcesAt(block.added, effects);
-  if (block.base && mpi::rank(comm) == block.owner) block.border.complete(inBase, more);
-  const auto take = [&](DenseMatrix& values, const Unknowns& of) {
-    mpi::broadcastEntries(comm, values.entries(), block.owner);
-    for (PetscInt j = 0; j < values.columns(); ++j)
-      for (PetscInt i = 0; i < values.rows(); ++i) amounts(of.places[i], j) = -values(i, j);
-  };
-  take(inBase, block.baseOrSelf().unknowns);
-  if (block.base) take(more, block.added);
-  return amounts;
-}
-
-DenseMatrix FreeUnknowns::released(FreeBlock& block, const DenseView& effects, PetscInt first,
-                                   PetscInt last) const {
-  FreeBlock& base = block.base ? *block.base : block;
-  const bool isOwner = mpi::rank(impedance_.comm()) == base.owner;
-  if (base.solved < last) {
-    DenseMatrix more = forcesAt(base.unknowns, effects.columnRange(base.solved, last));
-    base.solved = last;
-    if (isOwner) {
-      base.stiffness.apply(more);
-      base.solutions.append(more);
-    }
+  std::vector<DenseMatrix> inBase, added;  // forces, then values
+  for (const auto& [block, effects, magnitude] : tasks) {
+    FreeBlock& base = block.baseOrSelf();
+    const PetscInt last = magnitude + effects.columns(), columns = effects.columns(),
+                   known = magnitude < 0 ? 0 : std::min(base.solved - magnitude, columns);
+    inBase.push_back(forcesAt(base.unknowns, effects.columnRange(known, columns)));
+    added.push_back(block.base ? forcesAt(block.added, effects) : DenseMatrix());
+    if (magnitude >= 0) base.solved = std::max(base.solved, last);
   }
-  return finished(block,
-                  isOwner ? DenseMatrix(base.solutions.columnRange(first, last))
-                          : DenseMatrix(base.unknowns.ranks.size(), last - first),
-                  effects.columnRange(first, last));
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    FreeBlock& block = tasks[k].block;
+    FreeBlock& base = block.baseOrSelf();
+    const PetscInt columns = tasks[k].effects.columns(), magnitude = tasks[k].magnitude;
+    if (mpi::rank(comm) != base.owner) {
+      inBase[k] = DenseMatrix(base.unknowns.ranks.size(), columns);
+      continue;
+    }
+    base.stiffness.apply(inBase[k]);
+    if (magnitude >= 0) {
+      base.solutions.append(inBase[k]);
+      inBase[k] = DenseMatrix(base.solutions.columnRange(magnitude, magnitude + columns));
+    }
+    if (block.base) block.border.complete(inBase[k], added[k]);
+  }
+  std::vector<DenseMatrix> amounts;
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const FreeBlock& block = tasks[k].block;
+    auto& all = amounts.emplace_back(columns_.columns(), tasks[k].effects.columns());
+    const auto take = [&](DenseMatrix& values, const Unknowns& of) {
+      mpi::broadcastEntries(comm, values.entries(), block.owner);
+      for (PetscInt j = 0; j < values.columns(); ++j)
+        for (PetscInt i = 0; i < values.rows(); ++i) all(of.places[i], j) = -values(i, j);
+    };
+    take(inBase[k], block.baseOrSelf().unknowns);
+    if (block.base) take(added[k], block.added);
+  }
+  return amounts;
 }
 
 void FreeUnknowns::makeReady(const std::vector<std::shared_ptr<FreeBlock>>& blocks) {

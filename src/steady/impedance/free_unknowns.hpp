@@ -12,6 +12,17 @@
 
 namespace squeal::impedance {
 
+/// The effects for which the unknowns of a block are released.
+struct ReleaseTask {
+  FreeBlock& block;           ///< borrowed
+  linalg::DenseView effects;  ///< (R, F), [entry]×[column]; borrowed
+  /// The index of the first column if the columns belong to consecutive friction magnitudes,
+  /// without the forces of Impedance::directFriction(); −1 otherwise. All earlier columns must have
+  /// been in tasks of the block or of others with the same base, and a column must not change
+  /// afterwards, because these blocks share results.
+  PetscInt magnitude = -1;
+};
+
 /// The known columns Z (0, e) of an Impedance, and the blocks of free unknowns in use. Blocks with
 /// a stiffness of their own are assigned to the ranks in turn.
 class FreeUnknowns {
@@ -37,14 +48,9 @@ class FreeUnknowns {
   void makeReady(const std::vector<std::shared_ptr<FreeBlock>>& blocks);
   /// Returns the blocks in use, the newest first.
   const std::vector<std::shared_ptr<FreeBlock>>& blocks() const { return blocks_; }
-  /// Collective. Returns, on all ranks, the values of the free unknowns, [known column], for which
-  /// the forces in their rows vanish.
-  linalg::DenseMatrix released(const FreeBlock& block, const linalg::DenseView& effects) const;
-  /// Collective. Does the same for the columns [first, last) of `effects`, which has one column per
-  /// friction magnitude, without the forces of Impedance::directFriction(). A column must not
-  /// change once it has been used, because blocks with the same base share results.
-  linalg::DenseMatrix released(FreeBlock& block, const linalg::DenseView& effects, PetscInt first,
-                               PetscInt last) const;
+  /// Collective. Returns for each task, on all ranks, the values of the free unknowns, [known
+  /// column]×[column], for which the forces in their rows vanish. All owners work at the same time.
+  std::vector<linalg::DenseMatrix> released(std::span<const ReleaseTask> tasks) const;
   /// Limit on the memory of all inverses, bytes, summed over the ranks; a single one may exceed it.
   static double mostBytes(MPI_Comm comm);
 
@@ -54,8 +60,6 @@ class FreeUnknowns {
   void gatherStiffness(FreeBlock& block);
   void gatherBorder(FreeBlock& block) const;
   linalg::DenseMatrix forcesAt(const Unknowns& at, const linalg::DenseView& effects) const;
-  linalg::DenseMatrix finished(const FreeBlock& block, linalg::DenseMatrix inBase,
-                               const linalg::DenseView& effects) const;
 
   const Impedance& impedance_;
   PetscInt first_ = 0;

@@ -244,8 +244,7 @@ void Impedance::condense() const {
   std::vector<PetscInt> chosen;
   for (PetscInt j = 0; j < samples; ++j) {
     chosen.push_back(j * (size - 1) / (samples - 1));
-    if (const PetscInt i = chosen[j] - first; i >= 0 && i < count)
-      units(nodes() + i, j) = 1;
+    if (const PetscInt i = chosen[j] - first; i >= 0 && i < count) units(nodes() + i, j) = 1;
   }
   const DenseMatrix exact = responses(units);
   std::array<double, 2> largest{};  // difference, response

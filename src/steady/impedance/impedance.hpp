@@ -44,8 +44,8 @@ class Impedance {
   /// needed; the first request is for the unknowns that are free on the first active set.
   static long worthwhile(PetscInt unknowns) { return std::max<long>(300, unknowns / 4); }
   /// Once more responses to unit vectors of w than this have been requested (by default
-  /// worthwhile()), further ones are taken from the Schur complement, if w has at most 8,000 entries
-  /// and the complement passes a check of its accuracy.
+  /// worthwhile()), further ones are taken from the Schur complement, if w has at most 8,000
+  /// entries and the complement passes a check of its accuracy.
   void condenseAfter(long requests) { after_ = requests; }
   /// Returns true if the Schur complement is in use.
   bool isCondensed() const { return isCondensed_; }
