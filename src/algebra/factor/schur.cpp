@@ -33,13 +33,14 @@ linalg::DenseMatrix distributed(MPI_Comm comm, const std::vector<double>& lower,
 
 }  // namespace
 
-linalg::DenseMatrix schurComplement(Mat matrix, const std::vector<PetscInt>& own) {
+linalg::DenseMatrix schurComplement(OwnedMat matrix, const std::vector<PetscInt>& own) {
   const MPI_Comm comm = commOf(matrix);
   const Concatenation ranks(comm, own.size());
   const auto all = ranks.gathered(own);
   MumpsFactor factor(comm, solverPrefix);
   factor.keep(mpi::rank(comm) == 0 ? all : std::vector<PetscInt>{});
   factor.analyse(matrix);
+  matrix = {};
   if (const std::string why = factor.factorise(); !why.empty())
     throw Error("the condensation of the stiffness to the contact: " + why);
   return distributed(comm, factor.schurComplement(), ranks, own.size());

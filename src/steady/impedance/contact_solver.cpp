@@ -29,6 +29,8 @@ constexpr PetscInt mostDirections = 500;
 /// against the space of friction magnitudes, and against its block. The next block contains the
 /// directions omitted here.
 constexpr double newInSpace = 1e-10, newInBlock = 0.05;
+/// Memory for the free unknowns of several blocks on one rank, bytes.
+constexpr double mostTogether = 64e6;
 
 /// Collective. Returns for each column b the coefficients a that minimise |b − G a|. It refines the
 /// normal equations, which gives all digits if the condition number of G is below some 1e7. `gram`
@@ -115,8 +117,9 @@ double ContactSolver::stiffness(std::size_t unknown) const {
   return place < 0 ? 0 : free_.columns()(impedance_.nodes() + unknown, place);
 }
 
-/// Releases the free unknowns of each search until F = 0 there. Returns their values, [known
-/// column], and adds their effects to its `effects`.
+/// Collective. Releases the free unknowns of each search until F = 0 there, and adds what they
+/// cause to the effects of the search. Returns their values for each search, [known
+/// column]×[column].
 std::vector<DenseMatrix> ContactSolver::release(const std::vector<Search>& searches,
                                                 std::vector<DenseMatrix>& effects) const {
   std::vector<ReleaseTask> tasks;
@@ -125,6 +128,10 @@ std::vector<DenseMatrix> ContactSolver::release(const std::vector<Search>& searc
   auto amounts = free_.released(tasks);
   const DenseMatrix& columns = free_.columns();
   if (columns.columns() == 0) return amounts;
+  if (searches.size() == 1) {
+    linalg::multiplyAdd(columns, amounts.front(), effects.front());
+    return amounts;
+  }
   DenseMatrix all(columns.columns());  // one product reads the columns once
   for (const auto& some : amounts) all.append(some);
   const DenseMatrix changes = linalg::product(columns, all);
@@ -147,9 +154,19 @@ void ContactSolver::addDirect(const FreeBlock& block, const DenseView& t,
     for (PetscInt i = 0; i < forces.rows(); ++i) effects(n + i, j) += forces(i, j);
 }
 
-/// Updates these blocks, each listed once, to the present space of friction magnitudes.
-void ContactSolver::update(const std::vector<FreeBlock*>& blocks) const {
+/// Collective. Updates these blocks, each listed once, to the present space of friction magnitudes.
+/// Takes as many of them together as `mostTogether` allows, at least one.
+void ContactSolver::update(std::span<FreeBlock* const> blocks) const {
   const PetscInt all = magnitudes_.columns();
+  double bytes = 0;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const PetscInt order = blocks[k]->baseOrSelf().unknowns.ranks.size(),
+                   columns = all - blocks[k]->normal.columns();
+    bytes += 8.0 * columns * (order + free_.columns().columns());
+    if (k == 0 || bytes <= mostTogether) continue;
+    update(blocks.first(k));
+    return update(blocks.subspan(k));
+  }
   std::vector<DenseMatrix> fresh(blocks.size());  // of the blocks with direct friction
   std::vector<ReleaseTask> tasks;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
@@ -173,7 +190,8 @@ void ContactSolver::update(const std::vector<FreeBlock*>& blocks) const {
   }
 }
 
-/// Updates a search, whose block is up to date, to the present space of friction magnitudes.
+/// Collective. Updates a search, whose block is up to date, to the present space of friction
+/// magnitudes.
 void ContactSolver::update(Search& search) const {
   const PetscInt known = search.g.columns(), all = magnitudes_.columns();
   if (known == all) return;
@@ -281,6 +299,7 @@ void ContactSolver::balance(std::vector<Search>& searches, double accuracy) {
   } while (unbalanced.columns() > 0 && magnitudes_.columns() < most && extend(unbalanced));
 }
 
+/// Collective. Returns the responses of all searches.
 std::vector<ContactResponses> ContactSolver::responses(const std::vector<Search>& searches,
                                                        double accuracy) const {
   std::vector<DenseMatrix> friction, effects;
@@ -296,15 +315,15 @@ std::vector<ContactResponses> ContactSolver::responses(const std::vector<Search>
   std::vector<ContactResponses> result;
   for (std::size_t k = 0; k < searches.size(); ++k)
     result.push_back(
-        concluded(searches[k], friction[k], freed[k], std::move(effects[k]), accuracy));
+        responsesOf(searches[k], friction[k], freed[k], std::move(effects[k]), accuracy));
   return result;
 }
 
-/// Collective. Returns the responses of a search, whose friction is t and whose free unknowns have
-/// these values.
-ContactResponses ContactSolver::concluded(const Search& search, const DenseMatrix& t,
-                                          const DenseMatrix& freed, DenseMatrix all,
-                                          double accuracy) const {
+/// Collective. Returns the responses of a search from its friction t, the values of its free
+/// unknowns and all effects (R, F).
+ContactResponses ContactSolver::responsesOf(const Search& search, const DenseMatrix& t,
+                                            const DenseMatrix& freed, DenseMatrix all,
+                                            double accuracy) const {
   const PetscInt n = impedance_.nodes(), columns = search.given.columns();
   ContactResponses result{DenseMatrix(impedance_.length(), columns), std::move(all),
                           std::vector<int>(columns)};

@@ -89,16 +89,16 @@ class ContactSolver {
   void addDirect(const FreeBlock& block, const linalg::DenseView& t,
                  linalg::DenseMatrix& effects) const;
   void noteFriction(std::span<const ContactCase> cases);
-  void update(const std::vector<FreeBlock*>& blocks) const;
+  void update(std::span<FreeBlock* const> blocks) const;
   void update(Search& search) const;
   std::vector<std::size_t> groups(std::span<const ContactCase> cases) const;
   void begin(std::vector<Search>& searches);
   void balance(std::vector<Search>& searches, double accuracy);
   std::vector<ContactResponses> responses(const std::vector<Search>& searches,
                                           double accuracy) const;
-  ContactResponses concluded(const Search& search, const linalg::DenseMatrix& t,
-                             const linalg::DenseMatrix& freed, linalg::DenseMatrix all,
-                             double accuracy) const;
+  ContactResponses responsesOf(const Search& search, const linalg::DenseMatrix& t,
+                               const linalg::DenseMatrix& freed, linalg::DenseMatrix all,
+                               double accuracy) const;
   bool extend(const linalg::DenseMatrix& directions);
 
   const Impedance& impedance_;

@@ -164,18 +164,17 @@ std::vector<DenseMatrix> FreeUnknowns::released(std::span<const ReleaseTask> tas
     FreeBlock& base = block.baseOrSelf();
     const PetscInt last = magnitude + effects.columns(), columns = effects.columns(),
                    known = magnitude < 0 ? 0 : std::min(base.solved - magnitude, columns);
-    inBase.push_back(forcesAt(base.unknowns, effects.columnRange(known, columns)));
+    inBase.push_back(known < columns ? forcesAt(base.unknowns, effects.columnRange(known, columns))
+                                     : DenseMatrix(base.unknowns.ranks.size()));
     added.push_back(block.base ? forcesAt(block.added, effects) : DenseMatrix());
+    if (mpi::rank(comm) != base.owner) inBase.back() = {};
     if (magnitude >= 0) base.solved = std::max(base.solved, last);
   }
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     FreeBlock& block = tasks[k].block;
     FreeBlock& base = block.baseOrSelf();
     const PetscInt columns = tasks[k].effects.columns(), magnitude = tasks[k].magnitude;
-    if (mpi::rank(comm) != base.owner) {
-      inBase[k] = DenseMatrix(base.unknowns.ranks.size(), columns);
-      continue;
-    }
+    if (mpi::rank(comm) != base.owner) continue;
     base.stiffness.apply(inBase[k]);
     if (magnitude >= 0) {
       base.solutions.append(inBase[k]);
@@ -186,13 +185,17 @@ std::vector<DenseMatrix> FreeUnknowns::released(std::span<const ReleaseTask> tas
   std::vector<DenseMatrix> amounts;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const FreeBlock& block = tasks[k].block;
+    const Unknowns& ofBase = block.baseOrSelf().unknowns;
+    if (mpi::rank(comm) != block.owner)
+      inBase[k] = DenseMatrix(ofBase.ranks.size(), tasks[k].effects.columns());
     auto& all = amounts.emplace_back(columns_.columns(), tasks[k].effects.columns());
     const auto take = [&](DenseMatrix& values, const Unknowns& of) {
       mpi::broadcastEntries(comm, values.entries(), block.owner);
       for (PetscInt j = 0; j < values.columns(); ++j)
         for (PetscInt i = 0; i < values.rows(); ++i) all(of.places[i], j) = -values(i, j);
+      values = {};
     };
-    take(inBase[k], block.baseOrSelf().unknowns);
+    take(inBase[k], ofBase);
     if (block.base) take(added[k], block.added);
   }
   return amounts;

@@ -12,7 +12,7 @@
 
 namespace squeal::impedance {
 
-/// The effects for which the unknowns of a block are released.
+/// A block whose free unknowns are to be released, and the effects for which.
 struct ReleaseTask {
   FreeBlock& block;           ///< borrowed
   linalg::DenseView effects;  ///< (R, F), [entry]×[column]; borrowed

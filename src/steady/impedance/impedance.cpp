@@ -6,11 +6,14 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "algebra/factor/schur.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/petsc/object.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/error.hpp"
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 
@@ -220,23 +223,34 @@ DenseMatrix Impedance::responsesToUnits(const std::vector<PetscInt>& released) c
 }
 
 /// Collective. Returns S_c of the matrix [K0 K_yw; K_wy K_ww], in which each rank has its y before
-/// its w.
+/// its w. Throws Error if the factorisation fails.
 DenseMatrix Impedance::schurComplement() const {
   const std::array<Mat, 4> blocks{closed_.k0(), innerReleased_, forceInner_, forceReleased_};
   OwnedMat nested, stiffness;
   check(MatCreateNest(comm(), 2, nullptr, 2, nullptr, blocks.data(), nested.out()));
-  check(MatConvert(nested, MATAIJ, MAT_INITIAL_MATRIX, stiffness.out()));
+  // To MATSEQAIJ, PETSc 3.18 converts through the arrays of the blocks, which marks K0 as changed:
+  // it would be factorised again.
+  check(MatConvert(nested, MATMPIAIJ, MAT_INITIAL_MATRIX, stiffness.out()));
   PetscInt end = 0;
   check(MatGetOwnershipRange(stiffness, nullptr, &end));
   std::vector<PetscInt> own(nodeOf_.size());
   std::iota(own.begin(), own.end(), end - std::ssize(own));
-  return factor::schurComplement(stiffness, own);
+  return factor::schurComplement(std::move(stiffness), own);
 }
 
-/// Collective. Computes S_c, unless it differs from some of the responses that it replaces.
+/// Collective. Computes S_c. It is refused if its factorisation fails, for example for lack of
+/// memory, or if it differs from some of the responses that it replaces.
 void Impedance::condense() const {
   Stage stage(comm(), "factor");
-  DenseMatrix schur = schurComplement();
+  DenseMatrix schur;
+  try {
+    schur = schurComplement();
+  } catch (const Error& error) {
+    refused_ = true;
+    stage.finish("no condensation to the unknowns of the contact, solves instead: " +
+                 std::string(error.what()));
+    return;
+  }
   const PetscInt size = schur.columns();
   const PetscInt count = std::ssize(nodeOf_), first = mpi::sumBefore(comm(), count);
   constexpr PetscInt samples = 8;

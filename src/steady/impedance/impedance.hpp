@@ -43,9 +43,9 @@ class Impedance {
   /// solves for 1,300, 2,000, 3,500 and 8,000 unknowns, so it pays if about a third of them is
   /// needed; the first request is for the unknowns that are free on the first active set.
   static long worthwhile(PetscInt unknowns) { return std::max<long>(300, unknowns / 4); }
-  /// Once more responses to unit vectors of w than this have been requested (by default
-  /// worthwhile()), further ones are taken from the Schur complement, if w has at most 8,000
-  /// entries and the complement passes a check of its accuracy.
+  /// Sets the number of responses to unit vectors of w (by default worthwhile()) above which they
+  /// are taken from the Schur complement, if w has at most 8,000 entries and the complement passes
+  /// a check of its accuracy.
   void condenseAfter(long requests) { after_ = requests; }
   /// Returns true if the Schur complement is in use.
   bool isCondensed() const { return isCondensed_; }

@@ -20,7 +20,7 @@ TEST(SchurComplement, OfAChainIsOneOfLongerSprings) {
     std::vector<PetscInt> own;
     for (const PetscInt row : kept)
       if (row >= first && row < last) own.push_back(row);
-    const auto found = factor::schurComplement(matrix, own);
+    const auto found = factor::schurComplement(matrix.share(), own);
     const auto all = Concatenation(PETSC_COMM_WORLD, own.size()).gathered(own);
     ASSERT_EQ(found.rows(), std::ssize(own));
     ASSERT_EQ(found.columns(), std::ssize(kept));
@@ -85,7 +85,7 @@ TEST(SchurComplement, OfTwoFacesOfAGrid) {
   for (PetscInt row = first; row < last; ++row)
     if (row < layer || row >= (deep - 1) * layer) own.push_back(row);
   testing::internal::CaptureStderr();
-  const auto found = factor::schurComplement(matrix, own);
+  const auto found = factor::schurComplement(matrix.share(), own);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   const auto all = Concatenation(PETSC_COMM_WORLD, own.size()).gathered(own);
   ASSERT_EQ(found.columns(), 2 * layer);
