@@ -79,8 +79,11 @@ double ErrorEstimator::basisError(const PointSolution& solution, std::size_t pai
 double ErrorEstimator::errorRatio(const PointSolution& solution, std::size_t pair) const {
   const PairErrors& errors = solution.errors[pair];
   if (acceptsAll_ || errors.isRoundOff) return 0;
+  // The basis may take what the dense solve leaves of the tolerance, if it leaves some.
+  const double tolerance = settings_.tolerance, rest = tolerance - errors.dense;
+  const double allowed = rest > 0 ? std::max(rest, 0.1 * tolerance) : tolerance;
   return std::max(errors.backward / settings_.criteria.accuracy,
-                  basisError(solution, pair) / settings_.tolerance);
+                  basisError(solution, pair) / allowed);
 }
 
 bool ErrorEstimator::isAccurate(const PointSolution& solution) const {

@@ -41,8 +41,10 @@ class ErrorEstimator {
   /// zero within its error, |δs|/ω_1 is used instead, where ω_1 is the lowest angular frequency of
   /// the free modes. This ratio is squared if the problem has a pencil::Symmetry.
   bool isExactEnough(const PointSolution& solution, const pencil::Eigenvalue& e) const;
-  /// Returns the larger of two ratios: the backward error and the error estimate, each divided by
-  /// its limit. Returns 0 if the residual is only round-off.
+  /// Returns the larger of two ratios: the backward error and the error due to the basis, each
+  /// divided by its limit. The limit of the latter is what the error of the dense solve leaves of
+  /// the tolerance, at least a tenth; if nothing is left, the whole tolerance. Returns 0 if the
+  /// residual is only round-off.
   double errorRatio(const PointSolution& solution, std::size_t pair) const;
   /// Returns true if all errors of the point are within their limits.
   bool isAccurate(const PointSolution& solution) const;

@@ -125,6 +125,10 @@ TEST(ErrorEstimator, RatiosToTheTolerances) {
   EXPECT_DOUBLE_EQ(ratio({.backward = 2e-9, .right = 7e-8, .left = INFINITY}), 7);
   EXPECT_DOUBLE_EQ(ratio({.backward = 9e-15, .right = 7e-8, .left = INFINITY}), 7);
   EXPECT_EQ(ratio({.backward = 2e-9, .right = 1, .left = 1, .isRoundOff = true}), 0);
+  // The dense solve leaves 3e-9, less than a tenth, or nothing of the 1e-8.
+  EXPECT_DOUBLE_EQ(ratio({.right = 6e-9, .left = INFINITY, .dense = 7e-9}), 2);
+  EXPECT_DOUBLE_EQ(ratio({.right = 6e-9, .left = INFINITY, .dense = 9.5e-9}), 6);
+  EXPECT_DOUBLE_EQ(ratio({.right = 7e-8, .left = INFINITY, .dense = 2e-8}), 7);
   EXPECT_TRUE(f.estimator.isAccurate(solution({0, 1}, {.backward = 0.99e-9})));
   EXPECT_FALSE(f.estimator.isAccurate(solution({0, 1}, {.backward = 1.01e-9})));
   f.estimator.acceptAll();
