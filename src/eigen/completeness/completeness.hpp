@@ -19,15 +19,15 @@ struct ProvedSet {
 };
 
 /// Returns true if prove() covers the problem of a point: apart from the terms of K0 and M0, it has
-/// only friction terms that are the same at all points, and no terms in s.
+/// only friction terms whose matrices all points share, and none that is linear in s.
 bool covers(const reduction::PointProblem& problem, const pencil::FrictionFactors& factors);
 
 /// Collective. Extends the basis by K0⁻¹ Sᵀ, the static responses to forces along the slip rows S
 /// of `factors`. All problems must be covered. Sets ComplexModes::completeness of each point and
-/// Eigenvalue::radius of each eigenvalue for which a disc is proved. `modes` are the free modes of
-/// `system`, which has only the interior unknowns (subspace::Substructure). The proof needs the
-/// number of these modes up to well above the band. If their number is confirmed only up to
-/// slightly above the band, they are counted again at a higher frequency.
+/// Eigenvalue::radius of each one that is proved to be the only one in a disc. `modes` are the free
+/// modes of `system`, which has only the interior unknowns (subspace::Substructure). The proof
+/// needs the number of these modes up to well above the band. If their number is confirmed only up
+/// to slightly above the band, they are counted again at a higher frequency.
 void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& system,
            const modes::Modes& modes, const pencil::FrictionFactors& factors,
            const std::vector<ProvedSet>& sets, const Settings& settings);

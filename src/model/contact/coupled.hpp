@@ -4,8 +4,8 @@
 /// the conditions of contact [M.11],
 ///   L(f)ᵀ X T = Tᵀ X T + Sᵀ N X T,   S = S_0 + f S_1.
 /// T maps the unknowns to nodal displacements; the columns of L are the test vectors. N maps nodal
-/// forces to the normal forces at the gaps, which the slip rows S turn into friction forces: S_0
-/// with fixed coefficients of friction, S_1 with the coefficient f of the sweep.
+/// forces to the normal forces at the gaps, which Sᵀ turns into friction forces. The slip rows S_0
+/// have fixed coefficients of friction; those of S_1 are multiplied by f, that of the sweep.
 #include "algebra/factor/associated_system.hpp"
 #include "model/contact/contact.hpp"
 #include "model/elasticity/elasticity.hpp"
@@ -55,8 +55,7 @@ class OpenProjections {
 /// The coupled problem with the contact closed at the active nodes. Without friction and rotation
 /// it is the associated system [4.17],
 ///   K0 = Tᵀ K T,   M0 = Tᵀ M T.
-/// One factorisation of K0 serves the steady problem, the modes and the corrections of this active
-/// set.
+/// One factorisation of K0 serves the steady problem, the modes and the corrections of the basis.
 class CoupledSystem : public factor::AssociatedSystem {
  public:
   /// Collective. Projects the matrices of the bodies. A node of a sticking interface can move along
@@ -64,8 +63,8 @@ class CoupledSystem : public factor::AssociatedSystem {
   /// to K; it must have the pattern of geometricStiffness(). It is borrowed during this call.
   CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact, ActiveSet set,
                 Mat prestress = nullptr);
-  /// Collective. Takes the projected matrices from known projections, without prestress, instead of
-  /// computing them.
+  /// Collective. Takes the projected matrices from `open` instead of computing them; without
+  /// prestress.
   CoupledSystem(const OpenProjections& open, const Contact& contact, ActiveSet set);
   const Transformation& transformation() const { return projections_.transformation; }
   const Projections& projections() const { return projections_; }

@@ -12,13 +12,13 @@
 
 namespace squeal::analysis {
 
-/// The eigenvalues of a sweep, the onset of nonlinearity of its modes, and the motions after
-/// flutter.
+/// The eigenvalues of a sweep, the first contact events as its modes grow, and the motions after
+/// the onset of flutter.
 struct Flutter {
   std::vector<sweep_solver::ModalSegment> segments = {};
   /// First separation, stick or slip of each stored unstable mode as it grows.
   std::vector<regime::ModeOnset> onsets = {};
-  std::vector<regime::Study> regimes = {};  ///< motions after flutter
+  std::vector<regime::Study> regimes = {};  ///< motions after the onset of flutter
   /// [body] The elastic modes of each body by itself, if requested.
   std::vector<std::vector<energies::NamedMode>> ownModes = {};
   /// The messages of failures, which have already been printed. Each names the point of the sweep
@@ -26,7 +26,7 @@ struct Flutter {
   std::vector<std::string> failures = {};
   bool complete = true;  ///< false if a request to stop ended the computation
 
-  /// Returns the largest top of the band of all points, rad/s; infinity if no point has one.
+  /// Returns the highest of the points' upper band limits, rad/s; infinity if there is none.
   double bandTop() const;
   /// Not collective. Prints the reason why a stage has no result, and adds it to `failures`.
   void addFailure(MPI_Comm comm, const std::string& reason);

@@ -12,11 +12,12 @@ namespace squeal::impedance {
 
 /// The free unknowns and the friction of a condensed problem.
 struct ContactConditions {
-  /// [released unknown] 1 if F = 0, as for open gaps and for nodes that are not held; 0 if w = 0
+  /// [entry of w] 1 if F = 0, as for open gaps and for nodes that are not held; 0 if w = 0
   std::vector<unsigned char> free;
   std::vector<double> coefficient;  ///< [contact node] c
-  /// The direct effect of friction magnitudes t on F, released unknowns × contact nodes: the
-  /// friction on nodes that slide (steady::Hold::released). Borrowed; null if there is none.
+  /// S_wᵀ, [entry of w]×[contact node]: its product with t is the friction that acts on sliding
+  /// nodes of sticking interfaces (steady::Hold::released) in their own rows. Borrowed; null if
+  /// there is none.
   Mat direct = nullptr;
 };
 
@@ -24,8 +25,9 @@ struct ContactConditions {
 struct ContactCase {
   ContactConditions conditions;
   ContactVector given;  ///< (R, F)0
-  /// Reference of the accuracy, N, unless the friction due to the given forces is larger. For a
-  /// correction, set it to the friction to be corrected: a correction needs fewer digits.
+  /// The accuracy is relative to this force, N, or to the friction due to the given forces if that
+  /// is larger. For a correction, set it to the friction to be corrected: a correction needs fewer
+  /// digits.
   double frictionUnit = 0;
 };
 
@@ -33,8 +35,8 @@ struct ContactCase {
 struct ContactSolution {
   ContactVector causes;   ///< (t, w)
   ContactVector effects;  ///< (R, F), including the given ones
-  /// False if friction cannot be balanced, or if forces act on a rigid-body mode of the free
-  /// unknowns, where F is then not zero.
+  /// False if t = c R cannot be met, or if forces act on a rigid-body mode of the free unknowns, so
+  /// that F ≠ 0 there.
   bool found = false;
 };
 
@@ -47,34 +49,34 @@ struct ContactResponses {
 /// Solves [M.59]
 ///   (R, F) = (R, F)0 + Z (t, w),   t = c R,   F = 0 or w = 0
 /// for any choice of free unknowns, any coefficients c and any given forces (R, F)0. Z contains the
-/// responses of an Impedance. All later calls reuse the computed parts of Z: the columns of
-/// unknowns that have been free, and a space of friction magnitudes t. As in GMRES without restart,
-/// each residual that this space does not contain extends it. Cases that are solved together extend
-/// it in blocks.
+/// responses of an Impedance. Later calls reuse what is known of Z: computed columns, and the
+/// products with a space of friction magnitudes t. As in GMRES without restart, residuals outside
+/// this space extend it. Cases that are solved together extend it in blocks.
 class ContactSolver {
  public:
   /// Collective. Borrows the impedance during the lifetime of the object.
   explicit ContactSolver(const Impedance& impedance);
-  /// Collective. Solves the problem up to round-off.
+  /// Collective. Solves the problem to the accuracy `balanced`.
   ContactSolution solve(const ContactCase& one) { return solve({&one, 1}).front(); }
   /// Collective. Solves all cases. At most the fraction `accuracy` of the friction remains
   /// unbalanced.
   std::vector<ContactSolution> solve(std::span<const ContactCase> cases,
                                      double accuracy = balanced);
-  /// Collective. Solves one case with all gaps given, [contact node], regardless of `free`.
+  /// Collective. Solves one case with given gaps, [contact node], whose entries of `free` are
+  /// ignored.
   ContactSolution withGaps(const std::vector<double>& gaps, ContactCase one);
   /// Collective. Returns for each case its solution, in column 0, and its responses to changes of
-  /// released unknowns `changed`, numbered over all ranks. The cases must differ in their
-  /// coefficients and given forces only. Column k + 1 is the response without the given forces to
-  /// w = 1 of unknown k if it is held, and to a unit force on it if it is free. F contains the
-  /// forces of the contact only, thus −1 in the row of that free unknown. The sum of the solution
-  /// and of multiples of the responses solves the case with other F or w of the changed unknowns.
+  /// the entries `changed` of w, numbered over all ranks. The cases must differ in their
+  /// coefficients and given forces only. Column k + 1, without the given forces, is the response to
+  /// w = 1 of changed[k] if it is held, and to a unit force on it if it is free. F excludes this
+  /// unit force, so it is −1 in the row of such an unknown. The sum of the solution and of
+  /// multiples of the responses solves the case with other F or w of the changed unknowns.
   /// `frictionUnits`, [changed], is the ContactCase::frictionUnit of the responses.
   std::vector<ContactResponses> respond(std::span<const ContactCase> cases,
                                         const std::vector<PetscInt>& changed,
                                         const std::vector<double>& frictionUnits);
-  /// Returns the force that displaces a released unknown of this rank by a unit, N/m, with all
-  /// others held; 0 if it has never been free. The first unknowns are the gaps of the nodes.
+  /// Returns the force per displacement, N/m, of an entry of w of this rank, with all others held;
+  /// 0 if its column is not known. The first unknowns are the gaps of the nodes.
   double stiffness(std::size_t unknown) const;
 
   /// An accuracy of the friction equivalent to round-off. The residual of all equations may be
