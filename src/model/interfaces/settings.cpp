@@ -29,8 +29,8 @@ const RealListOption obstacleDisplacementOption(
     "prescribed displacement that presses the rigid obstacle against the pad");
 const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, "sliding",
                               "role of an interface; sliding: friction opposes the sliding "
-                              "velocity; sticking: no tangential motion; frictionless: no "
-                              "tangential force; tied: bonded");
+                              "velocity; sticking: no sliding; frictionless: no tangential "
+                              "force; tied: bonded");
 const RealOption factorOption(
     "contact", "contact_<interface>_friction_factor", 1.0, "", nonNegative,
     "ratio of the coefficient of friction of a sliding interface to -flutter_friction");
@@ -46,7 +46,7 @@ const FlagOption releaseOption(
     "coefficient of friction; off: it sticks and is reported");
 const WordOrRealOption gapOption(
     "contact", "contact_<interface>_gap", 0.0, "m", "measured",
-    "initial gap, without load; measured: the distance between the two "
+    "initial gap, without load; 'measured': the distance between the two "
     "surfaces of the mesh; negative: interference fit");
 const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
                                "which side is the slave (its nodes carry the gap unknowns); finer: "
@@ -57,9 +57,9 @@ const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m",
                               "size)");
 const FlagOption separationOption(
     "contact", "contact_<interface>_separation", true,
-    "whether the two sides can separate; off: they cannot, and the interface can carry tension, "
-    "but not with friction: if a node with friction is under tension, the run reports that this "
-    "point of the sweep has no solution");
+    "whether the two sides can separate; off: they cannot, and nodes without friction can carry "
+    "tension; if a node with friction is under tension, the run reports that this point of the "
+    "sweep has no solution");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
