@@ -10,9 +10,6 @@
 namespace squeal::analysis {
 namespace {
 
-/// Returns an estimate of the number of contact nodes that open or close on a step of the friction.
-double changesOnStep(double contactUnknowns) { return 0.03 * contactUnknowns; }
-
 // Operations of sparse factors are slower than those of dense products.
 constexpr double factorSpeed = 0.24, solveSpeed = 0.12;
 /// Work on an unsymmetric spectrum in a basis of m vectors, in m³ operations of dense products.
@@ -34,8 +31,9 @@ double groupWork(const GroupSize& size) {
   // The latency of many small steps; a factorisation of a solid takes about 30 n² operations and
   // has 15 n^(4/3) entries.
   constexpr double start = 1e10;
-  const double n = size.unknowns, factor = 30 * n * n / factorSpeed,
-               solve = 4 * 15 * std::pow(n, 4. / 3) / solveSpeed;
+  const double n = size.unknowns, flops = size.factorFlops > 0 ? size.factorFlops : 30 * n * n,
+               entries = size.factorEntries > 0 ? size.factorEntries : 15 * std::pow(n, 4. / 3),
+               factor = flops / factorSpeed, solve = 4 * entries / solveSpeed;
   const double freeModes = 2.1 * size.modes * solve + 150 * n * size.modes * size.modes;
   // Points with similar active sets share most of their vectors.
   constexpr double vectorsPerMode = 2.3, furtherPerMode = 0.85, perNode = 1.4, similar = 40,
@@ -61,28 +59,58 @@ double denseSpeed(MPI_Comm comm) {
   return mpi::sum(comm, times * 2.0 * order * order * order / (MPI_Wtime() - begin));
 }
 
+double changesOnStep(double contactUnknowns) { return std::max(0.03 * contactUnknowns, 1.0); }
+
 double followedSteps(double steps, double contactUnknowns, int most) {
   return most > 0 && changesOnStep(contactUnknowns) <= most ? steps : 0;
 }
 
-RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double speed) {
-  const double basis = basisSize(size, setsDiffer), n = size.unknowns,
-               contact = size.contactUnknowns;
+DividedSweep dividedSweep(const RunSize& size) {
+  const double all = size.steadyPoints - 1, changes = changesOnStep(size.contactUnknowns),
+               dampings = size.points / size.steadyPoints, followed = size.followedSteps / all,
+               tracked = size.trackedSteps / all;
+  const auto divided = [&](double stepsOfGroup) {
+    const double groups = std::ceil(all / stepsOfGroup);
+    const GroupSize group{.unknowns = size.unknowns,
+                          .modes = size.modes,
+                          .points = dampings * (stepsOfGroup + 1),
+                          .activeSets = stepsOfGroup + 1,
+                          .differing = changes * stepsOfGroup,
+                          // one at both ends of the interval of each set
+                          .spectra = tracked * stepsOfGroup * (followed > 0 ? 2 * changes : 1),
+                          .factorFlops = size.factorFlops,
+                          .factorEntries = size.factorEntries};
+    return DividedSweep{groups, groups * groupWork(group)};
+  };
+  DividedSweep best = divided(1);
+  for (double steps = 2; steps <= all; ++steps)
+    if (const auto other = divided(steps); other.work < best.work) best = other;
+  return best;
+}
+
+RunCost runCost(const RunSize& size, bool setsDiffer, double speed) {
+  constexpr double start = 1.5;  // s, of the program, and for its report
+  const double basis = basisSize(size, false), n = size.unknowns, contact = size.contactUnknowns;
   const double factor = size.factorFlops / (factorSpeed * speed),
                solve = 4 * size.factorEntries / (solveSpeed * speed);
   const double freeModes = 2.1 * size.modes * solve + 150 * n * size.modes * size.modes / speed;
   const double corrections = (basis - size.modes) * solve + 6 * n * basis * basis / speed;
   // The first points, and tracking, need more solves than the later ones.
-  const double dense = 200 * (size.points + 8) * basis * basis * basis / speed;
+  const double dense = 280 * (size.points + 8) * basis * basis * basis / speed;
   const double steady = 6 * contact * contact * contact / speed + 5 * solve;
-  // The responses to changes of contact on a step, and two spectra for each set on it.
-  const double path = 50 * size.followedSteps * contact * contact * contact / speed,
-               spectra = 2 * changesOnStep(contact) * size.trackedSteps,
-               tracking = spectrumWork * spectra * basis * basis * basis / speed;
+  double points = factor + freeModes + corrections + dense;
+  if (setsDiffer) {
+    const DividedSweep divided = dividedSweep(size);
+    // The responses to changes of contact on a step
+    const double path = 50 * size.followedSteps * contact * contact * contact / speed;
+    const double inGroups =
+        size.damped ? points + (divided.groups - 1) * (points - dense) : divided.work / speed;
+    points = path + std::max(points, inGroups);
+  }
   RunCost cost;
-  cost.seconds = 1.2 * size.secondsSoFar + 2e-5 * n + (1 + 2 * groups) * factor +
-                 groups * (freeModes + corrections) + dense + size.steadyPoints * steady +
-                 (setsDiffer ? path + tracking : 0);
+  cost.seconds =
+      start + 1.2 * size.secondsSoFar + 2e-5 * n + 2 * factor + size.steadyPoints * steady + points;
+  const double stored = basisSize(size, setsDiffer);
   // Matrices of the order of the basis: the pairs of all points, the terms that belong to one point
   // for the points that are solved together, and the linearised problems of the ranks.
   constexpr double together = 16;
@@ -90,7 +118,7 @@ RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double spee
       size.damped ? 40 + 1.5 * size.points + 8 * size.pointTerms * std::min(size.points, together)
                   : 80 + 3 * size.points;
   cost.bytes = size.bytesInUse + 2 * size.factorBytes +
-               8 * (2.7 * n * basis + denseMatrices * basis * basis +
+               8 * (2.7 * n * stored + denseMatrices * stored * stored +
                     4 * std::min(7.0, size.steadyPoints) * contact * contact);
   return cost;
 }

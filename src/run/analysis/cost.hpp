@@ -44,12 +44,17 @@ struct GroupSize {
       0;  ///< number of times that the active set changes from point to point, plus 1
   double differing = 0;  ///< number of contact nodes in which these sets differ
   double spectra = 0;    ///< number of spectra between the points that tracking takes
+  /// Operations of a factorisation and entries of the factor; 0: those of a solid.
+  double factorFlops = 0, factorEntries = 0;
 };
+
+/// Returns an estimate of the number of contact nodes that open or close on a step of the friction,
+/// as measured for floating_caliper; at least 1.
+double changesOnStep(double contactUnknowns);
 
 /// Returns how many of `steps` between two frictions a run is expected to follow from one change of
 /// the contact to the next: all or none. `most` is the largest number of changes on a step that it
-/// follows; 0: it follows none. The number of changes is estimated as measured for
-/// floating_caliper.
+/// follows; 0: it follows none.
 double followedSteps(double steps, double contactUnknowns, int most);
 
 /// Returns an estimate of the work on a group without damping: the number of operations of dense
@@ -60,10 +65,20 @@ double groupWork(const GroupSize& size);
 /// measurement takes a few hundredths of a second.
 double denseSpeed(MPI_Comm comm);
 
-/// Returns the estimates for a run whose points are solved in `groups` groups, each with its own
-/// factorisations and basis. `setsDiffer`: the active sets of the points differ, several share a
-/// basis, and there are others between the points. `speed` is that of
-/// denseSpeed(). The motion after flutter is not included.
-RunCost runCost(const RunSize& size, double groups, bool setsDiffer, double speed);
+/// A division of the steps of a sweep into groups of neighbouring points.
+struct DividedSweep {
+  double groups = 1;
+  double work = 0;  ///< of all groups: see groupWork()
+};
+
+/// Returns the division into groups of equal size with the least work, if changesOnStep() nodes
+/// change, one after the other, between neighbouring points. The sweep has at least two points.
+DividedSweep dividedSweep(const RunSize& size);
+
+/// Returns the estimates for a run. `setsDiffer`: changesOnStep() nodes change on each step of the
+/// friction, and the points are solved in groups, each with its own factorisation and basis.
+/// Otherwise all points have the same active set. `speed` is that of denseSpeed(). The motion after
+/// flutter is not included.
+RunCost runCost(const RunSize& size, bool setsDiffer, double speed);
 
 }  // namespace squeal::analysis

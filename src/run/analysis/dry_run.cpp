@@ -124,9 +124,18 @@ RunSize sizeOf(MPI_Comm comm, const Settings& settings, const sweep::Sweep& swee
   return size;
 }
 
+/// Returns which requested stages the estimate of the time does not include.
+std::string notEstimated(const Settings& settings) {
+  std::vector<std::string> stages;
+  if (settings.solver.proof.wanted) stages.emplace_back("the proofs");
+  if (settings.solver.sensitivity.wanted) stages.emplace_back("the sensitivities");
+  if (settings.regime.enabled()) stages.emplace_back("the motion after flutter");
+  return stages.empty() ? "" : "; not included: " + joined(stages);
+}
+
 /// Collective. Prints the number of unknowns, and estimates of memory and time. `mayDiffer`: the
-/// active sets of the points may differ; a second estimate is then for sets of which only two share
-/// a basis.
+/// active sets of the points may differ; a second estimate is then for an assumed number of
+/// changes.
 void printCost(MPI_Comm comm, const Settings& settings, Mat k0, const RunSize& size,
                bool mayDiffer) {
   MatInfo info;
@@ -135,24 +144,26 @@ void printCost(MPI_Comm comm, const Settings& settings, Mat k0, const RunSize& s
                             info.nz_used));
   const double machine = 1.0 * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
   const double speed = denseSpeed(comm);
-  const RunCost same = runCost(size, 1, false, speed);
+  const RunCost same = runCost(size, false, speed);
   std::string memory = "about " + gigabytes(same.bytes) + " on all ranks";
   std::string time = "about " + duration(same.seconds);
   if (mayDiffer && size.steadyPoints > 1) {
-    // If eigenvalues are tracked, each step is best solved in a basis of its own; all dampings
-    // share it.
-    const double pairs = std::ceil(size.steadyPoints / 2),
-                 groups = size.trackedSteps > 0 ? std::max(size.followedSteps, pairs) : pairs;
-    const RunCost different = runCost(size, groups, true, speed);
-    const std::string whenever = " if the closed contact nodes differ between the points";
-    if (different.bytes > 1.05 * same.bytes) memory += ", " + gigabytes(different.bytes) + whenever;
-    time += ", " + duration(different.seconds) + whenever;
+    constexpr double noticeable = 1.05;
+    const double changes = changesOnStep(size.contactUnknowns);
+    const std::string whenever =
+        changes < 1.5
+            ? std::string(" if a contact node opens or closes from point to point")
+            : formatted(" if about %.0f contact nodes open or close from point to point", changes);
+    const RunCost different = runCost(size, true, speed);
+    if (different.bytes > noticeable * same.bytes)
+      memory += ", " + gigabytes(different.bytes) + whenever;
+    if (different.seconds > noticeable * same.seconds)
+      time += ", " + duration(different.seconds) + whenever;
   }
   printLine(comm,
             formatted("%-12s %s; in use now %s; this machine has %s", "memory", memory.c_str(),
                       gigabytes(size.bytesInUse).c_str(), gigabytes(machine).c_str()));
-  if (settings.regime.enabled()) time += "; without the motion after flutter";
-  printLine(comm, formatted("%-12s %s", "time", time.c_str()));
+  printLine(comm, formatted("%-12s %s", "time", (time + notEstimated(settings)).c_str()));
 }
 
 void printUnknownCost(MPI_Comm comm, Mat k0, const char* what) {
@@ -195,8 +206,8 @@ RunSize withContact(RunSize size, const Model& model, const Settings& settings,
       (sweep.frictions.size() - 1.0) * sweep.speeds.size() * sweep.pressures.size();
   if (!settings.mesh->steady.full)
     size.followedSteps = followedSteps(steps, size.contactUnknowns, settings.mesh->steady.path);
-  if (size.followedSteps > 0 && areTracked(settings, model, sweep.frictions.back()))
-    size.trackedSteps = size.followedSteps * sweep.dampings.size();
+  if (areTracked(settings, model, sweep.frictions.back()))
+    size.trackedSteps = steps * sweep.dampings.size();
   size.varied = model.bodies.gyroscopic || model.bodies.damping;
   size.damped = size.damped || size.varied || frictionDamping;
   // K̄ and M̄ have friction terms; Z̄ has them with damping.
