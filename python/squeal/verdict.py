@@ -76,7 +76,7 @@ def _verdict_of_merge(results):
     )
     return (
         f"{begins}; above it, up to {most} unstable mode{'s' if most > 1 else ''} at once. The"
-        f" fastest has {worst['frequency_hz']:.6g} Hz and a growth rate of"
+        f" fastest-growing one, at {worst['frequency_hz']:.6g} Hz, has a growth rate of"
         f" {worst['growth_rate_1_per_s']:.4g} 1/s (damping {100 * worst['damping_ratio']:.3g} %) at"
         f" friction {worst['friction']:g}{others}{rest}."
     )

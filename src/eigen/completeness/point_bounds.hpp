@@ -14,8 +14,8 @@ namespace squeal::completeness {
 
 /// The products with V that all points with the same active set share. V has N vectors, first the
 /// constraint modes and the free modes. K0⁻¹ is the inverse of K0 on the interior unknowns. S_a are
-/// the slip rows of the power a of the friction, N_0 and N_2 the rows of the normal forces due to
-/// stiffness and mass (pencil::FrictionFactors); each has r rows.
+/// the slip rows that f^a multiplies, N_0 and N_2 the rows of the normal forces due to stiffness
+/// and mass (pencil::FrictionFactors); each has r rows.
 struct SetMatrices {
   KnownModes modes;
   linalg::DenseMatrix energy, mass;  ///< Vᵀ K0 V and Vᵀ M0 V, N × N
@@ -38,8 +38,8 @@ struct SetBounds {
   std::vector<linalg::DenseMatrix> slip;  ///< [a] S_a V
   std::vector<double> slipOnC;            ///< [a] bound of ‖S_a‖ on C
   linalg::DenseMatrix forces;             ///< r × r; N_0C + s² N_2C = forces · X, ‖X‖ ≤ 1
-  double normal, inertia;                 ///< ‖N_0 V‖ and ‖N_2 V‖
-  double normalOnC, inertiaOnC;           ///< ‖N_0C‖ and ‖N_2C‖
+  double normal, inertia;                 ///< upper bounds of ‖N_0 V‖ and ‖N_2 V‖
+  double normalOnC, inertiaOnC;           ///< upper bounds of ‖N_0C‖ and ‖N_2C‖
 };
 
 /// Returns the bounds of a set for |s| up to `reach`, rad/s. Throws Error if a Gram matrix has a
@@ -58,9 +58,9 @@ struct PointBounds {
   proof::LeftOut leftOut;
 };
 
-/// Returns the blocks of a point on the span of the columns of `w`, which must contain W. They are
-/// in the coordinates in which V is orthonormal: from KeptSpan::vectorsWith(), or the unit matrix
-/// for all of V. Throws Error if V lacks modes below θ.
+/// Returns the blocks of a point on the span of the columns of `w`, which must contain W. The
+/// columns are in the coordinates in which V is orthonormal: those of KeptSpan::vectorsWith(), or
+/// the unit matrix for all of V. Throws Error if V lacks free modes with ω² < θ (KnownModes).
 PointBounds pointBounds(const SetBounds& set, const PointMatrices& point,
                         const linalg::DenseMatrix& w);
 

@@ -169,7 +169,7 @@ struct MissingEigenvalue {
 struct Completeness {
   bool proved = false;  ///< the number of eigenvalues of the full problem with |s| < top is proved
   int count = 0;        ///< number of these eigenvalues, with multiplicities and conjugates
-  /// Returns the number of pairs of conjugates, as lists have one entry for each; a real eigenvalue
+  /// Returns the number of conjugate pairs, since a list has one entry per pair; a real eigenvalue
   /// counts as half a pair.
   double pairs() const { return count / 2.0; }
   double top = 0;  ///< radius of the region of the proof, rad/s
@@ -181,9 +181,9 @@ struct Completeness {
   int discs = 0;            ///< number of discs that cover the upper half of the boundary
   std::string reason;       ///< why the count or the place of an eigenvalue is not proved, or empty
   std::vector<MissingEigenvalue> missing;  ///< eigenvalues that the list should contain
-  std::vector<Complex> spurious;  ///< listed values that are proved not to be eigenvalues, 1/s
-  /// Eigenvalues of the reduced problem that the list does not contain, 1/s, without a proof that
-  /// the eigenvalues of the full problem there lie outside the band.
+  std::vector<Complex> spurious;  ///< listed values that are proved to be wrong or repeated, 1/s
+  /// Eigenvalues of the reduced problem that the list does not contain, 1/s. Whether the
+  /// eigenvalues of the full problem there lie in the band is not proved.
   std::vector<Complex> undecided;
 };
 
@@ -202,8 +202,8 @@ struct ComplexModes {
   double accuracy = 0;       ///< largest admissible backward error
   double tolerance = 0;      ///< largest admissible estimate of |δs|/|s|; 0: none (direct method)
   double directBandTop = 0;  ///< upper end of the band of the direct method, rad/s; 0: none
-  /// All eigenvalues of the direct method's band with |s| below this value are listed, rad/s; 0
-  /// without a band.
+  /// The list contains all eigenvalues of the direct method's band with |s| below this value,
+  /// rad/s; 0 without a band.
   double coveredTo = 0;
   std::optional<Completeness> completeness = {};  ///< none if no proof is wanted
   /// For a damped problem, returns the number of free modes in the band minus that of the listed
@@ -216,7 +216,7 @@ struct ComplexModes {
   /// Returns true if the full problem is proved to have exactly the listed eigenvalues in the band,
   /// each in its own proved disc.
   bool listIsProved() const;
-  /// Returns true if no eigenvalue is listed, without a proof that the band contains none.
+  /// Returns true if no eigenvalue is listed and it is not proved that the band contains none.
   bool stabilityIsUnknown() const { return eigenvalues.empty() && !listIsProved(); }
   /// Returns the number of eigenvalues that are treated as unstable.
   int unstableCount() const;

@@ -79,9 +79,9 @@ class ReducedProblem {
   }
   /// Collective. Returns, for each of these sets, the free modes in the band. They are corrected
   /// together, in the same way as the complex modes. Their vectors have the entries of all
-  /// unknowns. Their countConfirmed is true if two conditions hold: the number of interior modes is
-  /// confirmed, and below some frequency above the band the number of modes found equals both the
-  /// lower and the upper bound by subspace::ModeCount. After this call, whether or not the count is
+  /// unknowns. Their countConfirmed is true if the number of interior modes is confirmed and if,
+  /// for some frequency above the band, the number of modes found below it equals both the lower
+  /// and the upper bound by subspace::ModeCount. After this call, whether or not the count is
   /// confirmed, these modes determine the top of the band at the points of the set. The eigenvalues
   /// that solve() lists at these points thus do not depend on the other sets of the basis. Only K
   /// and M of `pencil` are used.
@@ -93,7 +93,7 @@ class ReducedProblem {
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Returns true if vectors are only added to the basis, as serialise() requires.
   bool grows() const { return !settings_.compressed; }
-  /// Makes solve() call `action`, which is collective, whenever the basis has grown.
+  /// Makes solve() call `action`, which is collective, after each round of corrections.
   void afterEachRound(std::function<void()> action) { afterRound_ = std::move(action); }
   /// Collective. Writes or reads the results since the last call and the state of the current batch
   /// of solve(). After reading, the next solve() must have the same batch. All sets must have been
@@ -128,8 +128,8 @@ class ReducedProblem {
   }
   /// Collective. Returns the projection of the terms that belong only to the point.
   linalg::DenseProblem projectOwn(const PointProblem& point) const;
-  /// Not collective. Returns the projection of K0 and M0, as project() does for the points of a
-  /// set; the damping matrix is empty.
+  /// Not collective. Returns K0 and M0 projected on the vectors that the points of a set use; the
+  /// damping matrix is empty.
   linalg::DenseProblem projectAssociated(int set) const {
     return space(set).restricted(basis_.projectAssociated());
   }

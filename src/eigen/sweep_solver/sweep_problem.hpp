@@ -25,11 +25,11 @@ struct PointRange {
   PetscInt openNodes = 0;           ///< contact nodes that are not active, over all ranks
   /// [boundary unknown, over all ranks] 1 if it is an unknown of these points
   std::vector<unsigned char> has = {};
-  /// Collective. Returns the terms of these points only; SweepProblem::pencil has the others. An
-  /// empty function stands for no terms.
+  /// Collective. Returns the terms that only these points have; SweepProblem::pencil has those of
+  /// all points. If the function is empty, there are none.
   std::function<std::vector<pencil::Term>()> terms = {};
   /// Of a set between points: the rows of SweepProblem::releasedFriction() whose nodes slide,
-  /// ascending, the same on all ranks. Their friction terms are those of `terms`.
+  /// ascending, the same on all ranks. `terms` contains the products of these rows.
   std::vector<PetscInt> slidingRows = {};
 
   bool isPassed() const { return first == last; }  ///< it occurs only between points
@@ -64,20 +64,22 @@ class SweepProblem {
   virtual ~SweepProblem() = default;
 
   const factor::AssociatedSystem* system = nullptr;  ///< K0 and M0 of the interior unknowns
-  /// The boundary unknowns: the gaps and tangential displacements of the contact nodes that are
-  /// active at only some of the points.
+  /// The boundary unknowns: those gaps and tangential displacements of contact nodes that are
+  /// unknowns at only some of the points.
   subspace::Substructure substructure;
-  Mat trial = nullptr;                          ///< T: maps all unknowns to the reported vectors
-  std::vector<sweep::Parameters> steadyPoints;  ///< points with a steady state; their damping is 1
-  std::vector<PointRange> ranges;               ///< one for each active set
-  std::optional<pencil::Pencil> pencil;         ///< the terms of all points; always has a value
+  Mat trial = nullptr;  ///< T: maps all unknowns to the reported vectors
+  std::vector<sweep::Parameters>
+      steadyPoints;                      ///< points with a steady state and a damping factor of 1
+  std::vector<PointRange> ranges;        ///< one for each active set
+  std::optional<pencil::Pencil> pencil;  ///< the terms of all points; always has a value
   /// [steady point] the path to it from the preceding point, if the two differ only in friction.
-  /// The last piece has the active set of the point. Empty if all points have one active set.
+  /// The last piece has the active set of the point. It may be empty if all points have the same
+  /// active set.
   std::vector<std::vector<PathPiece>> steps;
   /// The friction of the last point of the preceding problem, if that point and the first one here
   /// differ only in friction and this problem does not continue it.
   std::optional<double> frictionBefore;
-  std::string whyNoBasis;  ///< why it does not; empty without `frictionBefore`
+  std::string whyNoBasis;  ///< why this problem does not continue that one
   /// True if steadyPoints[0] is the last point of the preceding problem and differs from the next
   /// point only in friction. It is solved again, in this basis, so that its eigenvalues can be
   /// continued, and has no results here.
@@ -95,11 +97,11 @@ class SweepProblem {
   virtual RangeFactors frictionFactors() const {
     return {{{}, {}, "the factors of the friction terms are not known"}, {}};
   }
-  /// Collective. Returns the factors of the friction terms of all points, whatever these terms
-  /// depend on, and the other factors at steadyPoints[i].
+  /// Collective. Returns the factors of the friction terms that all points share.
   virtual pencil::JumpFactors jumpFactors() const {
     return {{}, {}, {}, "the factors of the friction terms are not known"};
   }
+  /// Collective. Returns the factors that belong only to steadyPoints[i].
   virtual pencil::PointFactors factorsAt(std::size_t /*i*/) const { return {}; }
   /// Collective. Returns the factors of the friction terms that only some of the ranges have.
   virtual pencil::FrictionFactors releasedFriction() const { return {}; }

@@ -24,15 +24,15 @@ struct ContactNode {
   Point normal;    ///< n, unit, from disc to pad
   Point slip;  ///< τ = w/|w|, or zero if w = 0; w = −V in the tangent plane, at the speed factor 1
   double slipSpeed;  ///< |w| at the speed factor 1, m/s
-  double area;  ///< ∫ ψ dA over the covered part of the faces, ψ: dual function (mortar/dual.hpp),
-                ///< positive, m² (m in plane problems); `wholeArea` if the meshes match
-  double wholeArea;      ///< ∫ φ̃ dA over the faces of the slave, m² (m)
-  double gap;            ///< gap without load, m
-  int interface;         ///< index into Interfaces::options
-  Role role;             ///< never tied
-  bool separates;        ///< false: its gap stays zero
-  int side;              ///< +1 if the slave is the pad, −1 if it is the disc
-  PetscInt node;         ///< local node with the gap
+  double area;  ///< ∫ ψ dA > 0 over the covered part of the faces, m² (m in plane problems), with
+                ///< the dual function ψ (mortar/dual.hpp); `wholeArea` if the meshes match
+  double wholeArea;  ///< ∫ φ̃ dA over the faces of the slave, m² (m); φ̃: mortar/basis.hpp
+  double gap;        ///< gap without load, m
+  int interface;     ///< index into Interfaces::options
+  Role role;         ///< never tied
+  bool separates;    ///< false: its gap stays zero
+  int side;          ///< +1 if the slave is the pad, −1 if it is the disc
+  PetscInt node;     ///< local node with the gap
   PetscInt globalNode;   ///< global node with the gap
   PetscInt surfaceNode;  ///< local node on the face; differs from `node` if there is a layer
   PetscInt master;       ///< global node of the disc if the meshes match; otherwise −1

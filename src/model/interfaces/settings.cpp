@@ -29,8 +29,8 @@ const RealListOption obstacleDisplacementOption(
     "prescribed displacement that presses the rigid obstacle against the pad");
 const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, "sliding",
                               "role of an interface; sliding: friction opposes the sliding "
-                              "velocity; sticking: no sliding; frictionless: no tangential "
-                              "force; tied: bonded");
+                              "velocity; sticking: no sliding unless nodes are released; "
+                              "frictionless: no tangential force; tied: bonded");
 const RealOption factorOption(
     "contact", "contact_<interface>_friction_factor", 1.0, "", nonNegative,
     "ratio of the coefficient of friction of a sliding interface to -flutter_friction");
@@ -41,15 +41,15 @@ const OptionalRealOption frictionOption(
     "node (not given: no limit)");
 const FlagOption releaseOption(
     "contact", "contact_<interface>_release", false,
-    "what happens to a node of a sticking interface if its ratio of tangential to normal force "
-    "exceeds the limit -contact_<interface>_friction; on: it slides, with this limit as "
-    "coefficient of friction; off: it sticks and is reported");
+    "release of the nodes of a sticking interface whose ratio of tangential to normal force "
+    "exceeds the limit -contact_<interface>_friction; on: they slide, with this limit as "
+    "coefficient of friction; off: they stick and are reported");
 const WordOrRealOption gapOption(
     "contact", "contact_<interface>_gap", 0.0, "m", "measured",
     "initial gap, without load; 'measured': the distance between the two "
     "surfaces of the mesh; negative: interference fit");
 const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
-                               "which side is the slave (its nodes carry the gap unknowns); finer: "
+                               "slave side, whose nodes carry the gap unknowns; finer: "
                                "the side with the finer mesh, or the pad if the meshes match");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "largest distance at which the program pairs two faces if the two "
@@ -57,9 +57,9 @@ const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m",
                               "size)");
 const FlagOption separationOption(
     "contact", "contact_<interface>_separation", true,
-    "whether the two sides can separate; off: they cannot, and nodes without friction can carry "
-    "tension; if a node with friction is under tension, the run reports that this point of the "
-    "sweep has no solution");
+    "separation of the two sides; off: none, and nodes without friction can carry tension; if a "
+    "node with friction is under tension, the run reports that this point of the sweep has no "
+    "solution");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
     "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
@@ -67,7 +67,7 @@ const RealOption tangentialStiffnessOption(
     "contact", "contact_<interface>_stiffness_tangential", 0.0, "N/m3", nonNegative,
     "tangential stiffness of a soft layer: shear stress per tangential displacement of the layer; "
     "used on a sticking interface, where it must be > 0 if -contact_<interface>_stiffness is "
-    "given");
+    "> 0");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
     "slave surface group of a tie, preferably the one with the finer mesh");
@@ -78,8 +78,8 @@ const RealOption toleranceOption("tie", "tie_<name>_tolerance", 0.0, "m", nonNeg
                                  "automatic (for each slave face, half its size)");
 const FlagOption adjustOption(
     "tie", "tie_<name>_adjust", true,
-    "whether the slave nodes of the mesh are first moved onto the master, so that the two bodies "
-    "can rotate together without strain; this changes the geometry and causes no stress");
+    "displacement of the slave nodes of the mesh onto the master before the run, so that the two "
+    "bodies can rotate together without strain; this changes the geometry and causes no stress");
 
 mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
   const std::string group = option.get(name);

@@ -180,7 +180,7 @@ std::vector<CondensedSweep::Step> CondensedSweep::stepsToFollow(std::size_t begi
     else
       printLine(comm_, stepText({*neighbour, k}) +
                            formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
-                                     " finds where",
+                                     " locates the changes",
                                      changes, changes));
   }
   return steps;

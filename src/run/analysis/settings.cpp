@@ -17,11 +17,11 @@ const FlagOption dryRunOption(
     "check of the input, and estimates of memory and time of a run; nothing is solved or written");
 const FlagOption fullOption(
     "steady", "steady_full", false,
-    "solution for steady sliding in all unknowns, as a check; off: in the unknowns of the contact");
+    "solution of steady sliding in all unknowns, as a check; off: in the unknowns of the contact");
 const IntegerOption pathOption(
     "steady", "steady_path", 1000, 0, 1'000'000,
-    "largest number of contact nodes that may differ between two neighbouring points of a sweep; "
-    "up to this number, the program locates each opening and closing between them; 0 = no search");
+    "largest number of contact nodes that open or close between two neighbouring points of a sweep "
+    "for which the program locates each of these changes; 0 = no search");
 const IntegerOption releasedOption(
     "flutter", "flutter_released", 350, 0, 100'000,
     "largest number of contact nodes whose state may differ among points that share a "

@@ -119,8 +119,8 @@ std::string unstableSentence(const std::vector<sweep::Parameters>& points,
   const auto& fastest = *modes.fastest;
   return onsetText(points, verdict, modes.lowestFriction) +
          formatted(
-             "; above it, up to %d unstable mode%s at once. The fastest has %.6g Hz and a growth "
-             "rate of %.4g 1/s (damping %.3g %%) at friction %g",
+             "; above it, up to %d unstable mode%s at once. The fastest-growing one, at %.6g Hz, "
+             "has a growth rate of %.4g 1/s (damping %.3g %%) at friction %g",
              verdict.mostUnstable, verdict.mostUnstable > 1 ? "s" : "",
              fastest.s.imag() / (2 * M_PI), fastest.s.real(), 100 * fastest.dampingRatio(),
              modes.at.friction) +

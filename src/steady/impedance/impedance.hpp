@@ -5,11 +5,11 @@
 ///
 /// The unknowns x of the model with all contact open consist of y, which remain unknowns if all
 /// contact is closed and held, and of the released unknowns w: the gaps, and the tangential
-/// displacements of nodes of sticking interfaces. The slip rows S and the rows N of the normal
-/// forces are those of [M.10]. Let t = f R be the magnitudes of the friction forces and q the
-/// loads. The first of the following equations is the equilibrium in the rows of y. The others give
-/// the normal forces R and the forces F in the rows of w; their constant terms, due to the loads,
-/// are omitted:
+/// displacements of nodes of sticking interfaces. The rows N of the normal forces and the slip rows
+/// S are those of [M.10], here with φ = 1 in S. Let t = f φ R be the magnitudes of the friction
+/// forces and q the loads. The first of the following equations is the equilibrium in the rows of
+/// y. The others give the normal forces R and the forces F in the rows of w; their constant terms,
+/// due to the loads, are omitted:
 ///   K0 y + K_yw w + S_yᵀ t = q,   R = N K T (y, w),   F = K_wy y + K_ww w + S_wᵀ t.
 /// One solve with K0 therefore gives the responses (R, F) at the contact to causes (t, w). This map
 /// depends neither on the coefficients of friction nor on which nodes are open or held.
@@ -40,8 +40,9 @@ class Impedance {
             Mat slipRows, const contact::CoupledSystem& closed);
   /// Returns the number of requested responses to w after which the Schur complement is computed,
   /// for this number of unknowns w. The complement costs as much as 600, 790, 1,100 and 2,740
-  /// solves for 1,300, 2,000, 3,500 and 8,000 unknowns, so it pays if about a third of them is
-  /// needed; the first request is for the unknowns that are free on the first active set.
+  /// solves for 1,300, 2,000, 3,500 and 8,000 unknowns. It pays if the responses to about a third
+  /// of the unknowns are needed. The first request is for those that are free on the first active
+  /// set.
   static long worthwhile(PetscInt unknowns) { return std::max<long>(300, unknowns / 4); }
   /// Sets the number of responses to unit vectors of w (by default worthwhile()) above which they
   /// are taken from the Schur complement, if w has at most 8,000 entries and the complement passes
@@ -55,8 +56,8 @@ class Impedance {
   PetscInt nodes() const {
     return contact_.interfaces.nodes.size();
   }  ///< contact nodes of this rank
-  /// Returns the contact node of each entry of w, [released unknown of this rank]. The first
-  /// nodes() entries of w are the gaps of all nodes in their order.
+  /// Returns the contact node of each entry of w on this rank. The first nodes() entries of w are
+  /// the gaps of all nodes in their order.
   const std::vector<PetscInt>& nodeOf() const { return nodeOf_; }
   /// Returns the number of entries of a ContactVector.
   PetscInt length() const { return nodes() + std::ssize(nodeOf_); }

@@ -36,7 +36,7 @@ struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
   Point moment{};  ///< of both forces on the pad about the origin, N·m (in plane problems, about z)
-  /// The smallest coefficient of friction that would hold all sticking nodes under pressure: their
+  /// The smallest coefficient of friction at which all compressed sticking nodes would stick: their
   /// largest |R_T| / R_N. Zero unless the interface sticks.
   double leastFriction = 0;
   Point worst{};  ///< position of the node with the largest ratio, m
@@ -45,7 +45,7 @@ struct Resultant {
   PetscInt overLimit = 0;  ///< sticking nodes above the limit of the interface
   PetscInt pulled = 0;     ///< those of `overLimit` under tension; no coefficient suffices for them
   PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
-  PetscInt returned = 0;   ///< those of `released` that slide against their friction
+  PetscInt returned = 0;   ///< those of `released` that slide along their friction
   PetscInt unheld = 0;     ///< closed nodes of a sticking interface without tangential force
   /// Magnitude of the sum of the moments of the contact forces on both sides, N·m. It is nonzero if
   /// surfaces whose meshes do not match are a distance apart.
@@ -80,8 +80,8 @@ struct Solution {
   /// the largest magnitude of these resultants, divided by the sum of the magnitudes of all nodal
   /// forces.
   double imbalance = 0;
-  /// Number of contact nodes, over all ranks, whose state is another one in a second known solution
-  /// at the same parameters; 0 if no second solution is known.
+  /// Number of contact nodes, over all ranks, that are closed in only one of two known solutions at
+  /// the same parameters; 0 if no second solution is known.
   PetscInt nodesOfAnother = 0;
 };
 
@@ -104,9 +104,10 @@ contact::ActiveSet activeSet(const Solution& solution);
 /// where V is the velocity of the disc or obstacle at v = 1, and D u_D = (V·∇) u_D the convective
 /// derivative of its displacement.
 ///
-/// The *hold* of a node of a sticking interface is one of three. A held node sticks. A free node
-/// has tangential unknowns and no tangential force. A released node has tangential unknowns and
-/// slides; its row in S has the sticking limit of the interface as coefficient of friction.
+/// The *hold* of a node of a sticking interface is one of three. A held node sticks. A node without
+/// a hold (Hold::open) has tangential unknowns and no tangential force. A released node has
+/// tangential unknowns and slides; its row in S has the sticking limit of the interface as
+/// coefficient of friction.
 class Problem {
  public:
   /// Collective. Borrows mesh, bodies and contact during the lifetime of the object. All nodes of
@@ -134,16 +135,18 @@ class Problem {
   }
   /// Collective. Returns r = (K + v² K^R) u − b, the nodal forces of supports and contact, newtons.
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
-  /// Collective. Throws Error if |w| = 0, without convective terms, at a node with friction.
+  /// Collective. Throws Error if |w|, computed without convective terms, is 0 at a node with
+  /// friction.
   void requireSlip(const sweep::Parameters& at) const;
   /// Collective. Returns the updated holds, or none if they do not change or if the solution has
   /// not converged. Returns none as well, and marks the solution as not converged, if the updated
   /// holds would leave a body under-constrained, if the limit of revisions is reached, or if a node
   /// with friction has a tensile normal force and its interface cannot separate.
   std::optional<Sticking> nextHolds(Solution& solution) const;
-  /// Collective. Computes the other members of a solution from its unknowns x. The caller has set
-  /// `at`, `converged`, `reason`, `tolerance`, `iterations` and `residual`. `left` is the 2-norm,
-  /// in newtons, of the natural residual at x (naturalResidual()).
+  /// Collective. Computes the other members of a solution from its unknowns x, and rejects it if it
+  /// fails a check. The caller has set `at`, `converged`, `reason`, `tolerance`, `iterations` and
+  /// `residual`. `left` is the 2-norm, in newtons, of the natural residual at x
+  /// (naturalResidual()).
   void conclude(Vec x, double left, Solution& solution) const;
   /// Collective. Returns the loads b at this point, a nodal vector in newtons.
   OwnedVec load(const sweep::Parameters& at) const;

@@ -13,7 +13,7 @@ namespace squeal::steady {
 
 namespace {
 
-/// A smaller slip against the friction, relative to the largest jump, is round-off.
+/// A smaller slip along the friction, relative to the largest jump, is round-off.
 constexpr double slipRounding = 1e-8;
 
 /// Collective. Returns the jumps along the surface, m, [contact node].
@@ -106,7 +106,7 @@ std::vector<double> excesses(const contact::Contact& contact, const Solution& so
   return found;
 }
 
-/// Collective. Returns 1 for the released nodes that are closed and slide against their friction,
+/// Collective. Returns 1 for the released nodes that are closed and slide along their friction,
 /// [contact node].
 contact::Mask slidingBack(const contact::Contact& contact, const Solution& solution) {
   const auto jumps = tangentialJumps(contact, solution.displacement);

@@ -27,7 +27,7 @@ struct Sticking {
   std::vector<Hold> holds;       ///< [contact node]
   std::vector<Point> direction;  ///< [contact node] unit vector d, if released
   contact::Mask heldAgain;       ///< [contact node] 1 if it has been held again after it closed
-  /// [contact node] number of times that it was released and, as it slid against its friction, held
+  /// [contact node] number of times that it was released and, as it slid along its friction, held
   /// again
   contact::Mask slidBack;
 
@@ -55,13 +55,13 @@ bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std
 /// released node that has opened is freed, and a free node that has closed is held again, at most
 /// once, so that the revisions end: if it is freed once more, it stays free, without tangential
 /// force, even if it closes. On interfaces with `_release`, a node above its limit is released, and
-/// a node that slides against its friction is held again. Many nodes released together may slide
+/// a node that slides along its friction is held again. Many nodes released together may slide
 /// back, each because of the others. Of the nodes that have slid back, therefore, only those that
 /// exceed their limit most are released in a revision. After `mostReturns` times a node remains
 /// released.
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution);
 
-/// Collective. Counts the released nodes that slide against their friction, Resultant::returned.
+/// Collective. Counts the released nodes that slide along their friction, Resultant::returned.
 void countReturned(const contact::Contact& contact, Solution& solution);
 
 /// The largest number of times that a node is held again after it has slid back.

@@ -16,10 +16,10 @@
 namespace squeal::uniqueness {
 namespace {
 
-const SolverPrefix solverPrefix(
-    "steady", "steady_uniqueness_",
-    "options for the uniqueness check: of PETSc's KSP and PC for the stiffness with open contact "
-    "(MUMPS LDLt), and of SLEPc's EPS: ksp_*, pc_*, eps_*, …");
+const SolverPrefix solverPrefix("steady", "steady_uniqueness_",
+                                "options of PETSc's KSP and PC (stiffness with open contact, MUMPS "
+                                "LDLt) and of SLEPc's EPS for "
+                                "the uniqueness check: ksp_*, pc_*, eps_*, …");
 
 /// The number of columns of K_o⁻¹ in memory together.
 constexpr PetscInt blockColumns = 64;

@@ -104,9 +104,8 @@ analysis::Analysis unstableFrom(double lowest) {
   return run;
 }
 const std::string fastest =
-    "; above it, up to 2 unstable modes at once. The fastest has 1000 Hz and a growth rate of 20 "
-    "1/s "
-    "(damping -0.318 %) at friction ";
+    "; above it, up to 2 unstable modes at once. The fastest-growing one, at 1000 Hz, has a growth "
+    "rate of 20 1/s (damping -0.318 %) at friction ";
 
 TEST(RunVerdict, OfUnstablePoints) {
   analysis::Analysis run = unstableFrom(0);
@@ -157,8 +156,9 @@ TEST(RunVerdict, OfTwoSweptParameters) {
   EXPECT_EQ(verdict.points, 4);
   EXPECT_EQ(
       verdict.sentence,
-      "Unstable at friction 0.2 already; above it, up to 1 unstable mode at once. The fastest "
-      "has 1000 Hz and a growth rate of 20 1/s (damping -0.318 %) at friction 0.2, speed 2.");
+      "Unstable at friction 0.2 already; above it, up to 1 unstable mode at once. The "
+      "fastest-growing one, at 1000 Hz, has a growth rate of 20 1/s (damping -0.318 %) at friction "
+      "0.2, speed 2.");
 }
 
 TEST(RunVerdict, OfAnInterruptedRun) {
