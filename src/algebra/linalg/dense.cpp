@@ -50,6 +50,12 @@ DenseMatrix transposedProduct(const DenseView& x, const DenseView& y) {
   return result;
 }
 
+DenseMatrix identity(PetscInt size) {
+  DenseMatrix result(size, size);
+  for (PetscInt i = 0; i < size; ++i) result(i, i) = 1;
+  return result;
+}
+
 DenseMatrix transposed(const DenseView& x) {
   constexpr PetscInt tile = 32;  // columns that stay in the cache while rows are written
   DenseMatrix result(x.columns(), x.rows());

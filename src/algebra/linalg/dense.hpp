@@ -126,6 +126,8 @@ void multiplyAdd(const DenseView& x, const DenseView& coefficients, DenseMatrix&
 DenseMatrix product(const DenseView& x, const DenseView& coefficients);
 /// Returns Xᵀ Y.
 DenseMatrix transposedProduct(const DenseView& x, const DenseView& y);
+/// Returns the identity matrix.
+DenseMatrix identity(PetscInt size);
 /// Returns the square of the 2-norm of a column.
 double squaredLength(std::span<const double> x);
 /// Returns true if all entries are zero.

@@ -96,8 +96,7 @@ DenseMatrix choleskyFactor(DenseMatrix a) {
 DenseMatrix inverseTransposed(const DenseMatrix& factor) {
   PetscBLASInt n = factor.rows();
   const PetscScalar one = 1;
-  DenseMatrix result(n, n);
-  for (PetscInt i = 0; i < n; ++i) result(i, i) = 1;
+  DenseMatrix result = identity(n);
   if (n > 0) BLAStrsm_("L", "L", "T", "N", &n, &n, &one, factor.data(), &n, result.data(), &n);
   return result;
 }

@@ -44,13 +44,6 @@ std::vector<DenseMatrix> addResponses(reduction::ReducedProblem& reduced,
   return result;
 }
 
-/// Returns the unit matrix.
-DenseMatrix unit(PetscInt size) {
-  DenseMatrix result(size, size);
-  for (PetscInt i = 0; i < size; ++i) result(i, i) = 1;
-  return result;
-}
-
 /// The data of a point, and the approximate eigenvectors of its list in coordinates of V.
 struct PointData {
   PointMatrices matrices;
@@ -93,8 +86,8 @@ void proveList(const SetBounds& set, const PointData& data, const Settings& sett
       found = attempt(set, data.matrices, set.span.vectorsWith(data.vectors), settings,
                       point.bandTop, false);
     if (!found || !found->isComplete()) {
-      auto whole = attempt(set, data.matrices, unit(data.matrices.problem.order()), settings,
-                           point.bandTop, true);
+      auto whole = attempt(set, data.matrices, linalg::identity(data.matrices.problem.order()),
+                           settings, point.bandTop, true);
       if (!found || !found->isProved() || whole.isProved()) found = std::move(whole);
     }
   } catch (const Error& error) {

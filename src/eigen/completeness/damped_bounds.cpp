@@ -142,9 +142,7 @@ void DampedPart::requireTerms(const proof::Coefficients& matrices) const {
     linalg::addScaled(rest[power], -factor, matrix);
     sizes[power] += std::abs(factor) * std::sqrt(linalg::squaredLength(matrix.entries()));
   };
-  DenseMatrix unit(w_.columns(), w_.columns());
-  for (PetscInt i = 0; i < unit.rows(); ++i) unit(i, i) = 1;
-  subtract(0, 1, unit);
+  subtract(0, 1, linalg::identity(w_.columns()));
   subtract(2, 1, matrices_[0]);
   for (std::size_t i = 0; i < set_.bodies.size(); ++i)
     subtract(set_.bodies[i].power, point_.bodyFactors[i], matrices_[i + 1]);

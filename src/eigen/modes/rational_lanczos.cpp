@@ -199,8 +199,7 @@ DenseMatrix RationalLanczos::orthogonalise(bool recurrence) {
 /// replace them, with zero rows in R. Call it after orthogonalise(), whose last M W it reuses: W,
 /// orthogonal to V, has the same products with it as with the exact M W. Finally M W is that of Q.
 void RationalLanczos::orthonormalise(double size) {
-  r_ = DenseMatrix(width_, width_);
-  for (PetscInt i = 0; i < width_; ++i) r_(i, i) = 1;
+  r_ = linalg::identity(width_);
   int refills = 0;
   for (int pass = 0; pass < 3; ++pass) {
     if (pass > 0) massTimesW();

@@ -141,8 +141,7 @@ DiagonalForm::Vectors DiagonalForm::measure(const Pencil& pencil, const DenseMat
   const auto atTopX = linalg::product(atTop, stored), l1X = linalg::product(pencil.l1, stored);
   const linalg::Lu<double> inverse(atTopX);
   if (!(inverse.pivotRatio() > 0)) return {};
-  DenseMatrix inverted(n, n);
-  for (PetscInt j = 0; j < n; ++j) inverted(j, j) = 1;
+  DenseMatrix inverted = linalg::identity(n);
   inverse.solve(inverted);
   // Y L(1) X − 1,   Y L1 X − diag(ν)
   ComplexMatrix unit = complexForm(linalg::product(inverted, atTopX), pairs_),

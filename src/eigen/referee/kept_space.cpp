@@ -72,10 +72,7 @@ void KeptSpace::measure() {
 
 linalg::DenseMatrix KeptSpace::sum(int power) const {
   linalg::DenseMatrix total;
-  if (power == 0) {
-    total = linalg::DenseMatrix(size(), size());
-    for (PetscInt i = 0; i < size(); ++i) total(i, i) = 1;
-  }
+  if (power == 0) total = linalg::identity(size());
   for (const auto& part : parts_) {
     if (part.power == power) linalg::addScaled(total, 1, part.onV);
     if (power == 0 && part.power == 2 && !part.skew)

@@ -16,9 +16,8 @@ namespace {
 /// Returns (K_z + C_z / h)⁻¹, with zeros in the rows and columns that do not move.
 DenseMatrix boundaryCompliance(const ReducedModel& model, double h) {
   const PetscInt m = model.rows();
-  DenseMatrix a = model.boundaryStiffness, inverse(m, m);
+  DenseMatrix a = model.boundaryStiffness, inverse = linalg::identity(m);
   linalg::addScaled(a, 1 / h, model.boundaryDamping);
-  for (PetscInt i = 0; i < m; ++i) inverse(i, i) = 1;
   linalg::Lu<double>(std::move(a)).solve(inverse);
   inverse = linalg::symmetricPart(inverse);
   for (PetscInt i = 0; i < m; ++i)
@@ -29,9 +28,7 @@ DenseMatrix boundaryCompliance(const ReducedModel& model, double h) {
 
 /// Returns (1 + h C/2)⁻¹.
 DenseMatrix modalInverse(const ReducedModel& model, double h) {
-  const PetscInt k = model.modes();
-  DenseMatrix a(k, k), inverse(k, k);
-  for (PetscInt i = 0; i < k; ++i) a(i, i) = inverse(i, i) = 1;
+  DenseMatrix a = linalg::identity(model.modes()), inverse = a;
   linalg::addScaled(a, h / 2, model.damping);
   linalg::Lu<double>(std::move(a)).solve(inverse);
   return inverse;

@@ -60,12 +60,11 @@ std::vector<double> thetaOf(const ReducedModel& model) {
 /// Returns A⁻¹ with A_ij = M_ij + h max(θ_i, θ_j) C_ij + h² θ_i θ_j K_ij.
 DenseMatrix inverseOf(const WholeModel& model, const std::vector<double>& theta, double h) {
   const PetscInt order = std::ssize(theta);
-  DenseMatrix a = model.mass, inverse(order, order);
+  DenseMatrix a = model.mass, inverse = linalg::identity(order);
   for (PetscInt j = 0; j < order; ++j)
     for (PetscInt i = 0; i < order; ++i)
       a(i, j) += h * std::max(theta[i], theta[j]) * model.damping(i, j) +
                  h * h * theta[i] * theta[j] * model.stiffness(i, j);
-  for (PetscInt i = 0; i < order; ++i) inverse(i, i) = 1;
   linalg::Lu<double>(std::move(a)).solve(inverse);
   return linalg::symmetricPart(inverse);
 }

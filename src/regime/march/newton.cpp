@@ -74,8 +74,7 @@ void subtractRow(DenseMatrix& a, PetscInt i, double factor, const DenseMatrix& w
 /// Returns the derivative of F.
 DenseMatrix derivative(const StepProblem& p, const std::vector<double>& r,
                        const std::vector<double>& d) {
-  DenseMatrix a(p.w.rows(), p.w.rows());
-  for (PetscInt i = 0; i < a.rows(); ++i) a(i, i) = 1;
+  DenseMatrix a = linalg::identity(p.w.rows());
   for (std::size_t node = 0; node < p.active.size(); ++node) {
     const Projection to = projected(p, node, r, d);
     if (to.normal == 0) continue;

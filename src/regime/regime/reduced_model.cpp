@@ -108,12 +108,11 @@ DenseMatrix inverseJumps(const ContactResponses& responses, const std::vector<Pe
   const PetscInt n = std::ssize(rows);
   // Each column is scaled by its response including the modal part, so the round-off of a column
   // with only a modal part stays small.
-  DenseMatrix scaled(n, n), inverse(n, n);
+  DenseMatrix scaled(n, n), inverse = linalg::identity(n);
   for (PetscInt j = 0; j < n; ++j) {
     const PetscInt column = responses.columnOf(rows[j]);
     for (PetscInt i = 0; i < n; ++i)
       scaled(i, j) = responses.jumps(rows[i], column) * responses.unit[column];
-    inverse(j, j) = 1;
   }
   const linalg::Lu<double> lu(std::move(scaled));
   if (!(lu.pivotRatio() > 1e-12))
