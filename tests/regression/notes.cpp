@@ -108,6 +108,14 @@ TEST(Notes, AllModesOfASmallMesh) {
   ASSERT_EQ(run.exitCode, 0) << run.error;
   EXPECT_TRUE(says(run, "30 modes to ")) << run.out;
   EXPECT_TRUE(says(run, "All eigenvalues: backward errors in the full-order problem")) << run.out;
+  const ProgramRun limited =
+      runProgram("notes/limited", 1,
+                 commandLine(with(without(spoken, {"modes_count"}), {{"flutter_band", "0.001"}})));
+  ASSERT_EQ(limited.exitCode, 0) << limited.error;
+  EXPECT_TRUE(says(limited,
+                   "All eigenvalues, as the basis is the whole space (-flutter_band was "
+                   "not used): backward errors"))
+      << limited.out;
 }
 
 TEST(Notes, OneModeIsCounted) {

@@ -156,13 +156,16 @@ std::string errorText(const analysis::Analysis& analysis) {
         "\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: "
         "raise -modes_count.",
         requested / (2 * M_PI));
-  text +=
-      (std::isfinite(top) ? formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI))
-                          : "\nAll eigenvalues") +
-      formatted(
-          ": backward errors in the full-order problem up to %.1e, estimated errors |ds|/|s| up to "
-          "%.1e.",
-          backward, estimate);
+  if (std::isfinite(top)) {
+    text += formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI));
+  } else {
+    text += "\nAll eigenvalues";
+    if (requested > 0) text += ", as the basis is the whole space (-flutter_band was not used)";
+  }
+  text += formatted(
+      ": backward errors in the full-order problem up to %.1e, estimated errors |ds|/|s| up to "
+      "%.1e.",
+      backward, estimate);
   return text;
 }
 
