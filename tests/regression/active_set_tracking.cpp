@@ -119,5 +119,60 @@ TEST(Tracking, EachSetHasTermsOfItsOwn) {
   }
 }
 
+/// Returns the frictions in critical.csv from the given one on.
+std::vector<double> criticalFrom(const ProgramRun& run, double least) {
+  std::vector<double> found;
+  for (const double friction : readCsv(run.folder / "critical.csv").column("friction"))
+    if (friction >= least) found.push_back(friction);
+  return found;
+}
+
+// Below the first friction of a sweep the contact is not that of its first point. What the
+// eigenvalues would do with the contact of that point is not a result: changes of stability are
+// listed from the first friction on, those of the sweep from 0, and the rest is named.
+TEST(Tracking, BeginsWhereTheContactIsKnown) {
+  const std::string options = block + "-modes_count 21 -flutter_friction ";
+  const ProgramRun whole = runProgram("active_set/from_zero", 1, options + "0:0.7:0.1");
+  ASSERT_EQ(whole.exitCode, 0) << whole.error;
+  const auto events = readCsv(whole.folder / "contact_path.csv").column("friction");
+  ASSERT_LT(std::ranges::min(events), 0.4);
+  const auto wanted = criticalFrom(whole, 0.4);
+  ASSERT_GE(wanted.size(), 2U);
+  for (const auto& [ranks, more] :
+       {std::pair(1, ""), std::pair(2, ""), std::pair(1, " -steady_full")}) {
+    const ProgramRun run =
+        runProgram("active_set/from_above_np" + std::to_string(ranks) + (*more ? "_full" : ""),
+                   ranks, options + "0.4:0.7:0.1" + more);
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    EXPECT_NE(run.out.find("below the first friction of the sweep; begin the sweep at friction 0"),
+              std::string::npos)
+        << run.out;
+    const auto all = criticalFrom(run, 0);
+    if (*more) {  // the changes of contact are not located
+      EXPECT_TRUE(all.empty() || all.front() >= 0.4);
+      continue;
+    }
+    ASSERT_EQ(all.size(), wanted.size());
+    // The tolerance of a critical friction is 1e-8; contact events are known to 1e-11 of a step.
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(all[i], wanted[i], 1e-7);
+  }
+}
+
+// With closed contact below it, a sweep that begins above 0 lists the changes from 0 on.
+TEST(Tracking, BeginsAtZeroWhereTheContactStays) {
+  const std::string options =
+      "-mesh_set nx=6,ny_disc=2,ny_pad=2 -modes_count 15 -steady_uniqueness off "
+      "-flutter_friction ";
+  const auto fromZero = runCase("two_layers", options + "0,0.3,0.5"),
+             fromAbove = runCase("two_layers", options + "0.3,0.5");
+  const auto& wanted = fromZero.flutter.segments.at(0).trackedLines.at(0).criticals;
+  const auto& found = fromAbove.flutter.segments.at(0).trackedLines.at(0).criticals;
+  ASSERT_EQ(found.size(), wanted.size());
+  ASSERT_FALSE(wanted.empty());
+  EXPECT_LT(wanted.front().friction, 0.3);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i].friction, wanted[i].friction, 1e-7);
+}
+
 }  // namespace
 }  // namespace squeal::test

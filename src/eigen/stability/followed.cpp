@@ -72,13 +72,12 @@ std::vector<std::pair<double, double>> stepsBetween(const std::vector<Piece>& pi
   return steps;
 }
 
-/// Lets a line begin at its lowest friction of the sweep, after a step that no basis serves.
+/// Lets a line begin at its lowest friction of the sweep, after a step that is not followed.
 void beginAfterStep(const Line& line, TrackedLine& tracked) {
   tracked.from = line.swept.front();
   auto& gaps = tracked.branches.gaps;
   std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= tracked.from; });
-  gaps.push_back({*line.before, tracked.from,
-                  "no basis serves the active sets of both frictions (" + line.whyNoBasis + ")"});
+  gaps.push_back({*line.before, tracked.from, line.whyNotFollowed});
   std::erase_if(tracked.criticals,
                 [&](const Critical& critical) { return critical.friction < tracked.from; });
 }

@@ -32,12 +32,12 @@ struct Line {
   sweep::Parameters at;           ///< the parameters; `friction` has no meaning
   std::vector<double> swept;      ///< frictions of the sweep, ascending
   std::vector<LinePiece> pieces;  ///< ascending
-  /// Friction of the preceding point, if the active set changes between it and the first point and
-  /// no basis serves both; none if the line continues another.
+  /// Friction of the preceding point, or 0, if the active set changes between it and the first
+  /// point and the line does not contain this step; none if the line continues another.
   std::optional<double> before;
-  std::string whyNoBasis;    ///< the reason for that; empty without `before`
-  bool continues = false;    ///< begins with the last point of a line in the preceding basis
-  bool isContinued = false;  ///< a line in the next basis begins with the last point
+  std::string whyNotFollowed;  ///< the reason for that; empty without `before`
+  bool continues = false;      ///< begins with the last point of a line in the preceding basis
+  bool isContinued = false;    ///< a line in the next basis begins with the last point
   const modes::Modes* modes = nullptr;  ///< free modes of the first piece, borrowed
 };
 

@@ -39,9 +39,16 @@ std::vector<LineOfSegment> linesOf(const SweepProblem& problem, const SweepPlan&
              sweep::growsInFriction(plan.points[last - 1], plan.points[last]));
     line.at.friction = 0;
     const std::size_t from = plan.places[first].steadyPoint;
-    line.before = from == 0 ? problem.frictionBefore : std::nullopt;
-    line.whyNoBasis = line.before ? problem.whyNoBasis : "";
     line.continues = !plan.places[first].isOwn;
+    if (from == 0 && problem.frictionBefore) {
+      line.before = problem.frictionBefore;
+      line.whyNotFollowed =
+          "no basis serves the active sets of both frictions (" + problem.whyNoBasis + ")";
+    } else if (from < problem.whyNotFromZero.size() && !problem.whyNotFromZero[from].empty() &&
+               !line.continues) {
+      line.before = 0;
+      line.whyNotFollowed = problem.whyNotFromZero[from];
+    }
     line.isContinued =
         problem.isContinued && plan.places[last - 1].steadyPoint + 1 == problem.steadyPoints.size();
     for (const auto& piece : problem.path(from, last - first)) {

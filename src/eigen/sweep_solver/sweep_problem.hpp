@@ -80,6 +80,9 @@ class SweepProblem {
   /// differ only in friction and this problem does not continue it.
   std::optional<double> frictionBefore;
   std::string whyNoBasis;  ///< why this problem does not continue that one
+  /// [steady point] if a line begins there: why eigenvalues cannot be followed to it from friction
+  /// 0, empty if they can. It may have no entries.
+  std::vector<std::string> whyNotFromZero;
   /// True if steadyPoints[0] is the last point of the preceding problem and differs from the next
   /// point only in friction. It is solved again, in this basis, so that its eigenvalues can be
   /// continued, and has no results here.

@@ -8,6 +8,7 @@
 #include "run/analysis/checks.hpp"
 #include "run/analysis/matrix_flutter.hpp"
 #include "run/analysis/mesh_flutter.hpp"
+#include "run/analysis/point_groups.hpp"
 #include "run/analysis/tightening.hpp"
 
 namespace squeal::analysis {
@@ -62,7 +63,8 @@ Analysis analyse(MPI_Comm comm, const Settings& settings,
     flutter = matrixFlutter(comm, settings, sweep, request, checkpoint);
   } else {
     CurrentSystem current(model);
-    steady = steadyStates({model, sweep, settings.mesh->steady}, checkpoint, current);
+    const bool fromZero = tracksFromZero(settings, model, sweep);
+    steady = steadyStates({model, sweep, settings.mesh->steady, fromZero}, checkpoint, current);
     if (steady.complete) uniqueness = examineUniqueness(model, sweep, settings.mesh->uniqueness);
     if (steady.complete && uniqueness.complete)
       flutter = meshFlutter({settings, sweep, model, steady}, request, checkpoint, current);

@@ -45,6 +45,27 @@ void CondensedSweep::solve(StateLog& log) {
     }
     log.write();
   }
+  if (input_.fromZero) examineBelow();
+}
+
+/// Collective. Examines the contact between friction 0 and the first point of each line.
+void CondensedSweep::examineBelow() {
+  for (std::size_t k = 0; k < states_.solutions.size(); ++k)
+    states_.whyNotFromZero.push_back(
+        beginsLine(states_.solutions, k) ? whyNotFromZero(states_.solutions[k]) : "");
+}
+
+std::string CondensedSweep::whyNotFromZero(const steady::Solution& first) {
+  if (!condensed_) condensed_.emplace(problem_, closed_);
+  const sweep::Parameters zero{0, first.at.speed, first.at.pressure};
+  auto without = condensed_->solve(zero);
+  if (!without.converged) without = condensed_->solveWithPivots(zero);
+  PetscInt changes =
+      contact::countDifferent(comm_, steady::activeSet(without), steady::activeSet(first));
+  // Nodes may change twice.
+  if (without.converged && changes == 0 && isExact_ && input_.settings.path > 0)
+    changes = condensed::traceContact(*condensed_, without, first.at).count;
+  return whyNotFollowed(without, changes);
 }
 
 /// Collective. Adds the states at the next points.

@@ -41,6 +41,8 @@ class CondensedSweep {
   std::vector<Step> stepsToFollow(std::size_t begin) const;
   void followPath(const Step& step);
   void addEvents(std::vector<condensed::ContactEvent> events, int count, const Step& step);
+  void examineBelow();
+  std::string whyNotFromZero(const steady::Solution& first);
   void takeSolutionOfPath(condensed::ContactPath& path, const Step& step);
 
   const SteadyInput input_;

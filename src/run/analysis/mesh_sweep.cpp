@@ -66,6 +66,9 @@ MeshSweep::MeshSweep(const SlidingBrake& brake, const PointGroup& group, int seg
   ranges = pointRanges();
   frictionBefore = frictionOfPointBefore();
   if (frictionBefore) whyNoBasis = brake_.mesh().whySeparate;
+  for (std::size_t i = 0; i < steadyPoints.size(); ++i)
+    if (const auto& why = brake_.states.whyNotFromZero; group.first + i < why.size())
+      whyNotFromZero.push_back(why[group.first + i]);
   continues = group.continues;
   isContinued = group.isContinued;
   rangesBefore = segmentsBefore;

@@ -138,6 +138,11 @@ bool areTracked(const Settings& settings, const Model& model, double friction) {
                                settings.mesh->terms);
 }
 
+bool tracksFromZero(const Settings& settings, const Model& model, const sweep::Sweep& sweep) {
+  return (sweep.frictions.size() > 1 || settings.solver.stability.requested) &&
+         areTracked(settings, model, sweep.frictions.back());
+}
+
 std::vector<PointGroup> groupsOf(const SlidingBrake& brake) {
   // Modal damping is that of the free modes of a point, which prestress changes.
   if (brake.settings.pencil.isModallyDamped() && brake.model.bodies.settings.prestress)

@@ -18,6 +18,9 @@ struct PointGroup {
 /// Returns true if the eigenvalues of a sweep are tracked from points with this friction.
 bool areTracked(const Settings& settings, const Model& model, double friction);
 
+/// Returns true if eigenvalues are tracked from friction 0 to the first point of a line.
+bool tracksFromZero(const Settings& settings, const Model& model, const sweep::Sweep& sweep);
+
 /// Collective. Returns the points with a steady solution in groups whose active sets differ in at
 /// most MeshSettings::released nodes. Of all such divisions in which the active set changes at most
 /// 64 times within a group, it is the one with the least estimated work (groupWork()). If

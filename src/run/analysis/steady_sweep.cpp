@@ -5,6 +5,7 @@
 
 #include "base/session/stages.hpp"
 #include "base/system/termination.hpp"
+#include "base/system/text.hpp"
 #include "run/analysis/condensed_sweep.hpp"
 #include "run/analysis/state_log.hpp"
 #include "run/analysis/steady_messages.hpp"
@@ -15,7 +16,7 @@ namespace {
 /// Collective. Solves in all unknowns, with the system of one active set after the other.
 void fullSweep(const SteadyInput& input, StateLog& log, CurrentSystem& system,
                SteadyStates& states) {
-  const auto& [model, sweep, settings] = input;
+  const auto& [model, sweep, settings, fromZero] = input;
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   std::vector<contact::ActiveSet> active;  // [steady point] of its solution, or the one tried
   for (const auto& at : sweep.steadyPoints()) {
@@ -36,9 +37,35 @@ void fullSweep(const SteadyInput& input, StateLog& log, CurrentSystem& system,
     if (solution.converged) active.back() = steady::activeSet(solution);
     log.write();
   }
+  if (!fromZero) return;
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    std::string& why = states.whyNotFromZero.emplace_back();
+    const auto& first = states.solutions[k];
+    if (!beginsLine(states.solutions, k)) continue;
+    const auto without =
+        problem.solve({0, first.at.speed, first.at.pressure}, system.of(active[k]));
+    why = whyNotFollowed(
+        without, contact::countDifferent(model.mesh->comm, steady::activeSet(without), active[k]));
+  }
 }
 
 }  // namespace
+
+bool beginsLine(const std::vector<steady::Solution>& solutions, std::size_t point) {
+  const auto& here = solutions[point];
+  if (!here.converged || !(here.at.friction > 0)) return false;
+  if (point == 0) return true;
+  const auto& before = solutions[point - 1];
+  return !before.converged || !sweep::growsInFriction(before.at, here.at);
+}
+
+std::string whyNotFollowed(const steady::Solution& without, PetscInt changes) {
+  constexpr const char* remedy = "; begin the sweep at friction 0";
+  if (!without.converged) return std::string("no steady state was found without friction") + remedy;
+  if (changes == 0) return "";
+  return formatted("%" PetscInt_FMT " contact %s below the first friction of the sweep%s", changes,
+                   changes == 1 ? "node changes" : "nodes change", remedy);
+}
 
 const steady::Solution& SteadyStates::at(sweep::Parameters point) const {
   point.damping = 1;

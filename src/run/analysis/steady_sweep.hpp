@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 /// Steady sliding at all points of a sweep, and the changes of the contact between them.
+#include <string>
 #include <vector>
 
 #include "base/checkpoint/checkpoint.hpp"
@@ -19,7 +20,10 @@ struct SteadyStates {
   /// The changes of contact nodes of this rank between the points, in the order in which they
   /// occur.
   std::vector<condensed::ContactEvent> path;
-  int events = 0;        ///< number of such changes on all ranks
+  int events = 0;  ///< number of such changes on all ranks
+  /// [point] if a line begins there (beginsLine()): why eigenvalues cannot be followed to it from
+  /// friction 0 with its active set, empty if they can. No entries unless requested.
+  std::vector<std::string> whyNotFromZero;
   bool complete = true;  ///< false if a request to stop ended the computation
 
   /// Returns the steady state at a point of the sweep, borrowed. Ignores the damping factor of the
@@ -32,7 +36,16 @@ struct SteadyInput {
   const Model& model;
   const sweep::Sweep& sweep;
   const SteadySettings& settings;
+  bool fromZero = false;  ///< requests SteadyStates::whyNotFromZero
 };
+
+/// Returns true if a steady state was found at a point with friction, and none at the point of the
+/// sweep with the next lower friction.
+bool beginsLine(const std::vector<steady::Solution>& solutions, std::size_t point);
+
+/// Returns why eigenvalues cannot be followed from friction 0 to a point if the contact of
+/// `changes` nodes changes on the way; empty if none does. `without` is the state without friction.
+std::string whyNotFollowed(const steady::Solution& without, PetscInt changes);
 
 /// Collective. Returns the steady states, and prints a line on each. The solution of a point starts
 /// from the active set of a neighbour. For a point without a solution it prints a warning. Restores
