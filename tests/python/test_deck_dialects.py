@@ -345,6 +345,10 @@ class Readings(unittest.TestCase):
         ):
             rows = refused(cube(text, step), dialect="abaqus")
             self.assertTrue(any(reason in row for row in rows), (step, rows))
+        rows = refused(cube(text.replace("NODE=21", "NODE=5"), load.format("6.")), dialect="abaqus")
+        self.assertTrue(any("the node belongs to a body" in row for row in rows), rows)
+        rows = refused(cube(text + card.format(""), load.format("6.")), dialect="abaqus")
+        self.assertTrue(any("another bolt has the same node" in row for row in rows), rows)
 
     def test_springs(self):
         """A spring between components: the displacement x of a further node is its elongation."""

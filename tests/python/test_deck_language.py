@@ -264,9 +264,35 @@ class Sets(unittest.TestCase):
         self.assertEqual(one.options["load"]["CUBE_nodes"]["force"], "4.0,0.0,0.0")
         self.assertEqual(list(one.options["material"]), ["CUBE"])
 
+    def test_sets_are_sorted_unless_they_are_unsorted(self):
+        """Abaqus pairs the nodes of two sets in *EQUATION and *MPC by their places in the sets."""
+        for word, wanted in (("", [5, 6, 7, 8]), (", UNSORTED", [8, 6, 7, 5])):
+            members, _ = self.members(f"*NSET, NSET=S{word}\n8, 6, 7, 5, 6\n", "S")
+            self.assertEqual(members, wanted)
+            members, _ = self.members(f"*NSET, NSET=A{word}\n8, 6\n*NSET, NSET=A\n7, 5\n", "A")
+            self.assertEqual(members, wanted)
+        members, _ = self.members("*NSET, NSET=A, UNSORTED\n8, 6\n*NSET, NSET=S\nA, 7\n", "S")
+        self.assertEqual(members, [6, 7, 8])
+
+    def test_properties_given_twice(self):
+        """None of two is right: neither the last one nor their sum."""
+        point = "*NODE\n9, 0., 0., 3.\n*ELEMENT, TYPE=MASS, ELSET=M\n9, 9\n"
+        mass, contact = "*MASS, ELSET=M\n1.\n", "*SURFACE INTERACTION, NAME=I\n"
+        for model, step, reason in (
+            ("*MATERIAL, NAME=S\n*DENSITY\n1.\n*DENSITY\n2.\n", "", "has two densities"),
+            (point + mass + mass, "", "element 9 has a second mass"),
+            (contact + "*FRICTION\n0.2\n*FRICTION\n0.4\n", "", "two laws of friction"),
+            (contact + 2 * "*SURFACE BEHAVIOR\n", "", "two laws of contact"),
+            (contact + "*FRICTION\n0.2\n", "*FRICTION\n0.4\n", "in a step, after *CHANGE"),
+        ):
+            rows = refused(cube(model, step), dialect="abaqus")
+            self.assertTrue(any(reason in row for row in rows), (model, rows))
+        rows = refused(cube(after="*STEP\n*FREQUENCY\n-2\n*END STEP\n"), dialect="abaqus")
+        self.assertTrue(any("frequencies is not positive" in row for row in rows), rows)
+
     def test_names_that_python_reads_as_numbers(self):
         members, _ = self.members("*NSET, NSET=1_2\n7\n*NSET, NSET=S\n1_2, 5\n", "S")
-        self.assertEqual(members, [7, 5])
+        self.assertEqual(members, [5, 7])
         self.assertIn("'1_0' is not", refused(cube().replace("\n7, 1.", "\n1_0, 1."))[0])
         self.assertIn("'0_5' is not", refused(cube().replace("\n7, 1.", "\n7, 0_5"))[0])
 

@@ -95,6 +95,7 @@ class Sets:
         self.spelled = {}
         self.sources = {}
         self._parts = {}
+        self._unsorted = set()
         self._members = {}
 
     def __contains__(self, key):
@@ -103,16 +104,19 @@ class Sets:
     def __iter__(self):
         return iter(self._parts)
 
-    def add(self, key, spelled, source, parts=()):
+    def add(self, key, spelled, source, parts=(), unsorted=False):
         """Appends to a set numbers (arrays, or functions that return one) and names of sets
-        (strings), in their order."""
+        (strings). An `unsorted` set keeps their order."""
+        if unsorted:
+            self._unsorted.add(key)
         self.spelled.setdefault(key, spelled)
         self.sources.setdefault(key, []).append(source)
         self._parts.setdefault(key, []).extend(parts)
         self._members.clear()
 
     def members(self, key):
-        """Returns the numbers of a set in the order of the deck, each once. Raises Fault."""
+        """Returns the numbers of a set, each once: ascending, as in Abaqus, or in the order of the
+        deck if the set is unsorted. Raises Fault."""
         # Not recursive: decks may have sets of sets to any depth.
         path = {} if key in self._members else {key: self._names(key)}
         while path:
@@ -124,8 +128,8 @@ class Sets:
                 path[inner] = self._names(inner)
                 continue
             numbers = np.concatenate([EMPTY, *map(self._numbers, self._parts[above])])
-            _, first = np.unique(numbers, return_index=True)
-            self._members[above] = numbers[np.sort(first)]
+            ascending, first = np.unique(numbers, return_index=True)
+            self._members[above] = numbers[np.sort(first)] if above in self._unsorted else ascending
             del path[above]
         return self._members[key]
 

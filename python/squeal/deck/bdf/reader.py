@@ -36,6 +36,7 @@ class Reader:
         self.control, self.selection = control, selection
         self.parameters, self.properties, self.constants = {}, {}, {}
         self.orientations, self.methods, self.masses = [], set(), {}
+        self.mass_numbers = set()  # of CONM2
         self.doubled = set()
         self.regions, self.contact_bodies, self.contact_parameters = {}, {}, {}
         self.brake_motions, self.brake_properties, self.squeals = {}, {}, {}

@@ -242,6 +242,9 @@ def _along(number, line, vector, source):
 @handles("CONM2")
 def conm2(card, reader):
     number, grid, system = card.identifier(1), card.identifier(2), card.integer(3, 0)
+    if number in reader.mass_numbers:
+        raise Fault(f"mass {number} is defined twice", line=card.line)
+    reader.mass_numbers.add(number)
     mass, offset = card.real(4, 0.0), np.array(card.reals(5, 3, 0.0))
     place = reader.model.nodes.at([grid])[0]
     axes = np.eye(3)

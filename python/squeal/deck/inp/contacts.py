@@ -19,11 +19,14 @@ def surface_interaction(card, reader):
         # Abaqus: the thickness of a plane model.
         reader.journal.remark(card.source, f"line {card.data[0][0]} is not used: no plane model")
     reader.interaction = reader.model.interactions[key] = Interaction(card.source)
+    reader.changes_friction = False
 
 
 def _interaction(reader):
     if reader.interaction is None:
-        raise Fault("this card belongs after *SURFACE INTERACTION")
+        raise Fault(
+            "this card belongs after *SURFACE INTERACTION or, in a step, after *CHANGE FRICTION"
+        )
     return reader.interaction
 
 
@@ -36,6 +39,8 @@ def surface_behavior(card, reader):
     """`hard` contact, by any method of the other program, or a pressure that is proportional to the
     penetration."""
     one = _interaction(reader)
+    if one.behavior:
+        raise Fault("the interaction has two laws of contact")
     kind = card.key("PRESSURE-OVERCLOSURE", "HARD")
     if kind not in ("HARD", "LINEAR"):
         raise Fault(f"PRESSURE-OVERCLOSURE={kind} is not supported")
@@ -62,7 +67,11 @@ def surface_behavior(card, reader):
 )
 def friction(card, reader):
     """A law of friction. One that follows *CHANGE FRICTION is ramped from the earlier one."""
-    _interaction(reader).frictions.append(_law(card, reader))
+    one = _interaction(reader)
+    if one.frictions and not reader.changes_friction:
+        raise Fault("the interaction has two laws of friction")
+    one.frictions.append(_law(card, reader))
+    reader.changes_friction = False
 
 
 def _law(card, reader):
@@ -106,6 +115,7 @@ def change_friction(card, reader):
     if factor_of(card, reader) != 1:
         raise Fault("the amplitude does not end at 1: friction between two values", "AMPLITUDE")
     reader.interaction = reader.model.interactions[key]
+    reader.changes_friction = True
 
 
 @handles(

@@ -129,10 +129,21 @@ def _points(card, reader, kind):
     return label
 
 
+def _refuse_second(reader, label, what, is_alike):
+    """Raises Fault if an element of a set already has such a property."""
+    model = reader.model
+    members = model.element_sets.members(label)
+    for one in filter(is_alike, model.masses):
+        both = np.intersect1d(members, model.element_sets.members(one.label))
+        if len(both):
+            raise Fault(f"element {model.element_label(int(both[0]))} has a second {what}")
+
+
 @handles("MASS", used=("ELSET",), lines=1)
 def mass(card, reader):
     label = _points(card, reader, "MASS")
     line, fields = next(card.rows(), (None, [""]))
+    _refuse_second(reader, label, "mass", lambda one: one.inertia is None)
     reader.model.masses.append(PointMass(label, real(fields[0], line), card.source))
 
 
@@ -151,6 +162,7 @@ def rotary_inertia(card, reader):
     if smallest < -1e-9 * abs(largest):
         raise Fault("the tensor of inertia has a negative principal moment", line=line)
     matrix = reader.scope.rotation @ matrix @ reader.scope.rotation.T
+    _refuse_second(reader, label, "tensor of inertia", lambda one: one.inertia is not None)
     reader.model.masses.append(PointMass(label, 0.0, card.source, matrix))
 
 
@@ -162,6 +174,10 @@ def pretension_section(card, reader):
     if reader.model.surfaces[surface].nodes is not None:
         raise Fault(f"the surface '{surface}' has no faces")
     node = reader.node_of(card, "NODE")
+    if any(bolt.node == node for bolt in reader.model.bolts):
+        raise Fault("another bolt has the same node", "NODE")
+    if any(np.isin(node, block.nodes) for block in reader.model.blocks if block.shape):
+        raise Fault("the node belongs to a body; the elongation of a bolt needs its own", "NODE")
     normal = None
     for line, fields in card.rows():
         normal = np.array([real(field, line) if field else 0.0 for field in fields])

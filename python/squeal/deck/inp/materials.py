@@ -101,6 +101,8 @@ def density(card, reader):
     one = _material(reader)
     if not card.data:
         raise Fault("there is no line of data")
+    if one.density_source:
+        raise Fault(f"material '{one.name}' has two densities")
     (one.density,) = _at_temperature(card, _table(card, 1, 1, "a density"), 1, reader)
     one.density_source = card.source
 
@@ -119,6 +121,8 @@ def damping(card, reader):
             " _loss_frequency in the case",
             "STRUCTURAL",
         )
+    if one.damping_source:
+        raise Fault(f"material '{one.name}' has two laws of damping")
     one.damping = tuple(real(card.value(name) or "0") for name in ("ALPHA", "BETA"))
     one.damping_source = card.source
 

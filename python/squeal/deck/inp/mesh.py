@@ -158,8 +158,8 @@ def _words(card):
 
 @handles(
     "NSET",
-    used=("NSET", "GENERATE", "ELSET", "INSTANCE", "INPUT"),
-    idle=("UNSORTED", "INTERNAL"),
+    used=("NSET", "GENERATE", "ELSET", "INSTANCE", "INPUT", "UNSORTED"),
+    idle=("INTERNAL",),
     phase=0,
 )
 def node_set(card, reader):
@@ -181,13 +181,14 @@ def element_set(card, reader):
 
 
 def _set(card, reader, parameter, sets, scope, own):
-    """`scope`: that of the names in the lines, `own`: its numbers."""
+    """`scope`: that of the names in the lines, `own`: its numbers. Equations and multi-point
+    constraints combine the nodes of two sets in their order."""
     key, spelled = reader.defined(card, parameter)
     if "GENERATE" in card.parameters:
         parts = [own.shifted(numbers, line) for line, numbers in _generated(card)]
     else:
         parts = _listed(card, reader, sets, scope, own)
-    sets.add(key, spelled, card.source, parts)
+    sets.add(key, spelled, card.source, parts, "UNSORTED" in card.parameters)
 
 
 def _generated(card):

@@ -75,6 +75,7 @@ class Reader(Names):
         super().__init__(model, journal)
         self.dialect = dialect
         self.material = self.interaction = None
+        self.changes_friction = False  # the next law of friction replaces one
         self.step = Step()
         self.clock = Clock()
 
@@ -182,6 +183,7 @@ class Reader(Names):
             self.model.static is not None,
             only_friction,
         )
+        self.interaction = None
         self._open_step(cards[0], name)
         if name == "STATIC":
             self._begin(procedure)
@@ -263,6 +265,8 @@ class Reader(Names):
             raise Fault("steps of free vibrations with and without PERTURBATION")
         model.prestress = prestress
         count, model.top = (integer(fields[0], line) if fields[0] else None), None
+        if count is not None and count <= 0:
+            raise Fault("the number of frequencies is not positive", line=line)
         if abaqus and len(fields) > 2 and fields[2]:
             model.top = real(fields[2], line)
         if count is None and model.top is None:
