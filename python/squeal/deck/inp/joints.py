@@ -129,21 +129,21 @@ def _points(card, reader, kind):
     return label
 
 
-def _refuse_second(reader, label, what, is_alike):
+def _refuse_second(reader, label, what):
     """Raises Fault if an element of a set already has such a property."""
     model = reader.model
-    members = model.element_sets.members(label)
-    for one in filter(is_alike, model.masses):
-        both = np.intersect1d(members, model.element_sets.members(one.label))
-        if len(both):
-            raise Fault(f"element {model.element_label(int(both[0]))} has a second {what}")
+    described = reader.described.setdefault(what, set())
+    for element in model.element_sets.members(label).tolist():
+        if element in described:
+            raise Fault(f"element {model.element_label(element)} has a second {what}")
+        described.add(element)
 
 
 @handles("MASS", used=("ELSET",), lines=1)
 def mass(card, reader):
     label = _points(card, reader, "MASS")
     line, fields = next(card.rows(), (None, [""]))
-    _refuse_second(reader, label, "mass", lambda one: one.inertia is None)
+    _refuse_second(reader, label, "mass")
     reader.model.masses.append(PointMass(label, real(fields[0], line), card.source))
 
 
@@ -162,7 +162,7 @@ def rotary_inertia(card, reader):
     if smallest < -1e-9 * abs(largest):
         raise Fault("the tensor of inertia has a negative principal moment", line=line)
     matrix = reader.scope.rotation @ matrix @ reader.scope.rotation.T
-    _refuse_second(reader, label, "tensor of inertia", lambda one: one.inertia is not None)
+    _refuse_second(reader, label, "tensor of inertia")
     reader.model.masses.append(PointMass(label, 0.0, card.source, matrix))
 
 
@@ -176,7 +176,7 @@ def pretension_section(card, reader):
     node = reader.node_of(card, "NODE")
     if any(bolt.node == node for bolt in reader.model.bolts):
         raise Fault("another bolt has the same node", "NODE")
-    if any(np.isin(node, block.nodes) for block in reader.model.blocks if block.shape):
+    if reader.in_cells(node):
         raise Fault("the node belongs to a body; the elongation of a bolt needs its own", "NODE")
     normal = None
     for line, fields in card.rows():

@@ -169,6 +169,8 @@ def node_set(card, reader):
         key = scope.prefix + card.key("ELSET")
         if card.data:
             raise Fault("a node set of an element set has no lines of data", line=card.data[0][0])
+        if "UNSORTED" in card.parameters:
+            reader.journal.remark(card.source, "UNSORTED is not used: the nodes are ascending")
         define(card, reader, "NSET", sets, lambda: reader.nodes_of_element_set(key))
         return
     _set(card, reader, "NSET", sets, scope, scope.node_numbers)
@@ -181,8 +183,8 @@ def element_set(card, reader):
 
 
 def _set(card, reader, parameter, sets, scope, own):
-    """`scope`: that of the names in the lines, `own`: its numbers. Equations and multi-point
-    constraints combine the nodes of two sets in their order."""
+    """`scope`: that of the names in the lines, `own`: its numbers. Equations, multi-point
+    constraints and *NFILL combine the nodes of two sets in their order."""
     key, spelled = reader.defined(card, parameter)
     if "GENERATE" in card.parameters:
         parts = [own.shifted(numbers, line) for line, numbers in _generated(card)]

@@ -76,6 +76,7 @@ class Reader(Names):
         self.dialect = dialect
         self.material = self.interaction = None
         self.changes_friction = False  # the next law of friction replaces one
+        self.described = {}  # the elements that have a property, by its name
         self.step = Step()
         self.clock = Clock()
 
