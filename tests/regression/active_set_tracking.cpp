@@ -127,9 +127,9 @@ std::vector<double> criticalFrom(const ProgramRun& run, double least) {
   return found;
 }
 
-// Below the first friction of a sweep the contact is not that of its first point. What the
-// eigenvalues would do with the contact of that point is not a result: changes of stability are
-// listed from the first friction on, those of the sweep from 0, and the rest is named.
+// Below the first friction of a sweep the contact may not be that of its first point. The list then
+// has the changes of stability from the first friction on, those of the sweep from 0, and the step
+// below is named.
 TEST(Tracking, BeginsWhereTheContactIsKnown) {
   const std::string options = block + "-modes_count 21 -flutter_friction ";
   const ProgramRun whole = runProgram("active_set/from_zero", 1, options + "0:0.7:0.1");

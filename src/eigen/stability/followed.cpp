@@ -110,6 +110,9 @@ TrackedLine trackLine(reduction::ReducedProblem& reduced, const Line& line,
     tracked.countExact = problem && !tracked.isDamped && isCounted(tracked.branches, *line.modes);
   }
   renumber(tracked.branches);
+  if (line.before)
+    std::erase_if(tracked.branches.events,
+                  [&](const tracking::Event& event) { return event.low < line.swept.front(); });
   if (settings.critical)
     tracked.criticals = criticalFrictions(path.pieces, tracked.branches, settings.tolerance);
   if (line.before) beginAfterStep(line, tracked);
@@ -120,7 +123,7 @@ TrackedLine trackLine(reduction::ReducedProblem& reduced, const Line& line,
 }  // namespace
 
 bool worthTracking(const Line& line, bool requested) {
-  return line.swept.size() > 1 || line.before || line.isContinued ||
+  return line.swept.size() > 1 || line.before.value_or(0) > 0 || line.isContinued ||
          (line.swept.front() != 0 && requested);
 }
 
@@ -141,7 +144,9 @@ std::string TrackedLine::statement() const {
   const auto& first = stations.front();
   const auto& last = stations.back();
   std::string text = formatted(
-      "%d eigenvalues in the band at friction %g (%s); ", branches.inBandAt(first), first.friction,
+      "%d eigenvalues in the band at friction %g%s (%s); ", branches.inBandAt(first),
+      first.friction,
+      first.friction < from ? formatted(" with the contact of friction %g", from).c_str() : "",
       wholeSpace   ? "of the full problem: the basis is the whole space"
       : countExact ? "Sturm count, exact"
                    : "of the reduced problem, not confirmed by a Sturm count");

@@ -33,7 +33,8 @@ struct Line {
   std::vector<double> swept;      ///< frictions of the sweep, ascending
   std::vector<LinePiece> pieces;  ///< ascending
   /// Friction of the preceding point, or 0, if the active set changes between it and the first
-  /// point and the line does not contain this step; none if the line continues another.
+  /// point, or has no steady state there, and the line does not contain this step; none if the line
+  /// continues another.
   std::optional<double> before;
   std::string whyNotFollowed;  ///< the reason for that; empty without `before`
   bool continues = false;      ///< begins with the last point of a line in the preceding basis
@@ -65,8 +66,8 @@ struct TrackedLine {
   std::string statement() const;
 };
 
-/// Returns true if a line is worth tracking: if it has several frictions or a preceding point, or
-/// if it is continued or, if tracking is `requested`, has a friction other than 0.
+/// Returns true if a line is worth tracking: if it has several frictions or a preceding point with
+/// friction, or if it is continued or, if tracking is `requested`, has a friction other than 0.
 bool worthTracking(const Line& line, bool requested);
 /// Returns the reason why no line can be tracked; empty if lines can be tracked. In a basis of only
 /// the free modes, tracking is impossible.
@@ -76,7 +77,8 @@ std::string whyNotTracked(const reduction::ReducedProblem& reduced, const std::v
 /// settings request critical frictions, solves for them; this may extend the basis. Eigenvalues
 /// jump at a change of the active set and are joined across it. If the first friction of a line is
 /// not 0, tracking still starts at friction 0, with the first active set of the line, unless the
-/// line continues another.
+/// line continues another. Changes of stability below the first friction are dropped if
+/// Line::before has a value.
 std::vector<TrackedLine> trackLines(reduction::ReducedProblem& reduced,
                                     const std::vector<Line>& lines, const Settings& settings,
                                     MPI_Comm comm,

@@ -13,7 +13,8 @@ const FlagOption trackOption(
     "flutter", "flutter_track", true,
     "tracking of the eigenvalues in the band as the friction changes, through crossings and "
     "mergers: branches.csv; reduced method only. A run with a single friction (tracked from "
-    "friction 0), or with terms that depend on the steady state (friction damping, prestress), "
+    "0 if the contact stays the same), or with terms that depend on the steady state (friction "
+    "damping, prestress), "
     "tracks only if this option or -flutter_critical is given as on");
 const FlagOption criticalOption(
     "flutter", "flutter_critical", true,

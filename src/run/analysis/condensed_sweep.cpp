@@ -56,15 +56,21 @@ void CondensedSweep::examineBelow() {
 }
 
 std::string CondensedSweep::whyNotFromZero(const steady::Solution& first) {
+  stopIfRequested(comm_);
   if (!condensed_) condensed_.emplace(problem_, closed_);
+  condensed_->continueFrom(first);  // whether or not the run was resumed
   const sweep::Parameters zero{0, first.at.speed, first.at.pressure};
   auto without = condensed_->solve(zero);
   if (!without.converged) without = condensed_->solveWithPivots(zero);
   PetscInt changes =
       contact::countDifferent(comm_, steady::activeSet(without), steady::activeSet(first));
   // Nodes may change twice.
-  if (without.converged && changes == 0 && isExact_ && input_.settings.path > 0)
-    changes = condensed::traceContact(*condensed_, without, first.at).count;
+  if (without.converged && changes == 0 && isExact_ && input_.settings.path > 0) {
+    const auto path = condensed::traceContact(*condensed_, without, first.at);
+    if (!path.obstacle.empty())
+      return "the contact was followed from friction 0 only up to " + endText(path);
+    changes = path.count;
+  }
   return whyNotFollowed(without, changes);
 }
 

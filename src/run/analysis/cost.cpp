@@ -69,6 +69,7 @@ DividedSweep dividedSweep(const RunSize& size) {
   const double all = size.steadyPoints - 1, changes = changesOnStep(size.contactUnknowns),
                dampings = size.points / size.steadyPoints, followed = size.followedSteps / all,
                tracked = size.trackedSteps / all;
+  const bool share = changes <= size.released;  // neighbouring points may share a basis
   const auto divided = [&](double stepsOfGroup) {
     const double groups = std::ceil(all / stepsOfGroup);
     const GroupSize group{.unknowns = size.unknowns,
@@ -77,13 +78,15 @@ DividedSweep dividedSweep(const RunSize& size) {
                           .activeSets = stepsOfGroup + 1,
                           .differing = changes * stepsOfGroup,
                           // one at both ends of the interval of each set
-                          .spectra = tracked * stepsOfGroup * (followed > 0 ? 2 * changes : 1),
+                          .spectra = !share         ? 0
+                                     : followed > 0 ? tracked * stepsOfGroup * 2 * changes
+                                                    : tracked * stepsOfGroup,
                           .factorFlops = size.factorFlops,
                           .factorEntries = size.factorEntries};
     return DividedSweep{groups, groups * groupWork(group)};
   };
   DividedSweep best = divided(1);
-  for (double steps = 2; steps <= all; ++steps)
+  for (double steps = 2; steps <= all && changes * steps <= size.released; ++steps)
     if (const auto other = divided(steps); other.work < best.work) best = other;
   return best;
 }

@@ -18,6 +18,7 @@ struct RunSize {
   double contactUnknowns = 0;
   double followedSteps = 0;  ///< steps of the friction in which changes of contact are located
   double trackedSteps = 0;   ///< steps of the friction over which eigenvalues are tracked
+  double released = 350;     ///< `-flutter_released`: nodes in which the sets of a group may differ
   double factorBytes = 0;    ///< memory of a factorisation of K0
   double factorEntries = 0;  ///< entries of the factor
   double factorFlops = 0;    ///< operations of a factorisation
@@ -72,7 +73,8 @@ struct DividedSweep {
 };
 
 /// Returns the division into groups of equal size with the least work, if changesOnStep() nodes
-/// change, one after the other, between neighbouring points. The sweep has at least two points.
+/// change, one after the other, between neighbouring points. The active sets of a group differ in
+/// at most `released` nodes. The sweep has at least two points.
 DividedSweep dividedSweep(const RunSize& size);
 
 /// Returns the estimates for a run. `setsDiffer`: changesOnStep() nodes change on each step of the

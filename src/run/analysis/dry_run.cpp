@@ -201,6 +201,7 @@ RunSize withContact(RunSize size, const Model& model, const Settings& settings,
   const bool frictionDamping = friction && settings.mesh->terms.frictionDamping &&
                                (model.mesh->dimension == 3 || !contact.law.constant());
   size.steadyPoints = sweep.steadyPoints().size();
+  size.released = settings.mesh->released;
   size.contactUnknowns = contactUnknowns(model);
   const double steps =
       (sweep.frictions.size() - 1.0) * sweep.speeds.size() * sweep.pressures.size();

@@ -18,7 +18,8 @@ struct PointGroup {
 /// Returns true if the eigenvalues of a sweep are tracked from points with this friction.
 bool areTracked(const Settings& settings, const Model& model, double friction);
 
-/// Returns true if eigenvalues are tracked from friction 0 to the first point of a line.
+/// Returns true if it is to be examined whether eigenvalues can be tracked from friction 0 to the
+/// first point of a line.
 bool tracksFromZero(const Settings& settings, const Model& model, const sweep::Sweep& sweep);
 
 /// Collective. Returns the points with a steady solution in groups whose active sets differ in at

@@ -20,8 +20,8 @@ const FlagOption fullOption(
     "solution of steady sliding in all unknowns, as a check; off: in the unknowns of the contact");
 const IntegerOption pathOption(
     "steady", "steady_path", 1000, 0, 1'000'000,
-    "largest number of contact nodes that open or close between two neighbouring points of a sweep "
-    "for which the program locates each of these changes; 0 = no search");
+    "largest number of contact nodes that open or close between two neighbouring points for which "
+    "these changes are located; 0 = no search");
 const IntegerOption releasedOption(
     "flutter", "flutter_released", 350, 0, 100'000,
     "largest number of contact nodes whose state may differ among points that share a "

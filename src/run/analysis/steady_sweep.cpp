@@ -42,6 +42,7 @@ void fullSweep(const SteadyInput& input, StateLog& log, CurrentSystem& system,
     std::string& why = states.whyNotFromZero.emplace_back();
     const auto& first = states.solutions[k];
     if (!beginsLine(states.solutions, k)) continue;
+    stopIfRequested(model.mesh->comm);
     const auto without =
         problem.solve({0, first.at.speed, first.at.pressure}, system.of(active[k]));
     why = whyNotFollowed(
@@ -52,19 +53,19 @@ void fullSweep(const SteadyInput& input, StateLog& log, CurrentSystem& system,
 }  // namespace
 
 bool beginsLine(const std::vector<steady::Solution>& solutions, std::size_t point) {
-  const auto& here = solutions[point];
-  if (!here.converged || !(here.at.friction > 0)) return false;
-  if (point == 0) return true;
-  const auto& before = solutions[point - 1];
-  return !before.converged || !sweep::growsInFriction(before.at, here.at);
+  if (!solutions[point].converged || solutions[point].at.friction == 0) return false;
+  for (; point > 0 && sweep::growsInFriction(solutions[point - 1].at, solutions[point].at); --point)
+    if (solutions[point - 1].converged) return false;
+  return true;
 }
 
 std::string whyNotFollowed(const steady::Solution& without, PetscInt changes) {
-  constexpr const char* remedy = "; begin the sweep at friction 0";
-  if (!without.converged) return std::string("no steady state was found without friction") + remedy;
+  if (!without.converged) return "no steady state was found without friction";
   if (changes == 0) return "";
-  return formatted("%" PetscInt_FMT " contact %s below the first friction of the sweep%s", changes,
-                   changes == 1 ? "node changes" : "nodes change", remedy);
+  return formatted("%" PetscInt_FMT
+                   " %s of contact below the first friction of the sweep; begin the sweep at "
+                   "friction 0",
+                   changes, changes == 1 ? "change" : "changes");
 }
 
 const steady::Solution& SteadyStates::at(sweep::Parameters point) const {

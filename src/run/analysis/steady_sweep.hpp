@@ -39,12 +39,13 @@ struct SteadyInput {
   bool fromZero = false;  ///< requests SteadyStates::whyNotFromZero
 };
 
-/// Returns true if a steady state was found at a point with friction, and none at the point of the
-/// sweep with the next lower friction.
+/// Returns true if a steady state was found at a point with friction, and none at any lower
+/// friction of its line.
 bool beginsLine(const std::vector<steady::Solution>& solutions, std::size_t point);
 
-/// Returns why eigenvalues cannot be followed from friction 0 to a point if the contact of
-/// `changes` nodes changes on the way; empty if none does. `without` is the state without friction.
+/// Returns why eigenvalues cannot be followed from friction 0 to a point if the contact changes
+/// `changes` times on the way; empty if it does not change. `without` is the state without
+/// friction, which may not have converged.
 std::string whyNotFollowed(const steady::Solution& without, PetscInt changes);
 
 /// Collective. Returns the steady states, and prints a line on each. The solution of a point starts

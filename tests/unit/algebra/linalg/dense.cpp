@@ -130,12 +130,12 @@ TEST(Dense, WithoutRows) {
   expectMatrix(linalg::rowRange(a, 0, 0), 0, 4, {});
 }
 
-// [1 3 5; 2 4 6] · [1 0; 0 1; 1 −1] = [6 −2; 8 −2].
 TEST(Dense, Identity) {
   expectMatrix(linalg::identity(2), 2, 2, {1, 0, 0, 1});
   EXPECT_TRUE(linalg::identity(0).empty());
 }
 
+// [1 3 5; 2 4 6] · [1 0; 0 1; 1 −1] = [6 −2; 8 −2].
 TEST(Dense, Product) {
   const DenseMatrix a = twoByThree(), c(3, 2, {1, 0, 1, 0, 1, -1});
   expectMatrix(linalg::product(a, c), 2, 2, {6, 8, -2, -2});
