@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "eigen/tracking/neutral_end.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/system/mpi.hpp"
@@ -26,7 +27,91 @@ int signFar(const NeutralStep& step) {
   return sign(isNeutralBelow(step) ? high(step) : low(step), true);
 }
 
+/// An eigenvalue of a branch at a station.
+struct Sample {
+  double friction;
+  Complex s;
+};
+
+/// Returns the eigenvalues of the branch of an event at the stations of its piece, by ascending
+/// friction, and that at the neutral end where the event is.
+std::vector<Sample> samplesOf(const Event& event, const std::vector<Station>& stations) {
+  std::vector<Sample> samples{{event.low, event.below[0].s}};
+  for (const auto& station : stations) {
+    if (station.piece != event.piece || station.friction == event.low) continue;
+    for (std::size_t j = 0; j < station.pairs.size(); ++j)
+      if (station.branch[j] == event.branch)
+        samples.push_back({station.friction, station.pairs[j].s});
+  }
+  std::ranges::sort(samples, {}, &Sample::friction);
+  return samples;
+}
+
+/// Returns the sign of Re s; 0 within round-off.
+int certainSign(Complex s) {
+  constexpr double roundOff = 1e-13;
+  return std::abs(s.real()) <= roundOff * std::abs(s) ? 0 : s.real() > 0 ? 1 : -1;
+}
+
+/// Returns the two samples between which the eigenvalue changes its stability; the same sample
+/// twice if the change is there; nullopt if the eigenvalue grows wherever it is neutral. `at` is
+/// the index of the neutral end.
+std::optional<std::pair<Sample, Sample>> bracketOf(const std::vector<Sample>& samples,
+                                                   std::ptrdiff_t at, bool loss) {
+  const std::ptrdiff_t count = std::ssize(samples), away = loss ? -1 : 1;  // from growth
+  const auto has = [&](std::ptrdiff_t k) { return k >= 0 && k < count; };
+  if (certainSign(samples[at].s) == 0) return std::pair{samples[at], samples[at]};
+  if (certainSign(samples[at].s) < 0) {
+    const bool grows = has(at - away) && certainSign(samples[at - away].s) > 0;
+    return std::pair{samples[at], samples[grows ? at - away : at]};
+  }
+  for (std::ptrdiff_t k = at; has(k + away); k += away) {
+    const int next = certainSign(samples[k + away].s);
+    if (next == 0) return std::pair{samples[k + away], samples[k + away]};
+    if (next < 0) return std::pair{samples[k], samples[k + away]};
+    if (!neutral(samples[k + away].s, true)) return {};
+  }
+  const Sample& last = loss ? samples.front() : samples.back();
+  return std::pair{last, last};
+}
+
+/// Collective. Returns the pair of an event with one eigenvalue, continued from its neutral end to
+/// a sample; the unchanged pair if it is not found there.
+std::vector<linalg::DensePair> pairsAt(Family& family, const Event& event, const Sample& sample) {
+  const auto problem = family.at(event.low);
+  if (sample.friction == event.low || !problem) return event.below;
+  const auto found =
+      continuedTo(family, sample.friction, {*problem, event.below}, sample.s, event.isolation);
+  return found ? found->pairs() : event.below;
+}
+
 }  // namespace
+
+void bracketNeutralEnds(const std::vector<Piece>& path, Branches& branches) {
+  std::vector<Event> events;
+  for (auto& event : branches.events) {
+    const bool atNeutralEnd = event.kind == Event::Kind::crossing && event.low == event.high &&
+                              event.below.size() == 1 && neutral(event.below[0].s, true);
+    if (!atNeutralEnd) {
+      events.push_back(std::move(event));
+      continue;
+    }
+    const auto samples = samplesOf(event, branches.stations);
+    const auto at = std::ranges::find(samples, event.low, &Sample::friction) - samples.begin();
+    auto bracket = bracketOf(samples, at, event.loss);
+    if (!bracket) continue;
+    auto& [low, high] = *bracket;
+    if (low.friction > high.friction) std::swap(low, high);
+    Family& family = *path[event.piece].family;
+    auto below = pairsAt(family, event, low), above = pairsAt(family, event, high);
+    event.low = low.friction;
+    event.high = high.friction;
+    event.below = std::move(below);
+    event.above = std::move(above);
+    events.push_back(std::move(event));
+  }
+  branches.events = std::move(events);
+}
 
 bool changesSignWithin(const NeutralStep& step) {
   if (isNeutralBelow(step) == neutral(high(step), true)) return false;

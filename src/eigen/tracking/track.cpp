@@ -8,6 +8,7 @@
 #include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "eigen/tracking/join.hpp"
+#include "eigen/tracking/neutral_end.hpp"
 #include "eigen/tracking/screen.hpp"
 #include "eigen/tracking/step.hpp"
 #include "eigen/tracking/step_joiner.hpp"
@@ -69,6 +70,7 @@ class Tracker {
           .progress(formatted("%d branches tracked to friction %g", result_.count,
                               row.back().station.friction));
     }
+    bracketNeutralEnds(path_, result_);
     return std::move(result_);
   }
 

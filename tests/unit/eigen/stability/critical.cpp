@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -108,6 +109,45 @@ TEST(Critical, NeutralAtAnEnd) {
             EXPECT_NEAR(found[k].friction, expected[k].first, 1e-9 * top);
           }
         }
+}
+
+/// A mode with the growth rate rate · growth(f) in units of its angular frequency, and one that
+/// decays.
+struct SlowGrowth : tracking::Family {
+  static constexpr double w = 600;
+  double rate;
+  std::function<double(double)> growth;
+  SlowGrowth(double size, std::function<double(double)> function)
+      : rate(size), growth(std::move(function)) {}
+  MPI_Comm comm() const override { return PETSC_COMM_WORLD; }
+  bool isAffine() const override { return true; }
+  std::optional<linalg::DenseProblem> at(double f) override {
+    auto problem = modal({w * w, 700 * 700}, {}).at(f);
+    problem->damping = test::diagonal(std::vector{-2 * w * rate * growth(f), 50.0});
+    return problem;
+  }
+};
+
+// Eigenvalues within 1e-10 |s| of the axis count as neutral: here at several stations, on both
+// sides of the root. The change is at the root, not at the last of these stations. Without a root,
+// no change.
+TEST(Critical, NeutralAtSeveralStations) {
+  constexpr double root = 0.37, rate = 4e-10;
+  for (const double sign : {1.0, -1.0})
+    for (const int steps : {2, 9, 20}) {
+      SlowGrowth family(sign * rate, [&](double f) { return f - root; });
+      const auto branches = track(family, grid(1, steps), {});
+      expectNoGaps(branches);
+      const auto found = stability::criticalFrictions(family, branches, 1e-6);
+      ASSERT_EQ(found.size(), 1u);
+      EXPECT_EQ(found[0].kind, tracking::Event::Kind::crossing);
+      EXPECT_EQ(found[0].loss, sign > 0);
+      EXPECT_TRUE(found[0].converged);
+      // The round-off of s, a few 1e-16 |s|, over its slope of 4e-10 |s|.
+      EXPECT_NEAR(found[0].friction, root, 1e-5);
+    }
+  SlowGrowth grows(10 * rate, [&](double f) { return std::pow(f - root, 2) + 0.01; });
+  EXPECT_TRUE(track(grows, grid(1, 20), {}).events.empty());
 }
 
 // The same with damping: Routh and Hurwitz (tests/verification/minimal_models.cpp).
