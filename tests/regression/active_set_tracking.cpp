@@ -158,6 +158,31 @@ TEST(Tracking, BeginsWhereTheContactIsKnown) {
   }
 }
 
+// A point of the sweep where a node is about to open, which is known to 1e-11 of the step: its
+// state belongs to the active sets before and after. The changes of stability are those of a sweep
+// without this point. With the point moved by 1e-12, the node may count as open or as closed there.
+TEST(Tracking, PassesPointsWhereTheContactChanges) {
+  const std::string options = block + "-modes_count 21 -flutter_friction 0,";
+  const ProgramRun plain = runProgram("active_set/no_point_at_change", 1, options + "0.6");
+  ASSERT_EQ(plain.exitCode, 0) << plain.error;
+  const auto events = readCsv(plain.folder / "contact_path.csv").column("friction");
+  const auto wanted = criticalFrom(plain, 0);
+  ASSERT_GE(events.size(), 2U);
+  for (const double moved : {-1e-12, 0.0, 1e-12})
+    for (const int ranks : {1, 2}) {
+      const ProgramRun run = runProgram("active_set/point_at_change", ranks,
+                                        options + formatted("%.17g,0.6", events[1] + moved));
+      ASSERT_EQ(run.exitCode, 0) << run.error;
+      const auto found = criticalFrom(run, 0);
+      ASSERT_EQ(found.size(), wanted.size()) << run.out;
+      // The tolerance of a critical friction is 1e-8; contact events are known to 1e-11 of a step.
+      for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 1e-7);
+      EXPECT_EQ(readCsv(run.folder / "contact_path.csv").column("friction").size(), events.size());
+      for (const double converged : readCsv(run.folder / "critical.csv").column("converged"))
+        EXPECT_EQ(converged, 1);
+    }
+}
+
 // With closed contact below it, a sweep that begins above 0 lists the changes from 0 on.
 TEST(Tracking, BeginsAtZeroWhereTheContactStays) {
   const std::string options =

@@ -8,6 +8,7 @@
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
 #include "run/analysis/steady_messages.hpp"
+#include "steady/steady/limit_states.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -243,15 +244,19 @@ void CondensedSweep::addEvents(std::vector<condensed::ContactEvent> events, int 
 }
 
 /// Collective. Replaces the solution at the end of a step by the one that the path leads to, if
-/// other nodes are open there. If only the holds of sticking nodes differ, the path ends with a
-/// change to those of the solution, which is computed with as many nodes held as possible. Where
-/// nodes begin or cease to slide is not known.
+/// other nodes are open there. If nodes open or close exactly at the end, or if only the holds of
+/// sticking nodes differ, the path ends with a change to the active set of the solution, which is
+/// computed with as many nodes held as possible. Where nodes begin or cease to slide is not known.
 void CondensedSweep::takeSolutionOfPath(condensed::ContactPath& path, const Step& step) {
   steady::Solution& solution = states_.solutions[step.to];
   const contact::ActiveSet end{path.closed, path.sticking.free()};
   const auto holds = path.sticking.holds;
-  if (const PetscInt others = contact::countDifferent(comm_, path.closed, solution.closed);
-      others > 0) {
+  const PetscInt others = contact::countDifferent(comm_, path.closed, solution.closed);
+  const auto isAtChange = [&] {
+    return steady::isOnActiveSet(input_.model.contact, solution,
+                                 {path.closed, steady::activeSet(solution).released});
+  };
+  if (others > 0 && !isAtChange()) {
     condensed_->startFrom(std::move(path.gaps), std::move(path.sticking));
     auto ahead = condensed_->solve(solution.at);
     if (!ahead.converged || contact::countDifferent(comm_, ahead.closed, path.closed) != 0) return;

@@ -9,8 +9,8 @@
 
 namespace squeal::steady {
 
-std::optional<Solution> onActiveSet(const contact::Contact& contact, Solution solution,
-                                    const contact::ActiveSet& set) {
+bool isOnActiveSet(const contact::Contact& contact, const Solution& solution,
+                   const contact::ActiveSet& set) {
   constexpr double roundOff = 1e-8;  // as for `negligibleForce`
   PetscReal largest = 0;
   check(VecNorm(solution.displacement, NORM_INFINITY, &largest));
@@ -23,10 +23,15 @@ std::optional<Solution> onActiveSet(const contact::Contact& contact, Solution so
            std::abs(state.normalForce) <= 10 * solution.negligibleForce &&
            std::abs(state.coefficient) <= roundOff * largest;
   }
-  const MPI_Comm comm = contact.mesh->comm;
-  if (!mpi::all(comm, fits)) return {};
+  return mpi::all(contact.mesh->comm, fits);
+}
+
+std::optional<Solution> onActiveSet(const contact::Contact& contact, Solution solution,
+                                    const contact::ActiveSet& set) {
+  if (!isOnActiveSet(contact, solution, set)) return {};
   solution.closed = set.closed;
-  solution.openNodes = mpi::sum(comm, static_cast<PetscInt>(std::ranges::count(set.closed, 0)));
+  solution.openNodes =
+      mpi::sum(contact.mesh->comm, static_cast<PetscInt>(std::ranges::count(set.closed, 0)));
   return solution;
 }
 

@@ -8,10 +8,14 @@
 
 namespace squeal::steady {
 
-/// Collective. Returns a converged solution with the active set `set`; none if it is not a solution
-/// on that set. It is one if each node whose state differs has no normal force and no gap within
-/// round-off, and its interface does not stick: where a sticking node opens, its tangential force
-/// vanishes, so the two sets have different states.
+/// Collective. Returns true if a converged solution is also one on the active set `set`: if each
+/// node whose state differs has no normal force and no gap within round-off, and its interface does
+/// not stick. (Where a sticking node opens, its tangential force vanishes, so the two sets have
+/// different states.)
+bool isOnActiveSet(const contact::Contact& contact, const Solution& solution,
+                   const contact::ActiveSet& set);
+
+/// Collective. Returns the solution with the active set `set`; none if it is not one on that set.
 std::optional<Solution> onActiveSet(const contact::Contact& contact, Solution solution,
                                     const contact::ActiveSet& set);
 
