@@ -56,8 +56,7 @@ double availableMemory() {
 
 void retainFreedMemory() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_MAX, 65536);  // libsuperlu_dist sets it to 0 when it is loaded
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_MMAP_MAX, 0);  // a block from mmap() returns to the kernel when it is freed
   mallopt(M_TRIM_THRESHOLD, 512 << 20);
 #endif
 }

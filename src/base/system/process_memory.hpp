@@ -11,9 +11,9 @@ double availableMemory();
 /// Returns the size of the address space of this process, in bytes.
 double addressSpace();
 
-/// Makes the C library retain some of the freed memory. The program allocates and frees many blocks
-/// of columns, and otherwise the kernel would clear their pages each time. This would take 1/40 of
-/// the time of a run.
+/// Makes the C library retain freed memory, up to 512 MB of it at the end of the heap (see
+/// releaseFreedMemory()). The program allocates and frees many blocks of columns, and otherwise the
+/// kernel would clear their pages each time. This would take up to a tenth of the time of a run.
 void retainFreedMemory();
 
 /// Returns the freed memory of the heap to the kernel, also between blocks in use, if the heap has
