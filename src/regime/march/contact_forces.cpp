@@ -65,7 +65,8 @@ double StepSolver::sweep(const std::vector<double>& friction,
     }
     const double most = std::max({std::abs(change[0]), std::abs(change[1]), std::abs(change[2])});
     largest = std::max(largest, most);
-    if (most <= negligible) continue;  // not worth loading W into the cache
+    // Small changes are not worth loading W into the cache, except where the node opens.
+    if (most <= negligible && (normal > 0 || r[row] == 0)) continue;
     for (int c = 0; c < dimension_; ++c) r[row + c] += change[c];
     addColumns(w_, row, dimension_, change, d);
   }

@@ -9,12 +9,12 @@
 
 namespace squeal::march {
 
-/// Solves for the forces R of a time step and the increments of the jump,
+/// Solves for the forces R of a time step and the jumps d,
 ///   d = b + W R
 /// in the rows of gaps (N) and slips (T), under the conditions
 ///   0 ≤ d_N ⟂ R_N ≥ 0,   |R_T| ≤ f R_N,   R_T = −f R_N d_T / |d_T| where d_T ≠ 0.
-/// d_N is the gap at the end of the step, or the step times the rate of the gap; d_T is the slip
-/// during the step.
+/// d_N is the gap at the end of the step or, at nodes with mass, the step times its rate; d_T is
+/// the slip during the step.
 class StepSolver {
  public:
   /// W is symmetric and positive semidefinite, rows × rows. Each node has `dimension` rows. Rows
@@ -22,11 +22,11 @@ class StepSolver {
   StepSolver(DenseMatrix w, int dimension, std::vector<unsigned char> moves);
   const DenseMatrix& w() const { return w_; }
 
-  /// Improves the forces R by the projected Gauss–Seidel method until they change in a sweep by at
-  /// most `tolerance`, N, or 1e-10 of the largest force if this is larger. With strong friction the
-  /// sweeps may never converge; after many of them Newton's method is tried, and again each time
-  /// their number has doubled. The forces of open nodes are exactly zero at the end. On entry,
-  /// d must be b + W R for the initial forces; it is updated with R. `friction` are the
+  /// Improves the forces R by the projected Gauss–Seidel method until a sweep changes them by at
+  /// most `tolerance` (in newtons) or, if this is larger, 1e-10 of the largest force. With strong
+  /// friction the sweeps may never converge; after many of them Newton's method is tried, and again
+  /// each time their number has doubled. The forces of open nodes are exactly zero at the end. On
+  /// entry, d must be b + W R for the initial forces; it is updated with R. `friction` are the
   /// coefficients f, [node]. active[node] is 0 for a node that is known to be open; its forces must
   /// be zero. Returns the number of sweeps. Throws Error if the largest number of sweeps is not
   /// sufficient. Throws Interrupted, only on this rank, once stopRequested() is true.
