@@ -167,6 +167,7 @@ TEST(Tracking, PassesPointsWhereTheContactChanges) {
   ASSERT_EQ(plain.exitCode, 0) << plain.error;
   const auto events = readCsv(plain.folder / "contact_path.csv").column("friction");
   const auto wanted = criticalFrom(plain, 0);
+  const auto frequencies = readCsv(plain.folder / "critical.csv").column("frequency_hz");
   ASSERT_GE(events.size(), 2U);
   for (const double moved : {-1e-12, 0.0, 1e-12})
     for (const int ranks : {1, 2}) {
@@ -178,6 +179,14 @@ TEST(Tracking, PassesPointsWhereTheContactChanges) {
       // The tolerance of a critical friction is 1e-8; contact events are known to 1e-11 of a step.
       for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 1e-7);
       EXPECT_EQ(readCsv(run.folder / "contact_path.csv").column("friction").size(), events.size());
+      // Eigenvalues at changes of contact are corrected as well: their backward errors are known.
+      // Those of two eigenvalues that meet are known to 1e-7.
+      const CsvTable table = readCsv(run.folder / "critical.csv");
+      const auto here = table.column("frequency_hz"), errors = table.column("backward_error");
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        EXPECT_NEAR(here[i], frequencies[i], 1e-6 * here[i]);
+        EXPECT_GT(errors[i], 0);
+      }
       for (const double converged : readCsv(run.folder / "critical.csv").column("converged"))
         EXPECT_EQ(converged, 1);
     }

@@ -50,7 +50,7 @@ class Roots {
     std::vector<double> ends;
     for (const auto& event : events) {
       roots_.emplace_back(event, tolerance);
-      if (event.low < event.high && event.kind != Event::Kind::contact)
+      if (event.kind == Event::Kind::contact ? event.low == event.high : event.low < event.high)
         ends.insert(ends.end(), {event.low, event.high});
     }
     family.addFrictions(ends);

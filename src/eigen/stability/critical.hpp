@@ -40,8 +40,9 @@ struct Critical {
 /// improves its basis by the pairs at the roots, and the roots are located again. This ends when
 /// the relative change of the friction is at most `tolerance`, or after ten rounds. Throws Error if
 /// LAPACK fails. If an eigenvalue jumps at a change of the active set, its critical friction is
-/// that of the change. Two coalescences of the same eigenvalues that cancel within their errors are
-/// omitted: the eigenvalues cross.
+/// that of the change, and the eigenvalue after the jump is improved in the same way. Two
+/// coalescences of the same eigenvalues that cancel within their errors are omitted: the
+/// eigenvalues cross.
 std::vector<Critical> criticalFrictions(Family& family, const Branches& branches, double tolerance);
 /// Collective. Does the same for branches of a path.
 std::vector<Critical> criticalFrictions(const std::vector<Piece>& path, const Branches& branches,

@@ -17,6 +17,7 @@ using tracking::real;
 void CriticalRoot::locate(Family& family, bool changed) {
   const double before = friction_;
   // Equal eigenvalues split at an end of a step, and eigenvalues jump between two pieces of a path.
+  if (jumps()) return locateJump(family, changed);
   if (event_.low == event_.high || event_.kind == Event::Kind::contact) {
     friction_ = 0.5 * (event_.low + event_.high);
     settled_ = true;
@@ -26,6 +27,26 @@ void CriticalRoot::locate(Family& family, bool changed) {
   friction_ = first ? searchFromEnds(family) : refined(family);
   moved_ = first ? roughly() : changed ? std::abs(friction_ - before) : 0;
   settled_ = std::isnan(friction_) || (!first && moved_ <= tolerance_ * friction_);
+}
+
+/// Finds the eigenvalue after a jump in the present basis. It is settled when it no longer moves.
+void CriticalRoot::locateJump(Family& family, bool changed) {
+  const bool first = known_.empty();
+  friction_ = event_.high;
+  settled_ = true;
+  const auto problem = lost_ || !(first || changed) ? std::nullopt : family.near(friction_);
+  if (!problem) return;
+  if (first) {
+    known_.push_back({friction_, 0, linalg::Spectrum(*problem, event_.above)});
+    settled_ = false;
+    return;
+  }
+  auto& spectrum = known_.front().spectrum;
+  const Complex before = mean(spectrum.pairs());
+  auto found = continuedIn(*problem, spectrum, before, event_.isolation);
+  if (!found) return;
+  settled_ = std::abs(mean(found->pairs()) - before) <= tolerance_ * std::abs(before);
+  spectrum = std::move(*found);
 }
 
 PairsAtFriction CriticalRoot::located() const {
@@ -52,7 +73,8 @@ Critical CriticalRoot::result() const {
                   .backwardError = backwardError_,
                   .piece = event_.piece};
   if (event_.low == event_.high || event_.kind == Event::Kind::contact) {
-    result.angularFrequency = mean(event_.below).imag();
+    result.angularFrequency =
+        mean(known_.empty() ? event_.above : nearest(friction_).pairs()).imag();
     result.errorEstimate = 0.5 * (event_.high - event_.low);
     result.converged = event_.low == event_.high;
   } else if (std::isnan(friction_)) {

@@ -44,6 +44,9 @@ class CriticalRoot {
     const std::vector<linalg::DensePair>& pairs() const { return spectrum.pairs(); }
   };
 
+  /// Returns true if the eigenvalue jumps at a known friction.
+  bool jumps() const { return event_.kind == Event::Kind::contact && event_.low == event_.high; }
+  void locateJump(Family& family, bool changed);
   double measure(const linalg::Spectrum& spectrum) const;
   const Sample& nearest(double friction) const;
   Complex expected(double friction) const;
@@ -67,7 +70,7 @@ class CriticalRoot {
   bool throughZero_;  // s is real at both ends; in a problem in s², only s² is analytic there
   double friction_ = NAN, moved_ = 0, backwardError_ = 0, roundOff_ = 0, slope_ = 0;
   bool settled_ = false, lost_ = false;
-  std::vector<Sample> known_;  // the two ends of the bracket first
+  std::vector<Sample> known_;  // the two ends of the bracket first; at a jump, one sample
 };
 
 }  // namespace squeal::stability

@@ -113,8 +113,10 @@ void StepJoiner::joinUncertain(const Ends& ends, const Group& group, bool counts
                                         : chosen(a.spectrum.pairs(), group.here);
   step.gaps.push_back(
       {a.station.friction, b.station.friction,
-       formatted("uncertain match of %zu eigenvalues near %.6g Hz at the start and %zu at the end",
-                 group.here.size(), mean(pairs).imag() / (2 * M_PI), group.there.size())});
+       formatted(
+           "uncertain match near %.6g Hz: eigenvalues at friction %g: %zu, at friction %g: %zu",
+           mean(pairs).imag() / (2 * M_PI), a.station.friction, group.here.size(),
+           b.station.friction, group.there.size())});
 }
 
 /// Joins a group across a jump of the eigenvalues.
@@ -135,7 +137,8 @@ void StepJoiner::joinAcrossJump(const Ends& ends, const Group& group, StepResult
                              .low = a.station.friction,
                              .high = b.station.friction,
                              .below = {a.station.pairs[i]},
-                             .above = {b.station.pairs[j]}});
+                             .above = {b.station.pairs[j]},
+                             .isolation = isolation(ends, group)});
   }
 }
 
