@@ -39,16 +39,16 @@ void appendParts(const std::vector<Complex>& vector, DenseMatrix& columns) {
 }
 
 DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes& modes,
-                            const std::vector<double>& lambda, Mat mass) {
+                            const std::vector<double>& lambda, Mat mass, PetscInt solved) {
   constexpr PetscInt atOnce = 128;  // limits the memory
   const auto& basis = reduced.basis();
   DenseMatrix result(basis.size());
-  for (PetscInt first = 0; first < basis.size();) {
+  for (PetscInt first = 0; first < solved;) {
     if (first == modes.first) {
       result.resizeColumns(first += modes.count);
       continue;
     }
-    const PetscInt end = first < modes.first ? modes.first : basis.size(),
+    const PetscInt end = first < modes.first ? modes.first : solved,
                    last = std::min(first + atOnce, end);
     linalg::Block forces(basis.localRows()), inertia(basis.localRows());
     basis.appendProducts(mass, first, last, forces);
@@ -56,11 +56,18 @@ DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes
     result.append(linalg::transposedProduct(basis.comm(), basis.columns(), inertia));
     first = last;
   }
-  for (PetscInt j = 0; j < modes.count; ++j) {
-    const PetscInt mode = modes.first + j;
-    for (PetscInt i = 0; i < basis.size(); ++i) result(i, mode) = result(mode, i);
-    result(mode, mode) = 1 / (lambda[j] * lambda[j]);
-  }
+  result.resizeColumns(basis.size());
+  const DenseMatrix onV = reduced.projectAssociated().mass;
+  for (PetscInt i = 0; i < basis.size(); ++i)
+    for (PetscInt j = 0; j < modes.count; ++j) {
+      const PetscInt mode = modes.first + j;
+      if (i >= solved) result(mode, i) = onV(mode, i) / lambda[j];
+      result(i, mode) = result(mode, i);
+    }
+  for (PetscInt j = 0; j < modes.count; ++j)
+    result(modes.first + j, modes.first + j) = 1 / (lambda[j] * lambda[j]);
+  for (PetscInt i = solved; i < basis.size(); ++i)
+    for (PetscInt j = 0; j < solved; ++j) result(j, i) = result(i, j);
   return result;
 }
 

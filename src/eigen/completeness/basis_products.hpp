@@ -22,10 +22,11 @@ void appendParts(const std::vector<Complex>& vector, linalg::DenseMatrix& column
 /// Not collective. Returns a matrix of pseudorandom signs, always the same ones.
 linalg::DenseMatrix randomSigns(PetscInt rows, PetscInt columns);
 
-/// Collective. Returns Vᵀ M K0⁻¹ M V with K0⁻¹ of the interior. The modes d need no solves, as K0⁻¹
+/// Collective. Returns Vᵀ M K0⁻¹ M V with K0⁻¹ of the interior; zero where both vectors are not
+/// among the first `solved` ones of V, which take a solve each. The modes d need no solves, as K0⁻¹
 /// M d = d/λ.
 linalg::DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes& modes,
-                                    const std::vector<double>& lambda, Mat mass);
+                                    const std::vector<double>& lambda, Mat mass, PetscInt solved);
 
 /// The reason why nothing is proved without KnownModes.
 inline constexpr const char* unconfirmed = "the number of free modes is not confirmed";

@@ -108,6 +108,7 @@ SetMatrices commonProducts(reduction::ReducedProblem& reduced,
                            const std::vector<double>& lambda, Mat mass) {
   SetMatrices result;
   result.modes = modes;
+  result.solved = reduced.basis().size();
   result.slipFlexibility = addResponses(reduced, factors);
   const auto& basis = reduced.basis();
   for (const auto& slip : factors.slip)
@@ -116,7 +117,7 @@ SetMatrices commonProducts(reduction::ReducedProblem& reduced,
   result.inertia = reduction::productWithBasis(basis, factors.normalOf(2));
   result.normalFlexibility = reduced.flexibility(columnsOf(factors.normalOf(0)));
   result.inertiaFlexibility = reduced.flexibility(columnsOf(factors.normalOf(2)));
-  result.massProduct = massFlexibility(reduced, modes, lambda, mass);
+  result.massProduct = massFlexibility(reduced, modes, lambda, mass, result.solved);
   return result;
 }
 
@@ -132,6 +133,7 @@ SetMatrices matricesOf(const ProvedSet& set, const subspace::PointSpace& space,
   SetMatrices result;
   result.modes = common.modes;
   result.modes.first = space.own();
+  result.solved = space.size(common.solved);
   for (std::size_t a = 0; a < common.slip.size(); ++a) {
     result.slip.push_back(rowsOnSet(common.slip[a]));
     result.slipFlexibility.push_back(onSet(common.slipFlexibility[a]));
@@ -164,19 +166,54 @@ PointData dataOf(const reduction::ReducedProblem& reduced, const pencil::Frictio
 void proveSet(reduction::ReducedProblem& reduced, const pencil::FrictionFactors& factors,
               const SetMatrices& matrices, const ProvedSet& set, const Settings& settings) {
   const SetBounds bounds = setBounds(matrices, reach * set.points.front()->bandTop);
+  constexpr std::size_t ofRank = 4;  // points of a rank at a time: limits the memory
   const MPI_Comm comm = reduced.basis().comm();
-  const std::size_t ranks = mpi::size(comm);
-  for (std::size_t first = 0; first < set.points.size(); first += ranks) {
-    const std::size_t count = std::min(ranks, set.points.size() - first);
-    std::optional<PointData> own;
+  const std::size_t rank = mpi::rank(comm), ranks = mpi::size(comm), atOnce = ofRank * ranks;
+  for (std::size_t first = 0; first < set.points.size(); first += atOnce) {
+    const std::size_t count = std::min(atOnce, set.points.size() - first);
+    std::vector<PointData> own;
     for (std::size_t i = 0; i < count; ++i) {
       auto data = dataOf(reduced, factors, set.problems[first + i]);
-      if (mpi::rank(comm) == static_cast<int>(i)) own = std::move(data);
+      if (i % ranks == rank) own.push_back(std::move(data));
     }
     linalg::onOwners(comm, count, [&](std::size_t i) {
-      proveList(bounds, *own, settings, reduced.band(), *set.points[first + i]);
+      proveList(bounds, own[i / ranks], settings, reduced.band(), *set.points[first + i]);
     });
   }
+}
+
+/// Collective. Proves the lists of all sets.
+void proveSets(reduction::ReducedProblem& reduced, const pencil::FrictionFactors& factors,
+               const SetMatrices& common, const std::vector<ProvedSet>& sets,
+               const Settings& settings) {
+  for (const auto& set : sets) {
+    const auto& problem = set.problems.front();
+    const auto matrices =
+        matricesOf(set, reduced.space(problem.set), reduced.projectAssociated(problem.set), common);
+    try {
+      proveSet(reduced, factors, matrices, set, settings);
+    } catch (const Error& error) {
+      for (auto* point : set.points)
+        if (point->completeness->top == 0) point->completeness->reason = error.what();
+    }
+    share(reduced.basis().comm(), set.points);
+  }
+}
+
+/// Returns the points at which the number of eigenvalues or a disc is not proved.
+std::vector<ProvedSet> openPoints(const std::vector<ProvedSet>& sets) {
+  std::vector<ProvedSet> result;
+  for (const auto& set : sets) {
+    ProvedSet open{set.rows, {}, {}};
+    for (std::size_t i = 0; i < set.points.size(); ++i) {
+      if (set.points[i]->completeness->reason.empty()) continue;
+      const auto& problem = set.problems[i];
+      open.problems.push_back({problem.at, problem.pencil.with({}), problem.set});
+      open.points.push_back(set.points[i]);
+    }
+    if (!open.points.empty()) result.push_back(std::move(open));
+  }
+  return result;
 }
 
 }  // namespace
@@ -215,20 +252,15 @@ void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& s
       if (!known) point->completeness->reason = unconfirmed;
     }
   if (!known) return;
-  const auto common =
-      commonProducts(reduced, factors, *known, modes.lambda, associated.assembled(2, {}));
-  for (const auto& set : sets) {
-    const auto& problem = set.problems.front();
-    const auto matrices =
-        matricesOf(set, reduced.space(problem.set), reduced.projectAssociated(problem.set), common);
-    try {
-      proveSet(reduced, factors, matrices, set, settings);
-    } catch (const Error& error) {
-      for (auto* point : set.points)
-        if (point->completeness->top == 0) point->completeness->reason = error.what();
-    }
-    share(reduced.basis().comm(), set.points);
-  }
+  const OwnedMat mass = associated.assembled(2, {});
+  auto common = commonProducts(reduced, factors, *known, modes.lambda, mass);
+  proveSets(reduced, factors, common, sets, settings);
+  const auto open = openPoints(sets);
+  if (open.empty() || common.solved == reduced.basisSize()) return;
+  // The exact products with the responses may decide.
+  common.solved = reduced.basisSize();
+  common.massProduct = massFlexibility(reduced, *known, modes.lambda, mass, common.solved);
+  proveSets(reduced, factors, common, open, settings);
 }
 
 }  // namespace squeal::completeness

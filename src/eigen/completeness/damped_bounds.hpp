@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The block of P(s) on a part of the basis V at a point with terms in s, or with friction that
-/// depends on the point, and bounds of the other blocks. docs/method.md, section 13, derives the
-/// bounds. Not collective.
+/// The block of P(s) on a part of the basis V, and bounds of the other blocks, at points with
+/// damping, rotation, or friction that depends on the steady state. docs/method.md, section 13,
+/// derives the bounds. Not collective.
 #include <array>
 #include <optional>
 #include <span>
@@ -15,15 +15,15 @@
 namespace squeal::completeness {
 
 /// The products with V that all points with the same active set share. V has N vectors, first the
-/// constraint modes. N_X, J and D are those of pencil::JumpFactors, J and D in the rows in which J
-/// is not zero. K0⁻¹ is that of the interior unknowns.
+/// constraint modes. N_X, J and D are those of pencil::JumpFactors; of J and D only the rows in
+/// which J is not zero. K0⁻¹ is that of the interior unknowns.
 struct DampedSet {
   /// A matrix X of the bodies, symmetric or antisymmetric, whose term is c s^power X.
   struct Body {
     int power = 0;
     bool skew = false;
     linalg::DenseMatrix onV;  ///< Vᵀ X V, N × N
-    /// On C, in the energy K0: bound of ‖X‖, or, if X is a damping matrix, of X + κ H.
+    /// On C, in the energy K0: bound of ‖X‖; of X + κ H (see `below`) if X is a damping matrix.
     double bound = 0;
     /// If X is a damping matrix: X + κ H ≥ 0 and ‖κ H‖ ≤ below on C (proof::MatrixBounds).
     double below = 0;
@@ -32,7 +32,7 @@ struct DampedSet {
   struct Normal {
     int power = 0;
     linalg::DenseMatrix onV, flexibility;  ///< N_X V, r × N, and N_X K0⁻¹ N_Xᵀ, r × r
-    linalg::DenseMatrix mass;              ///< N_X K0⁻¹ M0 V of stiffness and mass, r × N
+    linalg::DenseMatrix mass;              ///< N_X K0⁻¹ M0 V, r × N; only of stiffness and mass
   };
 
   KnownModes modes;
@@ -43,9 +43,9 @@ struct DampedSet {
   /// j < i and one of the two matrices belongs to s⁰.
   std::vector<std::vector<linalg::DenseMatrix>> products;
   std::vector<Normal> normals;        ///< [0]: of the stiffness, [1]: of the mass
-  linalg::DenseMatrix normalProduct;  ///< N_0 K0⁻¹ N_2ᵀ of these two, r × r
+  linalg::DenseMatrix normalProduct;  ///< N_X K0⁻¹ N_X'ᵀ of stiffness X and mass X', r × r
   linalg::DenseMatrix jumps;          ///< J V, q × N
-  double jumpsOnC = 0;                ///< bound of ‖J x‖ for x in C with energy 1
+  double jumpsOnC = 0;  ///< estimated bound of ‖J x‖ for x of energy 1 orthogonal to V
   linalg::DenseMatrix convected, convectedFlexibility;  ///< D V, D K0⁻¹ Dᵀ; empty if D is null
 };
 

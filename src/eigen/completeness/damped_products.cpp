@@ -227,7 +227,7 @@ void CommonProducts::addProducts(reduction::ReducedProblem& reduced,
   constexpr PetscInt atOnce = 128;  // limits the memory
   const auto& basis = reduced.basis();
   all_.products.resize(bodies_.size() + 1);
-  all_.products[0].push_back(massFlexibility(reduced, all_.modes, lambda, mass));
+  all_.products[0].push_back(massFlexibility(reduced, all_.modes, lambda, mass, basis.size()));
   for (std::size_t j = 0; j < bodies_.size(); ++j) {
     auto& body = all_.bodies[j];
     std::vector<DenseMatrix> columns(j + 2, DenseMatrix(basis.size()));  // [i] of X_iᵀ K0⁻¹ X_j

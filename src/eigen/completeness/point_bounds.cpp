@@ -111,6 +111,10 @@ SetBounds setBounds(const SetMatrices& set, double reach) {
   const DenseMatrix& turn = bounds.span.turn();
   bounds.mass = linalg::congruent(set.mass, turn);
   bounds.massProduct = linalg::congruent(set.massProduct, turn);
+  // Responses that are orthogonal to the modes: M0 K0⁻¹ M0 ≤ μ M0 on their space, where M0 ≤ μ.
+  for (PetscInt j = set.solved; j < turn.columns(); ++j)
+    for (PetscInt i = set.solved; i < turn.columns(); ++i)
+      bounds.massProduct(i, j) = bounds.massOnC * bounds.mass(i, j);
   if (set.normal.empty()) return bounds;
   for (std::size_t a = 0; a < set.slip.size(); ++a) {
     bounds.slip.push_back(linalg::product(set.slip[a], turn));

@@ -19,7 +19,9 @@ namespace squeal::completeness {
 struct SetMatrices {
   KnownModes modes;
   linalg::DenseMatrix energy, mass;  ///< Vᵀ K0 V and Vᵀ M0 V, N × N
-  linalg::DenseMatrix massProduct;   ///< Vᵀ M0 K0⁻¹ M0 V, N × N
+  PetscInt solved = 0;               ///< the last vectors of V from this one on are responses
+  /// Vᵀ M0 K0⁻¹ M0 V, N × N, except where both vectors are these responses
+  linalg::DenseMatrix massProduct;
   /// [a] S_a V, r × N, and S_a K0⁻¹ S_aᵀ, r × r. V contains K0⁻¹ S_aᵀ.
   std::vector<linalg::DenseMatrix> slip, slipFlexibility;
   linalg::DenseMatrix normal, inertia;                        ///< N_0 V and N_2 V, r × N
@@ -34,7 +36,8 @@ struct SetBounds {
   KeptSpan span;                          ///< the coordinates, and W
   double reach;                           ///< the bounds hold for |s| up to this, rad/s
   double massOnC;                         ///< upper bound of M0 on C, s²
-  linalg::DenseMatrix mass, massProduct;  ///< M0 and M0 K0⁻¹ M0 on V
+  linalg::DenseMatrix mass;               ///< M0 on V
+  linalg::DenseMatrix massProduct;        ///< at least M0 K0⁻¹ M0 on V
   std::vector<linalg::DenseMatrix> slip;  ///< [a] S_a V
   std::vector<double> slipOnC;            ///< [a] bound of ‖S_a‖ on C
   linalg::DenseMatrix forces;             ///< r × r; N_0C + s² N_2C = forces · X, ‖X‖ ≤ 1

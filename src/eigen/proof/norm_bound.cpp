@@ -58,7 +58,7 @@ linalg::ComplexMatrix gram(const linalg::ComplexMatrix& a) {
 
 /// Returns a lower estimate of the largest eigenvalue of a Hermitian matrix, by the Lanczos method.
 double largestEigenvalue(const linalg::ComplexMatrix& h) {
-  constexpr int most = 24;
+  constexpr int most = 12;
   constexpr double settled = 1e-8;  // of the next direction
   const PetscBLASInt n = h.rows(), step = 1;
   const Complex one = 1, zero = 0;
@@ -113,7 +113,7 @@ double normBound(const linalg::ComplexMatrix& a) {
                roundOff = 1 + 4 * (n + std::max(a.rows(), a.columns())) *
                                   std::numeric_limits<double>::epsilon(),
                guess = largestEigenvalue(h);
-  for (const double factor : {1 + 1e-6, 1.0001, 1.002, 1.02, 1.1, 1.4}) {
+  for (const double factor : {1.002, 1.02, 1.1, 1.4}) {
     const double square = guess * factor * factor;
     if (!(std::sqrt(square * roundOff) < quick)) break;
     if (above(square, h)) return std::sqrt(square * roundOff);

@@ -341,7 +341,8 @@ linalg::DenseProblem ReducedProblem::project(const PointProblem& point) const {
 }
 
 linalg::DenseMatrix ReducedProblem::addResponses(linalg::Block forces) {
-  auto energy = basis_.basis().addResponses(std::move(forces));
+  auto energy =
+      basis_.basis().addResponses(std::move(forces), basis_.projectAssociated().stiffness);
   basis_.extend({});
   return energy;
 }

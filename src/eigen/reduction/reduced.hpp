@@ -79,12 +79,12 @@ class ReducedProblem {
   }
   /// Collective. Returns, for each of these sets, the free modes in the band. They are corrected
   /// together, in the same way as the complex modes. Their vectors have the entries of all
-  /// unknowns. Their countConfirmed is true if the number of interior modes is confirmed and if,
-  /// for some frequency above the band, the number of modes found below it equals both the lower
-  /// and the upper bound by subspace::ModeCount. After this call, whether or not the count is
-  /// confirmed, these modes determine the top of the band at the points of the set. The eigenvalues
-  /// that solve() lists at these points thus do not depend on the other sets of the basis. Only K
-  /// and M of `pencil` are used.
+  /// unknowns. Their countConfirmed is true if the number of interior modes is confirmed and, at
+  /// some frequency above the band, both bounds by subspace::ModeCount equal the number of modes
+  /// found below this frequency. After this call, whether or not the count is confirmed, these
+  /// modes determine the top of the band at the points of the set. The eigenvalues that solve()
+  /// lists at these points thus do not depend on the other sets of the basis. Only K and M of
+  /// `pencil` are used.
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns the complex modes of each. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
@@ -131,8 +131,10 @@ class ReducedProblem {
   /// Not collective. Returns K0 and M0 projected on the vectors that the points of a set use; the
   /// damping matrix is empty.
   linalg::DenseProblem projectAssociated(int set) const {
-    return space(set).restricted(basis_.projectAssociated());
+    return space(set).restricted(projectAssociated());
   }
+  /// Not collective. Returns K0 and M0 projected on the whole basis.
+  linalg::DenseProblem projectAssociated() const { return basis_.projectAssociated(); }
   /// Returns the part of the basis that the points of a set use.
   const subspace::PointSpace& space(int set) const { return basis_.set(set).space; }
   /// Collective. Adds K0⁻¹ F to the basis for static forces F on the interior unknowns; `forces`
@@ -187,7 +189,7 @@ class ReducedProblem {
   SolvedPairs solved_;
   Pod pod_;
   std::optional<subspace::ModeCount> count_;  // none without boundary unknowns
-  bool started_ = false;                      // the basis contains the static responses
+  bool started_ = false;                      // solve() has been called
   std::function<void()> afterRound_;
   std::optional<PendingBatch> pending_;  // between two rounds, or resumed from a checkpoint
 };

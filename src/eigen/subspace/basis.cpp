@@ -97,7 +97,7 @@ Basis::Basis(const modes::Modes& modes, const factor::AssociatedSystem& system,
   for (PetscInt j = 0; j < shapes.columns(); ++j)
     for (double& entry : shapes.column(j)) entry /= modes.angularFrequency[j];
   // Reserved memory is free until it is used, but moving V takes time.
-  columns_.reserve(3 * (size() + shapes.columns()));
+  columns_.reserve(4 * (size() + shapes.columns()));
   columns_.append(shapes);
   if (!isPlain_) addForces(shapes);
   OwnedVec diagonal;
@@ -221,19 +221,21 @@ PetscInt Basis::add(linalg::Block residuals) {
   return size() - before;
 }
 
-linalg::DenseMatrix Basis::addResponses(linalg::Block residuals) {
+linalg::DenseMatrix Basis::addResponses(linalg::Block residuals,
+                                        const linalg::DenseMatrix& energies) {
   releaseForces();
   if (residuals.columns() == 0) return {};
   clearBoundary(residuals);
   linalg::Block z = responses(residuals);
   linalg::DenseMatrix energy = linalg::transposedProductWithSparse(comm_, z, residuals);
-  ratio_ = ratio(residuals, energy);
+  if (energies.empty()) ratio_ = ratio(residuals, energy);
   // VᵀK z
   linalg::DenseMatrix parts = linalg::transposedProductWithSparse(comm_, columns_, residuals);
   setBoundaryReactions(linalg::rowRange(parts, 0, boundarySize()), residuals);
   clearConstraintModes(parts, boundarySize());
   const PetscInt before = size();
-  if (!addOrthogonal(z, residuals, energy, parts)) addOrthogonalised(z, parts);
+  if (!addOrthogonal(z, residuals, energy, parts))
+    addOrthogonalised(z, parts, energies.empty() ? parts : alongBasis(energies, parts));
   sketchColumns(before);
   return energy;
 }
@@ -275,29 +277,45 @@ void Basis::append(const linalg::Block& z, linalg::Block forces, const linalg::D
   columns_.append(z);
 }
 
-/// Collective. Adds the component of z orthogonal to V; `parts` is VᵀK0z. If V is orthonormal
-/// within δ, each pass leaves a fraction δ of the components along V, so passes repeat until these
-/// are small compared with the remainder. Columns that depend on others or on V are dropped, since
-/// they would only add noise.
-void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts) {
+/// Returns (VᵀK0V)⁻¹ VᵀK0z from both products. Constraint modes take no part.
+linalg::DenseMatrix Basis::alongBasis(const linalg::DenseMatrix& energies,
+                                      const linalg::DenseMatrix& parts) const {
+  const PetscInt boundary = boundarySize(), end = size();
+  const linalg::DenseMatrix own =
+      linalg::rowRange(energies.columnRange(boundary, end), boundary, end);
+  const linalg::DenseMatrix turn =
+      linalg::inverseTransposed(linalg::choleskyFactor(linalg::symmetricPart(own)));
+  const linalg::DenseMatrix along = linalg::product(
+      turn, linalg::transposedProduct(turn, linalg::rowRange(parts, boundary, end)));
+  linalg::DenseMatrix result(end, parts.columns());
+  for (PetscInt j = 0; j < parts.columns(); ++j)
+    std::ranges::copy(along.column(j), result.column(j).begin() + boundary);
+  return result;
+}
+
+/// Collective. Adds the component of z orthogonal to V; `parts` is VᵀK0z, and `along` are the
+/// coefficients of V to subtract first. If V is orthonormal within δ, each further pass leaves a
+/// fraction δ of the components along V, so passes repeat until these are small compared with the
+/// remainder. Columns that depend on others or on V are dropped, since they would only add noise.
+void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts,
+                              linalg::DenseMatrix along) {
   // A remainder of 1e-6 of a column with an error of 1e-4 takes four passes if δ is a thousandth.
   constexpr int mostPasses = 6;
-  linalg::DenseMatrix rest = parts;
   for (int pass = 0; pass < mostPasses; ++pass) {
-    linalg::multiplyAdd(columns_, rest, z, -1);
+    linalg::multiplyAdd(columns_, along, z, -1);
     linalg::Block forces(z.rows());
     linalg::appendProduct(stiffness(), z, forces);
-    rest = linalg::transposedProduct(comm_, columns_, forces);
-    clearConstraintModes(rest, boundarySize());
+    along = linalg::transposedProduct(comm_, columns_, forces);
+    clearConstraintModes(along, boundarySize());
     linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, forces);
     clearDependent(energy, parts, independent);
     const linalg::DenseMatrix combinations = orthonormalising(energy, independent),
-                              along = linalg::product(rest, combinations);
+                              remaining = linalg::product(along, combinations);
     if (combinations.empty()) return;
-    if (!isNegligible(along)) continue;
+    if (!isNegligible(remaining)) continue;
     combineColumns(z, combinations);
     combineColumns(forces, combinations);
-    append(z, std::move(forces), along);
+    append(z, std::move(forces), remaining);
     return;
   }
 }

@@ -57,7 +57,9 @@ class Basis {
   /// the constraint modes represent them. Returns the number of columns added.
   PetscInt add(linalg::Block residuals);
   /// Collective. Does the same for static forces F. Returns FᵀK0⁻¹F, from the interior rows of F.
-  linalg::DenseMatrix addResponses(linalg::Block forces);
+  /// If VᵀK0V is given as `energies`, orthogonalisation takes fewer passes, and lastEnergyRatio()
+  /// stays as it is.
+  linalg::DenseMatrix addResponses(linalg::Block forces, const linalg::DenseMatrix& energies = {});
   /// Collective. Appends this rank's rows of the vectors that add() found in an earlier run. Also
   /// sets the values of lastEnergyRatio() and solves() to those of that run.
   void restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves);
@@ -110,7 +112,10 @@ class Basis {
   bool addOrthogonal(linalg::Block& z, linalg::Block& residuals, const linalg::DenseMatrix& energy,
                      const linalg::DenseMatrix& parts);
   void append(const linalg::Block& z, linalg::Block forces, const linalg::DenseMatrix& along);
-  void addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts);
+  linalg::DenseMatrix alongBasis(const linalg::DenseMatrix& energies,
+                                 const linalg::DenseMatrix& parts) const;
+  void addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts,
+                         linalg::DenseMatrix along);
   double solutionError(const linalg::Block& z, const linalg::Block& residuals) const;
   void sketchColumns(PetscInt first);
 

@@ -47,8 +47,8 @@ DenseMatrix timesTransposed(const DenseMatrix& a, const DenseMatrix& b) {
   return linalg::product(a, linalg::transposed(b));
 }
 
-/// V, which is orthonormal only within 10⁻³: the lowest modes except one, responses to S, and two
-/// vectors as corrections give them.
+/// V, which is orthonormal only within 10⁻³: the lowest modes except one, two vectors as
+/// corrections give them, and responses to S.
 DenseMatrix basisOf(const Brake& brake, PetscInt modes, PetscInt without, std::mt19937& generator) {
   DenseMatrix basis(brake.size());
   std::vector<double> column(brake.size());
@@ -60,8 +60,8 @@ DenseMatrix basisOf(const Brake& brake, PetscInt modes, PetscInt without, std::m
   for (PetscInt j = 0; j < modes; ++j)
     if (j != without) basis.append(unit(j));
   const PetscInt count = basis.columns();
-  DenseMatrix others = linalg::transposed(brake.slip);
-  others.append(test::randomMatrix(brake.size(), 2, generator));
+  DenseMatrix others = test::randomMatrix(brake.size(), 2, generator);
+  others.append(linalg::transposed(brake.slip));
   for (PetscInt j = 0; j < others.columns(); ++j) {
     for (PetscInt i = 0; i < count; ++i)
       for (PetscInt k = 0; k < brake.size(); ++k)
@@ -73,10 +73,12 @@ DenseMatrix basisOf(const Brake& brake, PetscInt modes, PetscInt without, std::m
   return basis;
 }
 
-/// Returns the matrices of the set, computed as from static responses.
+/// Returns the matrices of the set, computed as from static responses: the product of M K0⁻¹ M with
+/// the responses to S as well, if isSolved.
 completeness::SetMatrices matricesOf(const Brake& brake, const DenseMatrix& basis, PetscInt modes,
-                                     double theta) {
+                                     double theta, bool isSolved = true) {
   completeness::SetMatrices set;
+  set.solved = basis.columns() - (isSolved ? 0 : brake.slip.rows());
   set.modes = {0, modes, theta, 0};
   set.energy = linalg::transposedProduct(basis, basis);
   DenseMatrix inertia = basis;
@@ -84,6 +86,8 @@ completeness::SetMatrices matricesOf(const Brake& brake, const DenseMatrix& basi
     for (PetscInt i = 0; i < inertia.rows(); ++i) inertia(i, j) /= brake.omega[i] * brake.omega[i];
   set.mass = linalg::transposedProduct(basis, inertia);
   set.massProduct = linalg::transposedProduct(inertia, inertia);
+  for (PetscInt j = set.solved; j < basis.columns(); ++j)
+    for (PetscInt i = set.solved; i < basis.columns(); ++i) set.massProduct(i, j) = 0;
   set.slip = {linalg::product(brake.slip, basis)};
   set.slipFlexibility = {timesTransposed(brake.slip, brake.slip)};
   set.normal = linalg::product(brake.normal, basis);
@@ -154,17 +158,20 @@ proof::KeptProblem exactBlocks(const Brake& brake, const DenseMatrix& basis, dou
 // exceeds it by the sum of the norms of two parts instead of the norm of their sum, at most twice,
 // and by the parameter t of the friction. This holds for all of V, and for the part of V with the
 // modes, the responses and one other vector: N_C is then bounded without this vector, so that the
-// bound is less sharp.
+// bound is less sharp. It also is if M K0⁻¹ M on the responses is bounded by μ M, except for
+// vectors without a part in the responses.
 TEST(PointBounds, HoldForTheExactBlocks) {
   std::mt19937 generator(3);
   const PetscInt modes = 14;
-  for (int draw = 0; draw < 10; ++draw) {
+  for (int draw = 0; draw < 20; ++draw) {
+    const bool isSolved = draw < 10;
     const auto brake = randomBrake(60, 3, generator);
     const double top = 0.6 * brake.omega[modes], theta = std::pow(brake.omega[modes], 2);
     const auto basis = basisOf(brake, modes, -1, generator);
-    const auto set = completeness::setBounds(matricesOf(brake, basis, modes, theta), 1.2 * top);
+    const auto set =
+        completeness::setBounds(matricesOf(brake, basis, modes, theta, isSolved), 1.2 * top);
     DenseMatrix one(basis.columns(), 1);
-    one(basis.columns() - 1, 0) = one(3, 0) = 1;
+    one(modes, 0) = one(3, 0) = 1;
     const DenseMatrix all = allOf(basis), some = set.span.vectorsWith(one);
     ASSERT_EQ(some.columns(), basis.columns() - 1);
     for (const auto& [friction, w] :
@@ -178,7 +185,8 @@ TEST(PointBounds, HoldForTheExactBlocks) {
         const double bound = proof::Expansion(form, z, 0).boundAtCentre(),
                      truth = proof::Expansion(exact, z, 0).boundAtCentre();
         EXPECT_GE(bound, 0.979 * truth);  // normBound() is up to 2.1 % above the norm
-        EXPECT_LE(bound, 4 * truth + 1e-9);
+        // The bound μ M instead of M K0⁻¹ M costs half as much again.
+        EXPECT_LE(bound, (isSolved ? 4 : 6) * truth + 1e-9);
       }
     }
   }
@@ -193,7 +201,8 @@ TEST(PointBounds, ProveOnlyTrueCounts) {
     const auto brake = randomBrake(60, 3, generator);
     const double wanted = 0.6 * brake.omega[modes], theta = std::pow(brake.omega[modes], 2);
     const auto basis = basisOf(brake, modes, -1, generator);
-    const auto set = completeness::setBounds(matricesOf(brake, basis, modes, theta), 1.2 * wanted);
+    const auto set =
+        completeness::setBounds(matricesOf(brake, basis, modes, theta, draw % 4 < 2), 1.2 * wanted);
     const double friction = 0.05 * (1 + draw);
     const auto bounds =
         boundsOf(brake, basis, set, friction, draw % 2 == 0 ? allOf(basis) : set.span.vectors());
