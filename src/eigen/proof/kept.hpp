@@ -44,15 +44,15 @@ struct LeftOut {
   /// λ < θ.
   double mass = 0;
   double shift = 0;       ///< σ ≥ 0 of K0 = K + σ M, rad²/s²
-  double skewMass = 0;    ///< ‖M_a‖, s²
-  double damping = 0;     ///< upper bound of the damping matrix D ≥ 0, s
-  double gyroscopic = 0;  ///< ‖G‖, s
+  double skewMass = 0;    ///< ‖M_a‖, second²
+  double damping = 0;     ///< upper bound of the damping matrix D ≥ 0, second
+  double gyroscopic = 0;  ///< ‖G‖, second
   /// The norm of the sum of all other terms is at most Σ |s|ᵏ rest[k].
   std::array<double, 3> rest = {};
 };
 
 /// Returns
-///   δ = 1 − (reach² + σ) mass − reach² skewMass − left damping − reach gyroscopic
+///   δ = 1 − (reach² + σ) mass − reach² skewMass − max(left, 0) damping − reach gyroscopic
 ///       − Σ reachᵏ rest[k],
 /// a lower bound of Re xᴴ P_CC(s) x for ‖x‖ = 1, |s| ≤ reach and Re s ≥ −left.
 double definiteness(const LeftOut& bounds, double reach, double left);
@@ -62,8 +62,8 @@ double definiteness(const LeftOut& bounds, double reach, double left);
 ///   gram ≥ [C_0, C_1, …]ᵀ [C_0, C_1, …]   in the sense of quadratic forms.
 /// `gram` is square, of order N times the number of powers. Directions within round-off are dropped
 /// and counted in the error. `top`, rad/s, sets the relative weights of the powers. Directions in
-/// which the norm of the block is at most `negligible` for |s| = top are dropped as well. Throws
-/// Error if `gram` has a negative eigenvalue beyond round-off.
+/// which the norm of the block is at most `negligible` for |s| = top are dropped and counted in the
+/// error as well. Throws Error if `gram` has a negative eigenvalue beyond round-off.
 Coupling couplingFromGram(const linalg::DenseView& gram, std::span<const int> powers, double top,
                           double negligible = 0);
 

@@ -32,15 +32,15 @@ struct Event {
   /// `contact`: the eigenvalue jumps where the active set changes.
   enum class Kind { coalescence, crossing, divergence, contact } kind = Kind::crossing;
   int branch = 0, partner = -1;
-  bool loss = true;          ///< stability is lost with rising friction; false: it is regained
-  double low = 0, high = 0;  ///< bracket of the friction; equal if the event is exactly at this
-                             ///< friction, for example where a double eigenvalue splits
-  /// The pairs involved at `low` and at `high`. If two equal eigenvalues cross the axis or diverge
-  /// together, there are two events, one for each branch. Each has both pairs, and is that of their
-  /// mean.
+  bool loss = true;  ///< stability is lost with rising friction; false: it is regained
+  /// Bracket of the friction; equal if it is exact, for example where a double eigenvalue splits.
+  double low = 0, high = 0;
+  /// The pairs involved, at or below `low` and at or above `high`. If two equal eigenvalues cross
+  /// the axis or diverge together, there are two events, one for each branch. Each has both pairs
+  /// and describes their mean.
   std::vector<linalg::DensePair> below = {}, above = {};
-  double isolation = 0;   ///< distance from other eigenvalues, rad/s
-  std::size_t piece = 0;  ///< index of the Piece in the path; at a jump, of that which begins there
+  double isolation = 0;   ///< distance from other eigenvalues and from 0, rad/s; 0: not computed
+  std::size_t piece = 0;  ///< index of the Piece in the path; at a jump, of the later one
 };
 
 /// A range of frictions with an uncertain continuation.
@@ -66,7 +66,7 @@ struct TrackLimits {
   /// Smallest step with a full solve, as a fraction of a step of the sweep.
   double smallest = 1. / 1024;
   /// Frictions of a piece that are not needed (Piece::needed) may be omitted. Between two needed
-  /// ones, all are examined if the families are affine, or if there are at most this many.
+  /// ones, all are examined if the families are affine or if at most `examined` may be omitted.
   /// Otherwise the interval is bisected. Bisection ends where the continuation is certain and no
   /// eigenvalue changes its stability, or where no friction is left in between.
   std::size_t examined = 32;

@@ -16,8 +16,8 @@
 /// matrix of this change of variables, and n the unit normal from disc to pad:
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
 /// A selection B removes from z the supported components, periodic images, components of tied
-/// nodes, closed gaps, and the tangential components of nodes that stick: T = A B. For the whole u
-/// of [3.6], with u_g, n·u_P − n·u_D equals g minus the initial gap [M.54].
+/// nodes, closed gaps, and the tangential components of nodes that stick: T = A B. With u_g in u
+/// [3.6], n·u_P − n·u_D is g minus the initial gap [M.54].
 ///
 /// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
 /// nodal gaps g = E h [M.12]. Under a uniform pressure, the forces conjugate to h are positive at
@@ -30,10 +30,10 @@
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u],   u = T x.
 /// The test functions add the friction force due to R_N to the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.
-/// This force is R_T = −f φ R_N τ on the pad [3.4], and the opposite one on the disc. If interfaces
-/// have their own coefficients, S_0 + f S_1 replaces f S [M.56]. S_0 has the rows of interfaces
-/// with a fixed coefficient, multiplied by this coefficient. S_1 has the rows of the other
-/// interfaces, multiplied by their factor on the swept friction f.
+/// This force is −f φ τ E⁻ᵀ R_N on the pad ([3.4] if E = 1), and the opposite one on the disc. If
+/// interfaces have their own coefficients, S_0 + f S_1 replaces f S [M.56]. S_0 has the rows of
+/// interfaces with a fixed coefficient, multiplied by this coefficient. S_1 has the rows of the
+/// other interfaces, multiplied by their factor on the swept friction f.
 #include <vector>
 
 #include "base/petsc/owned.hpp"
@@ -77,8 +77,8 @@ struct Contact {
   PetscInt gapRow(const ContactNode& node) const;
   /// Collective. Returns T of an active set (transformationOf()).
   Transformation transformation(const ActiveSet& set) const;
-  /// Returns true if S is the same at all points of a sweep, that is, without convective terms and
-  /// with a constant friction law.
+  /// Returns true if S depends only on the active set, that is, without convective terms and with a
+  /// constant friction law.
   bool slipIsConstant() const { return !sliding.convected && law.constant(); }
   /// Collective. Returns the sliding velocities, [contact node], at the speed factor v (`speed`).
   /// Let V be the velocity of the disc or obstacle at v = 1. Due to the displacement u_D of the

@@ -12,12 +12,11 @@
 namespace squeal::analysis {
 
 /// Solves for the steady states in batches with the factorisation of the closed contact, and
-/// follows the changes of contact between neighbouring points. All members are collective.
+/// follows the changes of contact between neighbouring points. All public members are collective.
 class CondensedSweep {
  public:
-  /// Collective. Borrows all arguments during the lifetime of the object. During this time, do not
-  /// request another active set from `current`. `states` contains the states of the leading points
-  /// that are already known.
+  /// Borrows all arguments during the lifetime of the object. During this time, do not call
+  /// current.of(). `states` contains the states of the leading points that are already known.
   CondensedSweep(const SteadyInput& input, CurrentSystem& current, SteadyStates& states);
   /// Adds the missing states and, without convective terms, the path between them. Writes both to
   /// the log.

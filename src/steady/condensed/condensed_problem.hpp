@@ -35,26 +35,25 @@ struct SetCase {
   OwnedMat direct;  ///< borrowed by the conditions of the case; null if no node is released
 };
 
-/// The complementarity problem in the gaps only,
-///   0 ≤ g ⟂ F(g) ≥ 0,
-/// where F(g) are the normal contact forces at the gaps g, in equilibrium with the friction that
-/// they cause. One factorisation of the closed contact serves all frictions, pressures and sets of
-/// open nodes. Points that are solved together share the computed responses of the contact and use
-/// block solves, which take a fraction of the time of single solves. The effects of convective
-/// terms on the forces and on the slip enter through corrections from the residual of all equations
-/// (a modified Newton method).
+/// The complementarity problem in the gap unknowns only,
+///   0 ≤ h ⟂ F(h) ≥ 0,
+/// where F(h) are the normal contact forces at the gap unknowns h, in equilibrium with the friction
+/// that they cause. One factorisation of the closed contact serves all frictions, pressures and
+/// sets of open nodes. Points that are solved together share the computed responses of the contact
+/// and use block solves, which take a fraction of the time of single solves. The effects of
+/// convective terms on the forces and on the slip enter through corrections from the residual of
+/// all equations (a modified Newton method).
 class CondensedProblem {
  public:
   /// Returns true if the problem at each point is linear except for the contact. The result of
-  /// onSet() is then a solution except for round-off, which corrections reduce.
+  /// onSet() then satisfies the equations of its set to round-off, which corrections reduce.
   static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
   /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and all
   /// sticking nodes held, during the lifetime of the object.
   CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed);
   ~CondensedProblem();
-  /// Collective. Solves at all points as Problem::solve() does, starting from the gaps and holds of
-  /// the last solution of the previous call. The call needs memory for several vectors of all
-  /// unknowns per point.
+  /// Collective. Solves at all points as Problem::solve() does, starting from start(). The call
+  /// needs memory for several vectors of all unknowns per point.
   std::vector<Solution> solveTogether(const std::vector<sweep::Parameters>& points) {
     return solveTogether(points, false);
   }
@@ -72,15 +71,16 @@ class CondensedProblem {
   impedance::ContactSolution onSet(const ChosenSet& set) {
     return solver_->solve(caseOn(set).contactCase);
   }
-  /// Collective. Returns for each point the solution on one set and its responses to changes of
-  /// released unknowns, as ContactSolver::respond() does. The set of all points is that of `set`.
+  /// Collective. Returns for each point the solution on one set and its responses to changes of the
+  /// unknowns w (Impedance), as ContactSolver::respond() does. All points have this set; `set.at`
+  /// is ignored.
   std::vector<impedance::ContactResponses> respond(const std::vector<sweep::Parameters>& points,
                                                    ChosenSet set,
                                                    const std::vector<PetscInt>& changed,
                                                    const std::vector<double>& frictionUnits);
   /// Collective. Returns the given forces (R, F)0 of the condensed problem at a point.
   impedance::ContactVector given(const sweep::Parameters& at) { return loads().forces(at); }
-  /// Returns the contact node of each released unknown of this rank (Impedance::nodeOf()).
+  /// Returns the contact node of each unknown w of this rank (Impedance::nodeOf()).
   const std::vector<PetscInt>& nodeOf() const { return impedance_->nodeOf(); }
   /// Makes the next solve() start from these holds and gaps. `gaps` are the gap unknowns h,
   /// [contact node], m.
@@ -94,10 +94,10 @@ class CondensedProblem {
   /// nodes held.
   void continueFrom(const Solution& solution);
   const contact::Contact& contact() const { return contact_; }
-  /// Returns the force that opens the gap of a contact node of this rank by a unit, N/m; 0 if the
-  /// gap has never been open.
+  /// Returns the force per opening of the gap of a contact node of this rank, all other unknowns w
+  /// held, N/m; 0 if not yet computed.
   double gapStiffness(std::size_t node) const { return solver_->stiffness(node); }
-  /// Returns the same for any released unknown of this rank.
+  /// Returns the same for any unknown w of this rank.
   double stiffness(std::size_t unknown) const { return solver_->stiffness(unknown); }
   MPI_Comm comm() const { return impedance_->comm(); }
   /// Returns the total number of right-hand sides of all solves so far.
@@ -126,10 +126,10 @@ class CondensedProblem {
   std::unique_ptr<Problem> free_;  // all nodes free; null if no interface sticks
   std::unique_ptr<impedance::Impedance> impedance_;
   std::unique_ptr<impedance::ContactSolver> solver_;
-  std::vector<double> gaps_;  // of the last solution, [contact node], m
-  Sticking sticking_;         // of the last solution, with its closed nodes held
-  OwnedMat direct_;    // direct effect of friction on released nodes; null if none is released
-  Sticking directOf_;  // the holds of `direct_`
+  std::vector<double> gaps_;  // from which the next solve() starts, [contact node], m
+  Sticking sticking_;         // from which the next solve() starts
+  OwnedMat direct_;           // direct effect of friction on the released nodes of directOf_
+  Sticking directOf_;
   std::unique_ptr<Loads> loads_;  // of open(), created on first use
 };
 
