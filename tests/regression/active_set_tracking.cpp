@@ -169,6 +169,8 @@ TEST(Tracking, PassesPointsWhereTheContactChanges) {
   const auto wanted = criticalFrom(plain, 0);
   const auto frequencies = readCsv(plain.folder / "critical.csv").column("frequency_hz");
   ASSERT_GE(events.size(), 2U);
+  const auto kinds = readCsv(plain.folder / "critical.csv").words("kind");
+  ASSERT_GE(std::ranges::count(kinds, "contact"), 1);
   for (const double moved : {-1e-12, 0.0, 1e-12})
     for (const int ranks : {1, 2}) {
       const ProgramRun run = runProgram("active_set/point_at_change", ranks,

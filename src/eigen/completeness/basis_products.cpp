@@ -38,27 +38,33 @@ void appendParts(const std::vector<Complex>& vector, DenseMatrix& columns) {
     columns.append(std::span<const double>(imaginary));
 }
 
-DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes& modes,
-                            const std::vector<double>& lambda, Mat mass, PetscInt solved) {
+namespace {
+
+/// Collective. Appends Vᵀ M K0⁻¹ M v for the vectors v of V from `first` to before `end`.
+void appendMassFlexibility(reduction::ReducedProblem& reduced, Mat mass, PetscInt first,
+                           PetscInt end, DenseMatrix& result) {
   constexpr PetscInt atOnce = 128;  // limits the memory
   const auto& basis = reduced.basis();
-  DenseMatrix result(basis.size());
-  for (PetscInt first = 0; first < solved;) {
-    if (first == modes.first) {
-      result.resizeColumns(first += modes.count);
-      continue;
-    }
-    const PetscInt end = first < modes.first ? modes.first : solved,
-                   last = std::min(first + atOnce, end);
+  for (; first < end; first += atOnce) {
     linalg::Block forces(basis.localRows()), inertia(basis.localRows());
-    basis.appendProducts(mass, first, last, forces);
+    basis.appendProducts(mass, first, std::min(first + atOnce, end), forces);
     linalg::appendProduct(mass, reduced.responses(forces), inertia);
     result.append(linalg::transposedProduct(basis.comm(), basis.columns(), inertia));
-    first = last;
   }
-  result.resizeColumns(basis.size());
+}
+
+}  // namespace
+
+DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes& modes,
+                            const std::vector<double>& lambda, Mat mass, PetscInt solved) {
+  const PetscInt size = reduced.basisSize(), afterModes = modes.first + modes.count;
+  DenseMatrix result(size);
+  appendMassFlexibility(reduced, mass, 0, modes.first, result);
+  result.resizeColumns(afterModes);
+  appendMassFlexibility(reduced, mass, afterModes, solved, result);
+  result.resizeColumns(size);
   const DenseMatrix onV = reduced.projectAssociated().mass;
-  for (PetscInt i = 0; i < basis.size(); ++i)
+  for (PetscInt i = 0; i < size; ++i)
     for (PetscInt j = 0; j < modes.count; ++j) {
       const PetscInt mode = modes.first + j;
       if (i >= solved) result(mode, i) = onV(mode, i) / lambda[j];
@@ -66,9 +72,17 @@ DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes
     }
   for (PetscInt j = 0; j < modes.count; ++j)
     result(modes.first + j, modes.first + j) = 1 / (lambda[j] * lambda[j]);
-  for (PetscInt i = solved; i < basis.size(); ++i)
+  for (PetscInt i = solved; i < size; ++i)
     for (PetscInt j = 0; j < solved; ++j) result(j, i) = result(i, j);
   return result;
+}
+
+void completeMassFlexibility(reduction::ReducedProblem& reduced, Mat mass, PetscInt solved,
+                             DenseMatrix& product) {
+  DenseMatrix more(product.rows());
+  appendMassFlexibility(reduced, mass, solved, product.columns(), more);
+  for (PetscInt j = 0; j < more.columns(); ++j)
+    std::ranges::copy(more.column(j), product.column(solved + j).begin());
 }
 
 DenseMatrix randomSigns(PetscInt rows, PetscInt columns) {

@@ -28,6 +28,10 @@ linalg::DenseMatrix randomSigns(PetscInt rows, PetscInt columns);
 linalg::DenseMatrix massFlexibility(reduction::ReducedProblem& reduced, const KnownModes& modes,
                                     const std::vector<double>& lambda, Mat mass, PetscInt solved);
 
+/// Collective. Adds the part that massFlexibility() has left out.
+void completeMassFlexibility(reduction::ReducedProblem& reduced, Mat mass, PetscInt solved,
+                             linalg::DenseMatrix& product);
+
 /// The reason why nothing is proved without KnownModes.
 inline constexpr const char* unconfirmed = "the number of free modes is not confirmed";
 

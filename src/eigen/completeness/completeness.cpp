@@ -200,13 +200,16 @@ void proveSets(reduction::ReducedProblem& reduced, const pencil::FrictionFactors
   }
 }
 
-/// Returns the points at which the number of eigenvalues or a disc is not proved.
+/// Returns the points at which the number of eigenvalues or a disc is not proved, though the free
+/// modes suffice (δ > 0).
 std::vector<ProvedSet> openPoints(const std::vector<ProvedSet>& sets) {
   std::vector<ProvedSet> result;
   for (const auto& set : sets) {
     ProvedSet open{set.rows, {}, {}};
     for (std::size_t i = 0; i < set.points.size(); ++i) {
-      if (set.points[i]->completeness->reason.empty()) continue;
+      const auto& found = *set.points[i]->completeness;
+      const bool isDone = found.reason.empty() && set.points[i]->withoutDisc() == 0;
+      if (isDone || !(found.definiteness > 0)) continue;
       const auto& problem = set.problems[i];
       open.problems.push_back({problem.at, problem.pencil.with({}), problem.set});
       open.points.push_back(set.points[i]);
@@ -214,6 +217,24 @@ std::vector<ProvedSet> openPoints(const std::vector<ProvedSet>& sets) {
     if (!open.points.empty()) result.push_back(std::move(open));
   }
   return result;
+}
+
+/// Collective. Proves these lists again; what was found before remains if this fails.
+void proveAgain(reduction::ReducedProblem& reduced, const pencil::FrictionFactors& factors,
+                const SetMatrices& common, const std::vector<ProvedSet>& sets,
+                const Settings& settings) {
+  std::vector<pencil::Completeness> before;
+  for (const auto& set : sets)
+    for (auto* point : set.points)
+      before.push_back(std::exchange(*point->completeness, pencil::Completeness()));
+  proveSets(reduced, factors, common, sets, settings);
+  auto first = before.begin();
+  for (const auto& set : sets)
+    for (auto* point : set.points) {
+      auto& found = *point->completeness;
+      if (found.top == 0 || (first->proved && !found.proved)) found = std::move(*first);
+      ++first;
+    }
 }
 
 }  // namespace
@@ -258,9 +279,9 @@ void prove(reduction::ReducedProblem& reduced, const factor::AssociatedSystem& s
   const auto open = openPoints(sets);
   if (open.empty() || common.solved == reduced.basisSize()) return;
   // The exact products with the responses may decide.
+  completeMassFlexibility(reduced, mass, common.solved, common.massProduct);
   common.solved = reduced.basisSize();
-  common.massProduct = massFlexibility(reduced, *known, modes.lambda, mass, common.solved);
-  proveSets(reduced, factors, common, open, settings);
+  proveAgain(reduced, factors, common, open, settings);
 }
 
 }  // namespace squeal::completeness

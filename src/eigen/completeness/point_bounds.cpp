@@ -111,10 +111,13 @@ SetBounds setBounds(const SetMatrices& set, double reach) {
   const DenseMatrix& turn = bounds.span.turn();
   bounds.mass = linalg::congruent(set.mass, turn);
   bounds.massProduct = linalg::congruent(set.massProduct, turn);
-  // Responses that are orthogonal to the modes: M0 K0⁻¹ M0 ≤ μ M0 on their space, where M0 ≤ μ.
-  for (PetscInt j = set.solved; j < turn.columns(); ++j)
+  // Responses that are orthogonal to the modes, where M0 ≤ μ: M0 K0⁻¹ M0 ≤ μ M0 + ε², as the modes
+  // are coupled to them by at most ε.
+  for (PetscInt j = set.solved; j < turn.columns(); ++j) {
     for (PetscInt i = set.solved; i < turn.columns(); ++i)
       bounds.massProduct(i, j) = bounds.massOnC * bounds.mass(i, j);
+    bounds.massProduct(j, j) += set.modes.error * set.modes.error;
+  }
   if (set.normal.empty()) return bounds;
   for (std::size_t a = 0; a < set.slip.size(); ++a) {
     bounds.slip.push_back(linalg::product(set.slip[a], turn));

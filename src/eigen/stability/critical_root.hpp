@@ -24,7 +24,7 @@ class CriticalRoot {
   /// Locates the critical friction in the current basis. `changed` is true if the basis differs
   /// from that of the last call.
   void locate(Family& family, bool changed);
-  /// Returns true if the friction no longer moves, or if it was not found.
+  /// Returns true if the friction (at a jump, the eigenvalue) no longer moves, or was not found.
   bool settled() const { return settled_; }
   /// Returns the friction with a single pair at it. Its eigenvalue is the mean of the eigenvalues
   /// of the event: where two eigenvalues meet, so do their vectors.

@@ -277,14 +277,19 @@ void Basis::append(const linalg::Block& z, linalg::Block forces, const linalg::D
   columns_.append(z);
 }
 
-/// Returns (VᵀK0V)⁻¹ VᵀK0z from both products. Constraint modes take no part.
+/// Returns (VᵀK0V)⁻¹ VᵀK0z from both products; VᵀK0z, which V orthonormal would give, if the first
+/// one is not positive definite. Constraint modes take no part.
 linalg::DenseMatrix Basis::alongBasis(const linalg::DenseMatrix& energies,
                                       const linalg::DenseMatrix& parts) const {
   const PetscInt boundary = boundarySize(), end = size();
   const linalg::DenseMatrix own =
       linalg::rowRange(energies.columnRange(boundary, end), boundary, end);
-  const linalg::DenseMatrix turn =
-      linalg::inverseTransposed(linalg::choleskyFactor(linalg::symmetricPart(own)));
+  linalg::DenseMatrix turn;
+  try {
+    turn = linalg::inverseTransposed(linalg::choleskyFactor(linalg::symmetricPart(own)));
+  } catch (const Error&) {  // on all ranks
+    return parts;
+  }
   const linalg::DenseMatrix along = linalg::product(
       turn, linalg::transposedProduct(turn, linalg::rowRange(parts, boundary, end)));
   linalg::DenseMatrix result(end, parts.columns());

@@ -53,62 +53,89 @@ int certainSign(Complex s) {
   return std::abs(s.real()) <= roundOff * std::abs(s) ? 0 : s.real() > 0 ? 1 : -1;
 }
 
-/// Returns the two samples between which the eigenvalue changes its stability; the same sample
-/// twice if the change is there; nullopt if the eigenvalue grows wherever it is neutral. `at` is
-/// the index of the neutral end.
-std::optional<std::pair<Sample, Sample>> bracketOf(const std::vector<Sample>& samples,
-                                                   std::ptrdiff_t at, bool loss) {
-  const std::ptrdiff_t count = std::ssize(samples), away = loss ? -1 : 1;  // from growth
-  const auto has = [&](std::ptrdiff_t k) { return k >= 0 && k < count; };
-  if (certainSign(samples[at].s) == 0) return std::pair{samples[at], samples[at]};
-  if (certainSign(samples[at].s) < 0) {
+/// The samples around a neutral end, and the two between which the eigenvalue changes its
+/// stability; the same one twice if the change is there.
+struct Search {
+  std::vector<Sample> samples;
+  std::ptrdiff_t low = 0, high = 0;
+  /// The eigenvalue grows from the neutral end to this sample, and does not count as neutral here.
+  bool growsOn = false;
+};
+
+/// Searches from the neutral end of an event away from growth.
+Search searchFrom(const Event& event, const std::vector<Station>& stations) {
+  Search search{.samples = samplesOf(event, stations)};
+  const auto& samples = search.samples;
+  const auto place = std::ranges::find(samples, event.low, &Sample::friction);
+  const std::ptrdiff_t at = place - samples.begin(), away = event.loss ? -1 : 1;
+  const auto has = [&](std::ptrdiff_t k) { return k >= 0 && k < std::ssize(samples); };
+  const auto between = [&](std::ptrdiff_t one, std::ptrdiff_t other) {
+    search.low = std::min(one, other);
+    search.high = std::max(one, other);
+    return search;
+  };
+  const int here = certainSign(samples[at].s);
+  if (here == 0) return between(at, at);
+  if (here < 0) {
     const bool grows = has(at - away) && certainSign(samples[at - away].s) > 0;
-    return std::pair{samples[at], samples[grows ? at - away : at]};
+    return between(at, grows ? at - away : at);
   }
   for (std::ptrdiff_t k = at; has(k + away); k += away) {
-    const int next = certainSign(samples[k + away].s);
-    if (next == 0) return std::pair{samples[k + away], samples[k + away]};
-    if (next < 0) return std::pair{samples[k], samples[k + away]};
-    if (!neutral(samples[k + away].s, true)) return {};
+    const Complex s = samples[k + away].s;
+    const int sign = certainSign(s);
+    if (sign == 0) return between(k + away, k + away);
+    if (sign < 0) return between(k, k + away);
+    search.growsOn = !neutral(s, true);
+    if (search.growsOn) return between(k + away, k + away);
   }
-  const Sample& last = loss ? samples.front() : samples.back();
-  return std::pair{last, last};
+  return between(at, at);  // the samples end: nothing is known beyond
+}
+
+bool isAtNeutralEnd(const Event& event) {
+  return event.kind == Event::Kind::crossing && event.low == event.high &&
+         event.below.size() == 1 && neutral(event.below[0].s, true);
+}
+
+/// Returns true if the branch grows from this event on to a neutral end with the opposite change.
+bool isUndone(const Event& event, const Search& search, const std::vector<Event>& events) {
+  if (!search.growsOn) return false;
+  const auto [low, high] = std::minmax(event.low, search.samples[search.low].friction);
+  return std::ranges::any_of(events, [low = low, high = high, &event](const Event& other) {
+    return isAtNeutralEnd(other) && other.branch == event.branch && other.piece == event.piece &&
+           other.loss != event.loss && other.low >= low && other.low <= high;
+  });
 }
 
 /// Collective. Returns the pair of an event with one eigenvalue, continued from its neutral end to
-/// a sample; the unchanged pair if it is not found there.
+/// a sample; none if it is not found there.
 std::vector<linalg::DensePair> pairsAt(Family& family, const Event& event, const Sample& sample) {
+  if (sample.friction == event.low) return event.below;
   const auto problem = family.at(event.low);
-  if (sample.friction == event.low || !problem) return event.below;
+  if (!problem) return {};
   const auto found =
       continuedTo(family, sample.friction, {*problem, event.below}, sample.s, event.isolation);
-  return found ? found->pairs() : event.below;
+  return found ? found->pairs() : std::vector<linalg::DensePair>();
 }
 
 }  // namespace
 
 void bracketNeutralEnds(const std::vector<Piece>& path, Branches& branches) {
   std::vector<Event> events;
-  for (auto& event : branches.events) {
-    const bool atNeutralEnd = event.kind == Event::Kind::crossing && event.low == event.high &&
-                              event.below.size() == 1 && neutral(event.below[0].s, true);
-    if (!atNeutralEnd) {
-      events.push_back(std::move(event));
-      continue;
-    }
-    const auto samples = samplesOf(event, branches.stations);
-    const auto at = std::ranges::find(samples, event.low, &Sample::friction) - samples.begin();
-    auto bracket = bracketOf(samples, at, event.loss);
-    if (!bracket) continue;
-    auto& [low, high] = *bracket;
-    if (low.friction > high.friction) std::swap(low, high);
+  for (const auto& event : branches.events) {
+    events.push_back(event);
+    if (!isAtNeutralEnd(event)) continue;
+    const Search search = searchFrom(event, branches.stations);
+    if (isUndone(event, search, branches.events)) events.pop_back();
+    if (search.growsOn) continue;
+    const Sample &low = search.samples[search.low], &high = search.samples[search.high];
     Family& family = *path[event.piece].family;
     auto below = pairsAt(family, event, low), above = pairsAt(family, event, high);
-    event.low = low.friction;
-    event.high = high.friction;
-    event.below = std::move(below);
-    event.above = std::move(above);
-    events.push_back(std::move(event));
+    if (below.empty() || above.empty()) continue;
+    Event& moved = events.back();
+    moved.low = low.friction;
+    moved.high = high.friction;
+    moved.below = std::move(below);
+    moved.above = std::move(above);
   }
   branches.events = std::move(events);
 }

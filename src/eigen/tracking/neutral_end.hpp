@@ -31,12 +31,12 @@ bool changesSignWithin(const NeutralStep& step);
 /// the sign near the neutral end cannot be confirmed.
 std::optional<std::vector<Event>> changesOf(const NeutralStep& step);
 
-/// Collective. Brackets each change of stability that is placed at a neutral end, by the signs of
-/// the growth rates at the stations around it. An eigenvalue counts as neutral within 1e-10 |s| of
-/// the imaginary axis (join.hpp), so one that moves slowly may be neutral at several stations, and
-/// cross the axis away from the last of them. Growth rates within round-off of zero leave the
-/// change where it is. A change is omitted if the growth rate stays positive where it counts as
-/// neutral.
+/// Collective. Brackets each change of stability of a single eigenvalue that is placed at a neutral
+/// end, by the signs of the growth rates at the stations around it. An eigenvalue counts as neutral
+/// within 1e-10 |s| of the imaginary axis (join.hpp), so one that moves slowly may be neutral at
+/// several stations, and cross the axis away from the last of them. Growth rates within round-off
+/// of zero leave the change where it is. A loss and a regain are omitted if the growth rate stays
+/// positive between them.
 void bracketNeutralEnds(const std::vector<Piece>& path, Branches& branches);
 
 /// One end of a step.

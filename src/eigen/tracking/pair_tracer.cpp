@@ -218,9 +218,12 @@ std::optional<Trace> PairTracer::traceFromEqual(const TraceRequest& request) con
     if (way.between) return traceBy(*way.between, request);
     for (std::size_t k = 0; k < 2; ++k)
       if (changes(before[k], after[k]))
-        trace.events.push_back(
-            splitting({.branch = ids[k], .below = {a[k]}, .above = {b[trace.mate[k]]}},
-                      after[k] > before[k], equal.friction));
+        trace.events.push_back(splitting({.branch = ids[k],
+                                          .low = low.friction,
+                                          .high = high.friction,
+                                          .below = {a[k]},
+                                          .above = {b[trace.mate[k]]}},
+                                         after[k] > before[k], equalBelow));
     return trace;
   }
   const bool last = width(request) < least * smallest;

@@ -22,10 +22,11 @@ std::optional<Event> crossing(Event event, int before, int after) {
   return event;
 }
 
-Event splitting(Event event, bool loss, double friction) {
+Event splitting(Event event, bool loss, bool atLow) {
   event.kind = Event::Kind::coalescence;
   event.loss = loss;
-  event.low = event.high = friction;
+  (atLow ? event.high : event.low) = atLow ? event.low : event.high;
+  (atLow ? event.above : event.below) = atLow ? event.below : event.above;
   return event;
 }
 

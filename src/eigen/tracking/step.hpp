@@ -43,10 +43,10 @@ struct SolvedStation {
 /// eigenvalues that change together. `event` has the pairs and frictions at both ends; `before` and
 /// `after` are the signs of the growth rate there. Returns none if the stability does not change.
 std::optional<Event> crossing(Event event, int before, int after);
-/// Returns the event of one of several equal eigenvalues that split at a friction. `event` has its
-/// branch and its pairs. If `loss` is true, the eigenvalue loses stability; otherwise it regains
-/// it.
-Event splitting(Event event, bool loss, double friction);
+/// Returns the event of one of several equal eigenvalues that split at the lower (atLow) or at the
+/// upper end of a step. `event` has its branch, and the pairs and frictions at both ends. If `loss`
+/// is true, the eigenvalue loses stability; otherwise it regains it.
+Event splitting(Event event, bool loss, bool atLow);
 
 /// Returns a step over which changes of stability of these eigenvalues may have been missed.
 Gap notExamined(double low, double high, const std::vector<linalg::DensePair>& pairs);

@@ -113,10 +113,8 @@ void StepJoiner::joinUncertain(const Ends& ends, const Group& group, bool counts
                                         : chosen(a.spectrum.pairs(), group.here);
   step.gaps.push_back(
       {a.station.friction, b.station.friction,
-       formatted(
-           "uncertain match near %.6g Hz: eigenvalues at friction %g: %zu, at friction %g: %zu",
-           mean(pairs).imag() / (2 * M_PI), a.station.friction, group.here.size(),
-           b.station.friction, group.there.size())});
+       formatted("uncertain match near %.6g Hz: eigenvalues at the start: %zu, at the end: %zu",
+                 mean(pairs).imag() / (2 * M_PI), group.here.size(), group.there.size())});
 }
 
 /// Joins a group across a jump of the eigenvalues.
@@ -126,6 +124,13 @@ void StepJoiner::joinAcrossJump(const Ends& ends, const Group& group, StepResult
   const auto from = chosen(here.pairs(), group.here), to = chosen(there.pairs(), group.there);
   const bool single = from.size() == 1;
   const auto mate = single ? std::vector<std::size_t>{0} : ordered(from, to);
+  const auto isolationOf = [&](std::size_t j) {
+    double distance = isolation(ends, group);
+    for (const std::size_t other : group.there)
+      if (other != j)
+        distance = std::min(distance, std::abs(b.station.pairs[other].s - b.station.pairs[j].s));
+    return distance;
+  };
   for (std::size_t k = 0; k < mate.size(); ++k) {
     const std::size_t i = group.here[k], j = group.there[mate[k]];
     step.links.push_back({i, j, single ? std::abs(here.overlap(i, there, j)) : 1});
@@ -138,7 +143,7 @@ void StepJoiner::joinAcrossJump(const Ends& ends, const Group& group, StepResult
                              .high = b.station.friction,
                              .below = {a.station.pairs[i]},
                              .above = {b.station.pairs[j]},
-                             .isolation = isolation(ends, group)});
+                             .isolation = isolationOf(j)});
   }
 }
 
@@ -186,9 +191,12 @@ std::optional<std::vector<Event>> StepJoiner::splittings(
         continuedTo(family_, near, linalg::Spectrum(apart.problem, {pair}), s + way, std::abs(way));
     if (!meetingPoint(s, damped) || !found || found->pairs()[0].s.real() / way.real() < 0.1)
       return {};
-    events.push_back(
-        splitting({.branch = int(group.here[k]), .below = {here[k]}, .above = {there[mate[k]]}},
-                  after > before, equalAt));
+    events.push_back(splitting({.branch = int(group.here[k]),
+                                .low = a.station.friction,
+                                .high = b.station.friction,
+                                .below = {here[k]},
+                                .above = {there[mate[k]]}},
+                               after > before, equalBelow));
   }
   return events;
 }

@@ -136,10 +136,17 @@ TEST(Equal, PartAtOnceOrMergeLater) {
     EXPECT_EQ(found[0].kind, Event::Kind::coalescence);
     EXPECT_NEAR(found[0].friction, 1, 1e-10);
   }
-  Linear once = modal({100, 100}, {{0, 1, 0.5}});
-  const auto found = solved(once, {0, 1});
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].friction, 0);
+  // The frequency is that where they are equal, at either end of the step.
+  Linear once = modal({100, 100}, {{0, 1, 0.5}}), back = once;
+  linalg::addScaled(back.base.stiffness, 1, once.friction);
+  linalg::addScaled(back.friction, -2, once.friction);
+  for (Linear* family : {&once, &back}) {
+    const auto found = solved(*family, {0, 1});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].friction, family == &once ? 0 : 1);
+    EXPECT_EQ(found[0].loss, family == &once);
+    EXPECT_NEAR(found[0].angularFrequency, 10, 1e-6);  // √round-off of equal eigenvalues
+  }
 }
 
 // K = k I + f [0 c; 0 0] has two equal eigenvalues at all frictions, with one vector.

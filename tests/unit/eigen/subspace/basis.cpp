@@ -143,6 +143,29 @@ TEST(Basis, DropsWhatItHasWhereItIsLessOrthonormal) {
   }
 }
 
+// With VᵀK0V known, one pass makes responses orthogonal to V to the rounding of
+// StaysOrthonormalInEnergy, though V is orthonormal only to a few digits.
+TEST(Basis, MakesResponsesOrthogonalWithKnownEnergies) {
+  const Fixture f;
+  linalg::Block residuals = f.random(4, 8);
+  linalg::multiplyAdd(f.forcesOf(f.columns()),
+                      linalg::transposedProduct(f.basis->comm(), f.columns(), residuals), residuals,
+                      -1 + 1e-5);
+  f.basis->add(residuals);
+  EXPECT_GT(f.departure(), 1e-8);
+  const auto energies =
+      linalg::transposedProduct(f.basis->comm(), f.columns(), f.forcesOf(f.columns()));
+  const linalg::Block forces = f.random(6, 9);
+  const double ratio = f.basis->lastEnergyRatio();
+  const auto flexibility = f.basis->flexibility(forces);
+  EXPECT_LT(test::largestDifference(f.basis->addResponses(forces, energies), flexibility),
+            1e-10 * test::largestOfAll(flexibility));
+  ASSERT_EQ(f.basis->energies().columns(), 6);
+  const linalg::DenseMatrix along = linalg::rowRange(f.basis->energies(), 0, 24);
+  EXPECT_LT(test::largestOfAll(along), 1e-10);
+  EXPECT_EQ(f.basis->lastEnergyRatio(), ratio);
+}
+
 TEST(Basis, CombinationsStayOrthonormal) {
   const Fixture f;
   f.basis->add(f.random(10, 3));
