@@ -55,6 +55,19 @@ Block solved(KSP solver, const DenseView& columns) {
   return result;
 }
 
+void combineColumns(Block& x, const DenseMatrix& combinations) {
+  constexpr PetscInt panel = 1024;  // rows; large enough for fast products
+  const PetscInt rows = x.rows(), count = combinations.columns();
+  ensure(count <= combinations.rows(), "combinations are at most as many as the columns");
+  for (PetscInt first = 0; first < rows; first += panel) {
+    const PetscInt last = std::min(first + panel, rows);
+    const DenseMatrix part = product(rowRange(x, first, last), combinations);
+    for (PetscInt j = 0; j < count; ++j)
+      std::ranges::copy(part.column(j), x.column(j).begin() + first);
+  }
+  x.resizeColumns(count);
+}
+
 Block principal(MPI_Comm comm, const Block& columns, double small) {
   const PetscInt n = columns.columns();
   if (n == 0) return columns;

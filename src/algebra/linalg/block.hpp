@@ -36,6 +36,10 @@ double length(MPI_Comm comm, std::span<const double> column);
 /// a block of columns, large enough for fast dense kernels and small enough for the memory.
 Block solved(KSP solver, const DenseView& columns);
 
+/// Not collective. Replaces X by X C, where C has at most as many columns as rows, without a copy
+/// of X.
+void combineColumns(Block& x, const DenseMatrix& combinations);
+
 /// Collective. Returns the principal directions of the columns, that is, orthogonal combinations of
 /// them, in ascending order of length. Directions of length `small` or less are dropped.
 Block principal(MPI_Comm comm, const Block& columns, double small);

@@ -55,21 +55,6 @@ bool isNegligible(const linalg::DenseMatrix& along) {
   return true;
 }
 
-/// Replaces X by X C, where C has at most as many columns as rows, without a copy of X.
-void combineColumns(linalg::Block& x, const linalg::DenseMatrix& combinations) {
-  constexpr PetscInt panel = 1024;  // rows; large enough for fast products
-  const PetscInt rows = x.rows(), count = combinations.columns();
-  ensure(count <= combinations.rows(), "combinations are at most as many as the columns");
-  for (PetscInt first = 0; first < rows; first += panel) {
-    const PetscInt last = std::min(first + panel, rows);
-    const linalg::DenseMatrix part =
-        linalg::product(linalg::rowRange(x, first, last), combinations);
-    for (PetscInt j = 0; j < count; ++j)
-      std::ranges::copy(part.column(j), x.column(j).begin() + first);
-  }
-  x.resizeColumns(count);
-}
-
 /// Sets the components along the constraint modes to zero: all other vectors are orthogonal to
 /// these.
 void clearConstraintModes(linalg::DenseMatrix& parts, PetscInt count) {
@@ -258,8 +243,8 @@ bool Basis::addOrthogonal(linalg::Block& z, linalg::Block& residuals,
                             along = linalg::product(parts, combinations);
   if (combinations.empty() || !isNegligible(along) || !(solutionError(z, residuals) <= 1e-12))
     return false;
-  combineColumns(z, combinations);
-  combineColumns(residuals, combinations);
+  linalg::combineColumns(z, combinations);
+  linalg::combineColumns(residuals, combinations);
   append(z, std::move(residuals), along);
   return true;
 }
@@ -318,8 +303,8 @@ void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts
                               remaining = linalg::product(along, combinations);
     if (combinations.empty()) return;
     if (!isNegligible(remaining)) continue;
-    combineColumns(z, combinations);
-    combineColumns(forces, combinations);
+    linalg::combineColumns(z, combinations);
+    linalg::combineColumns(forces, combinations);
     append(z, std::move(forces), remaining);
     return;
   }
@@ -344,7 +329,7 @@ double Basis::solutionError(const linalg::Block& z, const linalg::Block& residua
 }
 
 void Basis::combine(const linalg::DenseMatrix& combinations) {
-  combineColumns(columns_, combinations);
+  linalg::combineColumns(columns_, combinations);
   forces_ = {};
   sketched_ = linalg::product(sketched_, combinations);
   rigidity_ = linalg::product(rigidity_, combinations);
