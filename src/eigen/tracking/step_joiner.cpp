@@ -124,13 +124,6 @@ void StepJoiner::joinAcrossJump(const Ends& ends, const Group& group, StepResult
   const auto from = chosen(here.pairs(), group.here), to = chosen(there.pairs(), group.there);
   const bool single = from.size() == 1;
   const auto mate = single ? std::vector<std::size_t>{0} : ordered(from, to);
-  const auto isolationOf = [&](std::size_t j) {
-    double distance = isolation(ends, group);
-    for (const std::size_t other : group.there)
-      if (other != j)
-        distance = std::min(distance, std::abs(b.station.pairs[other].s - b.station.pairs[j].s));
-    return distance;
-  };
   for (std::size_t k = 0; k < mate.size(); ++k) {
     const std::size_t i = group.here[k], j = group.there[mate[k]];
     step.links.push_back({i, j, single ? std::abs(here.overlap(i, there, j)) : 1});
@@ -143,7 +136,7 @@ void StepJoiner::joinAcrossJump(const Ends& ends, const Group& group, StepResult
                              .high = b.station.friction,
                              .below = {a.station.pairs[i]},
                              .above = {b.station.pairs[j]},
-                             .isolation = isolationOf(j)});
+                             .isolation = isolation(ends, {{i}, {j}})});
   }
 }
 
