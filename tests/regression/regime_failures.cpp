@@ -88,20 +88,25 @@ TEST(RegimeFailures, EachStartHasItsFields) {
   }
 }
 
-// At friction 2.37 the fastest growing modes diverge, and there is no cycle to count; 0.01 is
-// stable; at 3 there is no steady sliding. What is found at 0.5 stays.
+// At friction 2.363 the fastest growing modes diverge, and there is no cycle to count; 0.01 is
+// stable; at 3 there is no steady sliding. What is found at 0.5 stays. At 2.3807 the equations of
+// the active set are singular, and before it round-off changes the slow divergent eigenvalues:
+// with two kernels of OpenBLAS the reduced model reproduced them to between 2e-10 and 6e-9, hence
+// the tolerance of this run.
 TEST(RegimeFailures, EachPointFailsForItself) {
-  const std::string frictions = "0.01,0.5,2.37,3";
-  const ProgramRun run =
-      failing("points", 2, {{"flutter_friction", frictions}, {"regime_friction", frictions}});
+  const std::string frictions = "0.01,0.5,2.363,3";
+  const ProgramRun run = failing("points", 2,
+                                 {{"flutter_friction", frictions},
+                                  {"regime_friction", frictions},
+                                  {"flutter_tolerance", "1e-7"}});
   EXPECT_EQ(run.exitCode, 2) << run.error;
   const auto table = readCsv(run.folder / "regime.csv");
-  ASSERT_EQ(table.column("friction"), (std::vector<double>{0.5, 2.37}));
+  ASSERT_EQ(table.column("friction"), (std::vector<double>{0.5, 2.363}));
   EXPECT_EQ(table.words("class"), (std::vector<std::string>{"irregular", "nothing measured"}));
   EXPECT_EQ(table.words("flutter_frequency_hz").at(1), "0.000000000e+00");
   EXPECT_NE(run.out.find("friction 0.01: no mode is unstable"), std::string::npos);
   for (const char* text :
-       {"friction 2.37, start on mode 4: nothing measured: the mode grows without oscillation",
+       {"friction 2.363, start on mode 4: nothing measured: the mode grows without oscillation",
         "friction 3: not followed after flutter (-regime_friction): no steady sliding state"})
     EXPECT_NE(run.error.find(text), std::string::npos) << run.error;
 }
