@@ -52,6 +52,19 @@ DAMPED = [
     "20",
 ]
 LOWER = ["-modes_count", "30", "-flutter_band", "5000"]  # fewer eigenvalues: a third of the time
+SOFT = [
+    "-options_file",
+    repository / "options/layer.yaml",
+    "-mesh_set",
+    "nx=8,ny=3",
+    "-modes_count",
+    "40",
+    "-contact_plate_stiffness",
+    "10",
+    "-report_fields",
+    "off",
+    "-flutter_proof",
+]
 BLOCK = [*pressed_block("nx=8,ny=8", modes=20, frictions="0:0.5:0.1"), "-flutter_proof"]
 
 
@@ -73,17 +86,20 @@ class Proof(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return folder, done.stdout
 
-    def test_all_eigenvalues_of_the_full_problem(self):
-        """The count and the discs, against all eigenvalues of the full matrices by LAPACK."""
-        matrices = self.place / "matrices"
+    def check_with_lapack(self, name, case, friction):
+        """Compares the count and the discs with all eigenvalues of the full matrices by LAPACK.
+        Returns the folder of the run."""
+        matrices = self.place / f"{name}_matrices"
         export = ["-report_matrices", matrices, "-report_matrices_format", "matrix_market"]
-        folder, _ = self.run_program("all", [*BRAKE, "-flutter_friction", "0.6", *export])
+        folder, _ = self.run_program(name, [*case, "-flutter_friction", f"{friction}", *export])
         k, m, k1, m1 = (
             scipy.io.mmread(matrices / f"{name}.mtx").toarray()
             for name in ("stiffness", "mass", "stiffness_friction1", "mass_friction1")
         )
         # s² = −1/μ for the eigenvalues μ of K⁻¹ M
-        mu = scipy.linalg.eigvals(np.linalg.solve(k + 0.6 * k1, m + 0.6 * m1)).astype(complex)
+        mu = scipy.linalg.eigvals(np.linalg.solve(k + friction * k1, m + friction * m1)).astype(
+            complex
+        )
         s = np.sqrt(-1 / mu)
         s = np.concatenate([s, -s])
         proof = pd.read_csv(folder / "proof.csv").iloc[0]
@@ -97,9 +113,33 @@ class Proof(unittest.TestCase):
             # LAPACK's errors are 1e-11 of the largest |s| that counts here.
             near = np.abs(s - centre) <= row.radius_1_per_s + 1e-6
             self.assertEqual(near.sum(), 1)
+        return folder
+
+    def test_all_eigenvalues_of_the_full_problem(self):
+        folder = self.check_with_lapack("all", BRAKE, 0.6)
+        listed = pd.read_csv(folder / "eigenvalues.csv")
         # A growth rate at least the radius from zero: all of these are proved to be unstable.
         grown = listed[listed.unstable == 1]
         self.assertTrue((grown.growth_rate_1_per_s > grown.radius_1_per_s).all())
+
+    def test_soft_layer(self):
+        """Under a soft layer, no normal forces are due to inertia."""
+        self.check_with_lapack("soft", SOFT, 0.4)
+
+    def test_exact_products_decide(self):
+        """Bounds of the products of the mass with the responses prove the list below 11 kHz. Below
+        12 kHz they do not, and the exact products, which take a solve each, prove it."""
+
+        def solves(folder):
+            """Each vector that the stage before solved for takes one more solve in the proof."""
+            stages = json.loads((folder / "summary.json").read_text())["stages"]
+            return stages["proof"]["right_hand_sides"] - stages["flutter"]["right_hand_sides"]
+
+        lower = [*BRAKE, "-flutter_band", "11000", "-flutter_friction", "2"]
+        few, _ = self.run_program("bounds", lower)
+        self.assertEqual(pd.read_csv(few / "proof.csv").complete.tolist(), [1])
+        many = self.check_with_lapack("products", [*BRAKE, "-flutter_band", "12000"], 2)
+        self.assertGreater(solves(many), solves(few))
 
     def test_ranks(self):
         """The verdicts do not depend on the ranks; the ratios do, with the corrections."""

@@ -219,7 +219,7 @@ std::vector<ProvedSet> openPoints(const std::vector<ProvedSet>& sets) {
   return result;
 }
 
-/// Collective. Proves these lists again; what was found before remains if this fails.
+/// Collective. Proves these lists again, and keeps the better results.
 void proveAgain(reduction::ReducedProblem& reduced, const pencil::FrictionFactors& factors,
                 const SetMatrices& common, const std::vector<ProvedSet>& sets,
                 const Settings& settings) {
@@ -231,8 +231,7 @@ void proveAgain(reduction::ReducedProblem& reduced, const pencil::FrictionFactor
   auto first = before.begin();
   for (const auto& set : sets)
     for (auto* point : set.points) {
-      auto& found = *point->completeness;
-      if (found.top == 0 || (first->proved && !found.proved)) found = std::move(*first);
+      keepBetter(std::move(*first), *point->completeness);
       ++first;
     }
 }

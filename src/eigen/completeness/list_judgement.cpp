@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/system/text.hpp"
 
@@ -39,6 +40,11 @@ void recordCount(const proof::Region& region, const proof::CountProof& count,
   found.discs = static_cast<int>(count.discs);
 }
 
+void keepBetter(pencil::Completeness first, pencil::Completeness& found) {
+  const bool hasFailed = found.top == 0;
+  if (hasFailed || (first.proved && !found.proved)) found = std::move(first);
+}
+
 void judgeList(const std::vector<proof::Enclosure>& discs, const proof::Region& region,
                pencil::WatchedBand band, pencil::ComplexModes& point) {
   auto& found = *point.completeness;
@@ -50,7 +56,7 @@ void judgeList(const std::vector<proof::Enclosure>& discs, const proof::Region& 
                           return disc.isolation == proof::Isolation::single;
                         });
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto& [agreement, radius] = judged.entries[i];
+    const auto& [agreement, radius, disc] = judged.entries[i];
     if (radius > 0) point.eigenvalues[i].radius = radius;
     if (allKnown &&
         (agreement == proof::Agreement::wrong || agreement == proof::Agreement::repeated))

@@ -136,9 +136,11 @@ SetBounds setBounds(const SetMatrices& set, double reach) {
               heavy = factor(set.inertia, set.inertiaFlexibility, bounds.inertia);
   bounds.normalOnC = longest(stiff);
   bounds.inertiaOnC = longest(heavy);
-  // For |s| ≤ reach and all t,
+  // For |s| ≤ reach and all t > 0,
   //   (A + s² B)(A + s² B)ᴴ ≤ (1 + t) A Aᵀ + (1 + 1/t) reach⁴ B Bᵀ
-  const double square = reach * reach, t = square * bounds.inertiaOnC / bounds.normalOnC;
+  // A or B may be zero: under a soft layer, inertia causes no normal forces.
+  const double square = reach * reach, a = bounds.normalOnC, b = square * bounds.inertiaOnC,
+               t = b > 0 ? std::clamp(b / a, 1e-12, 1e12) : 1e-12;
   for (double& entry : stiff.entries()) entry *= std::sqrt(1 + t);
   for (double& entry : heavy.entries()) entry *= std::sqrt(1 + 1 / t) * square;
   bounds.forces = timesTransposed(stiff);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -171,58 +170,139 @@ namespace {
 /// Returns false for the mirror image of an eigenvalue with Im s > 0.
 bool upper(const Enclosure& enclosure) { return enclosure.s.imag() >= -enclosure.inner; }
 
-/// Returns the enclosure nearest to s among those of eigenvalues with Im s ≥ 0 that are not in
-/// `taken`; null if none.
-template <class Taken>
-const Enclosure* nearestTo(Complex s, const std::vector<Enclosure>& enclosures,
-                           const Taken& taken) {
-  const Enclosure* nearest = nullptr;
-  for (const auto& disc : enclosures)
-    if (upper(disc) && !taken(disc) &&
-        (!nearest || std::abs(s - disc.s) < std::abs(s - nearest->s)))
-      nearest = &disc;
-  return nearest;
+bool isSingle(const Enclosure& disc) { return disc.isolation == Isolation::single; }
+
+/// Judges the entries of a list; the members are borrowed.
+struct Judge {
+  std::span<const Complex> list;
+  const std::vector<Enclosure>& discs;
+  const Region& region;
+  double tolerance;
+  JudgedList judged = {};
+  std::vector<std::optional<std::size_t>> entryOf = {};  // [disc]
+
+  double apart(std::size_t entry, std::size_t disc) const {
+    return std::abs(list[entry] - discs[disc].s);
+  }
+  /// Returns the nearest disc among those of eigenvalues with Im s ≥ 0 that the filter admits.
+  template <class Filter>
+  std::optional<std::size_t> nearest(std::size_t entry, const Filter& filter) const {
+    std::optional<std::size_t> found;
+    for (std::size_t d = 0; d < discs.size(); ++d)
+      if (upper(discs[d]) && filter(d) && (!found || apart(entry, d) < apart(entry, *found)))
+        found = d;
+    return found;
+  }
+  bool isInside(std::size_t entry) const {
+    return std::abs(list[entry]) < region.top && list[entry].real() > -region.left;
+  }
+  bool isRight(std::size_t entry, std::size_t disc) const {
+    return apart(entry, disc) <= discs[disc].inner + tolerance;
+  }
+  std::vector<std::size_t> discsFor(std::size_t entry, std::size_t closest) const;
+  bool assign(std::size_t entry, const std::vector<std::vector<std::size_t>>& candidates,
+              std::vector<unsigned char>& tried);
+  void setUnresolved(std::size_t entry, std::size_t disc);
+  void setSingle(std::vector<std::size_t> entries);
+};
+
+/// Returns the single discs that the entry may belong to, the closest one first: the others must
+/// contain it within the tolerance relative to |s|. Of eigenvalues that are closer to each other
+/// than the errors of the list, each takes one entry.
+std::vector<std::size_t> Judge::discsFor(std::size_t entry, std::size_t closest) const {
+  std::vector<std::size_t> found{closest};
+  const double relative = tolerance * std::min(1.0, std::abs(list[entry]) / region.top);
+  for (std::size_t d = 0; d < discs.size(); ++d)
+    if (d != closest && isSingle(discs[d]) && upper(discs[d]) &&
+        apart(entry, d) <= discs[d].inner + relative)
+      found.push_back(d);
+  std::sort(found.begin() + 1, found.end(),
+            [&](auto a, auto b) { return apart(entry, a) < apart(entry, b); });
+  return found;
+}
+
+/// Assigns the entry to a disc, and moves other entries to other discs if that is necessary (an
+/// augmenting path, H. W. Kuhn, Naval Research Logistics Quarterly 2, 1955). Returns false if it
+/// is impossible.
+bool Judge::assign(std::size_t entry, const std::vector<std::vector<std::size_t>>& candidates,
+                   std::vector<unsigned char>& tried) {
+  for (const std::size_t d : candidates[entry]) {
+    if (tried[d]) continue;
+    tried[d] = 1;
+    if (entryOf[d] && !assign(*entryOf[d], candidates, tried)) continue;
+    entryOf[d] = entry;
+    judged.entries[entry].disc = d;
+    return true;
+  }
+  return false;
+}
+
+/// Judges an entry whose nearest disc is not single. Of equal eigenvalues, each takes one entry, in
+/// any order.
+void Judge::setUnresolved(std::size_t entry, std::size_t disc) {
+  std::optional<std::size_t> taken = disc;
+  if (entryOf[disc])
+    taken = nearest(entry, [&](std::size_t d) {
+      return !isSingle(discs[d]) && !entryOf[d] &&
+             std::abs(discs[d].s - discs[disc].s) <= apart(entry, disc) + tolerance;
+    });
+  if (taken) entryOf[*taken] = entry;
+  if (isInside(entry)) judged.entries[entry].agreement = Agreement::unproved;
+}
+
+/// Judges the entries whose nearest disc, in JudgedEntry::disc, is single.
+void Judge::setSingle(std::vector<std::size_t> entries) {
+  auto& all = judged.entries;
+  std::ranges::stable_sort(entries, {}, [&](auto i) { return apart(i, *all[i].disc); });
+  std::vector<std::vector<std::size_t>> candidates(list.size());
+  for (const auto i : entries)
+    if (isRight(i, *all[i].disc)) candidates[i] = discsFor(i, *all[i].disc);
+  for (const auto i : entries) {
+    std::vector<unsigned char> tried(discs.size());
+    if (!candidates[i].empty())
+      all[i].agreement = assign(i, candidates, tried) ? Agreement::right : Agreement::repeated;
+  }
+  for (const auto i : entries) {
+    const std::size_t disc = *all[i].disc;
+    if (!candidates[i].empty() || !isInside(i) || apart(i, disc) > discs[disc].outer) continue;
+    all[i].agreement = entryOf[disc] ? Agreement::repeated : Agreement::inexact;
+    if (!entryOf[disc]) entryOf[disc] = i;
+  }
+  for (const auto i : entries) {
+    auto& entry = all[i];
+    const auto& disc = discs[*entry.disc];
+    const bool holds = entry.agreement == Agreement::right || entry.agreement == Agreement::inexact;
+    if (holds && 2 * apart(i, *entry.disc) + disc.inner <= disc.outer)
+      entry.radius = apart(i, *entry.disc) + disc.inner;
+  }
 }
 
 }  // namespace
 
 JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
                  const Region& region, double tolerance) {
-  JudgedList judged{std::vector<JudgedEntry>(list.size()), {}};
-  std::map<const Enclosure*, std::size_t> closest;  // entry to the centre of a disc
+  Judge judge{list, enclosures, region, tolerance};
+  auto& judged = judge.judged;
+  judged.entries.resize(list.size());
+  judge.entryOf.resize(enclosures.size());
+  std::vector<std::size_t> single;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    auto& [agreement, radius] = judged.entries[i];
-    const auto s = list[i];
-    const bool inside = std::abs(s) < region.top && s.real() > -region.left;
-    const auto* disc = nearestTo(s, enclosures, [](const auto&) { return false; });
-    agreement = inside ? Agreement::wrong : Agreement::outside;
+    auto& entry = judged.entries[i];
+    entry.agreement = judge.isInside(i) ? Agreement::wrong : Agreement::outside;
+    const auto disc = judge.nearest(i, [](std::size_t) { return true; });
     if (!disc) continue;
-    if (disc->isolation != Isolation::single) {
-      if (!closest.try_emplace(disc, i).second) {
-        // Of equal eigenvalues, each takes one entry, in any order.
-        const auto* other = nearestTo(s, enclosures, [&](const Enclosure& one) {
-          return one.isolation == Isolation::single || closest.contains(&one) ||
-                 std::abs(one.s - disc->s) > std::abs(s - disc->s) + tolerance;
-        });
-        if (other) closest.try_emplace(other, i);
-      }
-      if (inside) agreement = Agreement::unproved;
+    if (!isSingle(enclosures[*disc])) {
+      judge.setUnresolved(i, *disc);
       continue;
     }
-    const double apart = std::abs(s - disc->s), close = disc->inner + tolerance;
-    if (apart > (inside ? std::max(disc->outer, close) : close)) continue;
-    if (2 * apart + disc->inner <= disc->outer) radius = apart + disc->inner;
-    agreement = apart <= close ? Agreement::right : Agreement::inexact;
-    const auto [other, first] = closest.try_emplace(disc, i);
-    if (first) continue;
-    const bool closer = apart < std::abs(list[other->second] - disc->s);
-    judged.entries[closer ? other->second : i] = {Agreement::repeated, 0};
-    if (closer) other->second = i;
+    entry.disc = disc;
+    single.push_back(i);
   }
-  for (const auto& disc : enclosures)
-    if (upper(disc) && !closest.contains(&disc))
-      (disc.isolation == Isolation::single ? judged.missing : judged.unresolved).push_back(disc);
-  return judged;
+  judge.setSingle(std::move(single));
+  for (std::size_t d = 0; d < enclosures.size(); ++d)
+    if (upper(enclosures[d]) && !judge.entryOf[d])
+      (isSingle(enclosures[d]) ? judged.missing : judged.unresolved).push_back(enclosures[d]);
+  return std::move(judged);
 }
 
 }  // namespace squeal::proof

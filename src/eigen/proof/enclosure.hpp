@@ -2,6 +2,7 @@
 #pragma once
 /// Discs that each contain exactly one eigenvalue of P (kept.hpp), and the judgement of a list of
 /// eigenvalues by these discs.
+#include <optional>
 #include <vector>
 
 #include "algebra/linalg/quadratic.hpp"
@@ -38,7 +39,7 @@ std::vector<Enclosure> enclose(const DiagonalForm& form, const LeftOut& bounds,
 enum class Agreement {
   right,     ///< its distance from a centre is at most the inner radius plus the tolerance
   inexact,   ///< farther from the centre, but in the disc of the outer radius
-  repeated,  ///< as close as `right` or `inexact`, but another entry is closer to the same centre
+  repeated,  ///< as close as `right` or `inexact`, but the discs there have other entries
   wrong,     ///< in none of the discs
   unproved,  ///< the enclosure of the nearest eigenvalue of P_VV is not single
   outside,   ///< not in the region, and not `right`
@@ -48,6 +49,9 @@ struct JudgedEntry {
   Agreement agreement = Agreement::wrong;
   /// Radius of the disc about the entry that holds exactly one eigenvalue of P; 0 if none is known.
   double radius = 0;
+  /// Index of the enclosure that the entry belongs to, or of the nearest one; none if that is not
+  /// single.
+  std::optional<std::size_t> disc = {};
 };
 
 struct JudgedList {
@@ -59,7 +63,8 @@ struct JudgedList {
 
 /// Not collective. Judges a list of eigenvalues with Im s ≥ 0 by the enclosures of the region. The
 /// list must contain a multiple eigenvalue as often as its multiplicity. `tolerance`, rad/s, is the
-/// largest error that entries should have.
+/// largest error that entries at the top of the region should have. Eigenvalues closer to each
+/// other than the tolerance relative to |s| take one entry each, in any order.
 JudgedList judge(std::span<const Complex> list, const std::vector<Enclosure>& enclosures,
                  const Region& region, double tolerance);
 

@@ -174,8 +174,8 @@ bool mayBeCompleted(const pencil::ComplexModes& point) {
   return found.definiteness > 0 && found.ratio > 0 && found.ratio < mostRatio;
 }
 
-/// Collective. Proves the lists of points again, with corrected bases. If that ends with an error,
-/// the first result remains.
+/// Collective. Proves the lists of points again, with corrected bases, and keeps the better
+/// results.
 void proveAgain(const SweepProblem& problem, const reduction::ReducedProblem& reduced,
                 const std::vector<ListedPoint*>& points, const ProofRequest& request) {
   if (points.empty()) return;
@@ -184,10 +184,8 @@ void proveAgain(const SweepProblem& problem, const reduction::ReducedProblem& re
   std::vector<pencil::Completeness> first;
   for (const auto* point : points) first.push_back(*point->list->completeness);
   proveTogether(problem, reduced, points, request, 1);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    auto& found = *points[i]->list->completeness;
-    if (found.top == 0) found = std::move(first[i]);
-  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    completeness::keepBetter(std::move(first[i]), *points[i]->list->completeness);
 }
 
 }  // namespace

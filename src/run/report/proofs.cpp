@@ -21,6 +21,14 @@ std::vector<const pencil::ComplexModes*> examined(const analysis::Analysis& anal
   return points;
 }
 
+/// Returns the reason why the number or the place of an eigenvalue is not proved.
+std::string reasonOf(const pencil::ComplexModes& point) {
+  const auto& found = *point.completeness;
+  if (!found.reason.empty() || point.withoutDisc() == 0) return found.reason;
+  return formatted("the number of eigenvalues is proved; %d of them have no disc of their own",
+                   point.withoutDisc());
+}
+
 }  // namespace
 
 bool hasProofs(const analysis::Analysis& analysis) { return !examined(analysis).empty(); }
@@ -39,7 +47,7 @@ std::string proofTable(const analysis::Analysis& analysis) {
              formatted(",%.6e,%.6e,%d,%d,%zu,%zu,%zu,", found.ratio, found.definiteness,
                        found.discs, point->withoutDisc(), found.missing.size(),
                        found.spurious.size(), found.undecided.size()) +
-             nameCell(found.reason) + "\n";
+             nameCell(reasonOf(*point)) + "\n";
   }
   return table;
 }
@@ -55,7 +63,7 @@ nlohmann::json proofEntry(const pencil::ComplexModes& point) {
                           {"definiteness", found.definiteness},
                           {"discs", found.discs},
                           {"without_disc", point.withoutDisc()},
-                          {"reason", found.reason},
+                          {"reason", reasonOf(point)},
                           {"missing", nlohmann::json::array()},
                           {"spurious", nlohmann::json::array()},
                           {"undecided", nlohmann::json::array()}};
@@ -96,10 +104,7 @@ std::string proofText(const analysis::Analysis& analysis) {
     if (!found.proved)
       others += "\nNot proved at " + at + ": " + found.reason + ".";
     else if (point->withoutDisc() > 0)
-      others += formatted(
-          "\nAt %s the number of eigenvalues is proved; %d of them have no disc of "
-          "their own.",
-          at.c_str(), point->withoutDisc());
+      others += "\nAt " + at + ": " + reasonOf(*point) + ".";
     if (!point->listIsProved()) continue;
     ++complete;
     ratio = std::max(ratio, found.ratio);
