@@ -11,10 +11,11 @@ namespace {
 
 bool isSingle(const proof::Enclosure& disc) { return disc.isolation == proof::Isolation::single; }
 
-const proof::Enclosure* nearestTo(Complex s, const std::vector<proof::Enclosure>& discs) {
-  const auto nearest = std::ranges::min_element(
-      discs, {}, [&](const proof::Enclosure& disc) { return std::abs(disc.s - s); });
-  return nearest == discs.end() ? nullptr : &*nearest;
+/// Returns the disc of a neutral eigenvalue about the nearest imaginary point, which is no farther
+/// away; other discs as they are.
+proof::Enclosure placed(proof::Enclosure disc) {
+  if (disc.neutral) disc.s = {0, disc.s.imag()};
+  return disc;
 }
 
 /// The list and the accuracy of its right entries, relative to |s|.
@@ -65,18 +66,16 @@ void setProved(const proof::Enclosure& disc, Row& row) {
 void setRows(std::span<const Complex> list, const std::vector<proof::Enclosure>& discs,
              double tolerance, Judgement& judgement) {
   auto& upper = judgement.eigenvalues;
-  std::ranges::copy_if(discs, std::back_inserter(upper),
-                       [](const proof::Enclosure& disc) { return disc.s.imag() >= -disc.inner; });
-  for (auto& disc : upper)
-    if (disc.neutral) disc.s = {0, disc.s.imag()};  // the nearest imaginary point, no farther away
+  for (const auto& disc : discs)
+    if (disc.s.imag() >= -disc.inner) upper.push_back(placed(disc));
   std::ranges::sort(upper, {}, [](const auto& disc) { return disc.s.imag(); });
   const bool allKnown = judgement.proved() && std::ranges::all_of(upper, isSingle);
   const auto judged = proof::judge(list, discs, judgement.region, tolerance * judgement.region.top);
   for (std::size_t i = 0; i < list.size(); ++i) {
     Row row{.entry = i, .listed = list[i], .proved = {}};
-    if (const auto* disc = nearestTo(list[i], upper); disc && isSingle(*disc))
-      setProved(*disc, row);
-    row.verdict = verdictOf(row, judged.entries[i].agreement, {list, tolerance}, allKnown);
+    const auto& entry = judged.entries[i];
+    if (entry.disc) setProved(placed(discs[*entry.disc]), row);
+    row.verdict = verdictOf(row, entry.agreement, {list, tolerance}, allKnown);
     judgement.rows.push_back(row);
   }
   const auto add = [&](const proof::Enclosure& disc, Verdict verdict) {

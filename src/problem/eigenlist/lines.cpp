@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "base/system/error.hpp"
 #include "base/system/text.hpp"
@@ -12,8 +13,29 @@ namespace {
 
 bool isSeparator(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == ';'; }
 
+/// Returns the parts of a text between these characters, without blanks at their ends. Double
+/// quotes enclose a part that contains the characters itself.
+std::vector<std::string> cellsOf(std::string_view text, char delimiter) {
+  std::vector<std::string> cells(1);
+  bool isQuoted = false;
+  for (const char c : text) {
+    if (c == '"') isQuoted = !isQuoted;
+    if (c == delimiter && !isQuoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  for (auto& cell : cells) {
+    const auto first = cell.find_first_not_of(" \t\r");
+    cell = first == std::string::npos
+               ? ""
+               : cell.substr(first, cell.find_last_not_of(" \t\r") + 1 - first);
+  }
+  return cells;
+}
+
 Line lineOf(std::string_view text, long number) {
-  Line line{.number = number, .title = {}, .words = {}};
+  Line line{.number = number, .title = {}, .words = {}, .cells = {}};
   std::string word;
   for (const char c : text) {
     if (isSeparator(c)) {
@@ -25,6 +47,9 @@ Line lineOf(std::string_view text, long number) {
     line.title += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   }
   if (!word.empty()) line.words.push_back(std::move(word));
+  line.cells = line.words;
+  for (const char delimiter : {',', ';'})
+    if (auto cells = cellsOf(text, delimiter); cells.size() > 1) line.cells = std::move(cells);
   return line;
 }
 

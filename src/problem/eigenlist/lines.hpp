@@ -12,6 +12,10 @@ struct Line {
   long number = 0;                 ///< counted from 1
   std::string title;               ///< the line without blanks, in capitals
   std::vector<std::string> words;  ///< separated by blanks, tabs, commas and semicolons
+  /// Separated by semicolons, or by commas if the line has none, without blanks at their ends; they
+  /// may be empty, and double quotes enclose one that contains a delimiter. The words, if the line
+  /// has neither.
+  std::vector<std::string> cells;
 
   /// Returns true if the title contains `text`, which must be in capitals and without blanks.
   bool has(std::string_view text) const { return title.find(text) != std::string::npos; }

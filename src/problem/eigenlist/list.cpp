@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "base/system/error.hpp"
 #include "base/system/text.hpp"
@@ -64,7 +65,8 @@ List parse(std::string_view text, Format format, std::optional<Unit> unit) {
     if (unit)
       throw Error("the listing states its units (" + layoutOf(format) +
                   "); leave -referee_unit out");
-    all = listed(lines, format);
+    list = listed(lines, format);
+    all = std::exchange(list.values, {});
     list.layout = layoutOf(format);
   }
   if (all.empty()) throw Error("no eigenvalue was found (" + list.layout + ")");
@@ -81,6 +83,7 @@ List read(MPI_Comm comm, const Settings& settings) {
   mpi::broadcast(comm, list.layout);
   mpi::broadcast(comm, list.conjugates);
   mpi::broadcast(comm, list.mirrored);
+  mpi::broadcast(comm, list.skipped);
   return list;
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "base/system/error.hpp"
 #include "base/system/text.hpp"
@@ -136,38 +138,87 @@ std::string layoutOf(Format format) {
   }
 }
 
-std::vector<Complex> listed(const std::vector<Line>& lines, Format format) {
-  std::vector<Complex> values;
-  long last = 0;
-  bool inside = false, begun = false;  // in a table, and after its first row
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Line& line = lines[i];
-    if (isTitle(lines, i, format)) {
-      inside = true;
-      begun = false;
-      continue;
-    }
-    if (!inside) continue;
-    if (format == Format::ansys && !values.empty() && isConjugate(line)) {
-      values.push_back(ansysRow(line, 0));
-      continue;
-    }
-    const std::size_t place = format == Format::calculix && line.words.size() == 5 ? 1 : 0;
-    const auto mode = isRow(line, format) ? count(line.words[place]) : std::nullopt;
-    if (!mode) {
-      if (begun && !count(line.words[0])) inside = false;
-      continue;
-    }
-    begun = true;
-    if (*mode <= last)
-      throw Error(
-          formatted("line %ld: mode %ld again: the file has several tables of eigenvalues; "
-                    "leave one of them in it",
-                    line.number, *mode));
-    last = *mode;
-    values.push_back(rowOf(line, format));
+namespace {
+
+/// Returns true if the line begins as the row of a mode does, with its number and a figure or with
+/// its number only.
+bool beginsAsRow(const Line& line) {
+  return line.words.size() == 1 ||
+         std::string_view("+-.0123456789").find(line.words[1][0]) != std::string_view::npos;
+}
+
+/// Reads the tables of a format.
+class Tables {
+ public:
+  explicit Tables(Format format) : format_(format) {}
+  /// Takes a title, which begins a table or continues it on a new page.
+  void begin() { place_ = Place::head; }
+  void take(const Line& line);
+
+  List list;  ///< `values` contain the conjugates
+
+ private:
+  enum class Place { outside, head, rows, between };  // between: after text that follows rows
+  void add(const Line& line, long mode);
+
+  Format format_;
+  Place place_ = Place::outside;
+  long last_ = 0;          // mode of the last row
+  std::size_t words_ = 0;  // of a row
+};
+
+void Tables::take(const Line& line) {
+  if (place_ == Place::outside) return;
+  if (format_ == Format::ansys && !list.values.empty() && isConjugate(line)) {
+    list.values.push_back(ansysRow(line, 0));
+    return;
   }
-  return values;
+  const std::size_t place = format_ == Format::calculix && line.words.size() == 5 ? 1 : 0;
+  const auto mode = count(line.words[place]);
+  if (!mode) {
+    if (place_ == Place::rows) place_ = Place::between;
+    return;
+  }
+  const bool isNext = *mode == last_ + 1;
+  if (!isRow(line, format_)) {
+    if (isNext && last_ > 0 && beginsAsRow(line))
+      throw Error(formatted("line %ld: this is not a whole row of mode %ld: %zu words", line.number,
+                            *mode, line.words.size()));
+    return;
+  }
+  // Other tables follow, with other numbers; a row of this one continues it.
+  if (place_ == Place::between && !isNext)
+    place_ = Place::outside;
+  else
+    add(line, *mode);
+}
+
+void Tables::add(const Line& line, long mode) {
+  if (mode <= last_)
+    throw Error(
+        formatted("line %ld: mode %ld again: the file has several tables of eigenvalues; "
+                  "leave one of them in it",
+                  line.number, mode));
+  if (format_ != Format::ansys && words_ > 0 && line.words.size() != words_)
+    throw Error(formatted("line %ld: %zu words instead of %zu as in the rows above", line.number,
+                          line.words.size(), words_));
+  list.skipped += last_ > 0 ? mode - last_ - 1 : 0;
+  place_ = Place::rows;
+  last_ = mode;
+  words_ = line.words.size();
+  list.values.push_back(rowOf(line, format_));
+}
+
+}  // namespace
+
+List listed(const std::vector<Line>& lines, Format format) {
+  Tables tables(format);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (isTitle(lines, i, format))
+      tables.begin();
+    else
+      tables.take(lines[i]);
+  return std::move(tables.list);
 }
 
 }  // namespace squeal::eigenlist

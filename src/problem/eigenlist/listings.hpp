@@ -21,9 +21,11 @@ namespace squeal::eigenlist {
 /// Returns the format of the first title that is recognised; `columns` without such a title.
 Format formatOf(const std::vector<Line>& lines);
 
-/// Returns the eigenvalues in the table of this format, conjugates included. Throws Error if the
-/// text contains several tables, or for figures of a row that contradict each other.
-std::vector<Complex> listed(const std::vector<Line>& lines, Format format);
+/// Returns the eigenvalues in the table of this format, conjugates included, and the number of
+/// skipped modes; the other members are not set. Text between the rows, such as the heading of a
+/// page, is skipped. Throws Error if the text contains several tables, for an incomplete row, and
+/// for figures of a row that contradict each other.
+List listed(const std::vector<Line>& lines, Format format);
 
 /// Returns a text with the name of the program and the units and signs of its eigenvalues.
 std::string layoutOf(Format format);

@@ -16,7 +16,7 @@ std::string pair(Complex s) { return formatted("%.15e,%.15e", s.real(), s.imag()
 
 /// Returns s with its frequency. A growth rate within the radius of the disc has no sign.
 std::string placeText(Complex s, double radius = 0) {
-  return formatted("%.8g Hz, %.6g 1/s", s.imag() / turn,
+  return formatted("%.8g Hz, %.6g 1/s", s.imag() / turn + 0.0,  // + 0.0: not -0
                    std::abs(s.real()) <= radius ? 0 : s.real());
 }
 
@@ -34,8 +34,9 @@ std::string lineOf(const referee::Row& row, const eigenlist::List& list) {
     case Verdict::repeated:
       return entry + " is listed twice: only one eigenvalue is there, " + proved;
     case Verdict::artefact:
-      return entry +
-             formatted(" is an artefact: the nearest eigenvalue is %.3g rad/s away", row.distance);
+      return entry + " is an artefact: " +
+             (row.proved ? formatted("the nearest eigenvalue is %.3g rad/s away", row.distance)
+                         : "no eigenvalue of the region has Im s >= 0");
     case Verdict::missing:
       return "missing: " + proved;
     case Verdict::unproved:

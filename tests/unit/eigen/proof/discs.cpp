@@ -69,6 +69,41 @@ TEST(Discs, HoldOneEigenvalueEach) {
   EXPECT_GT(neutral, single / 4);
 }
 
+/// An enclosure that holds one eigenvalue.
+proof::Enclosure discAbout(double frequency, double outer) {
+  return {{0, frequency}, Isolation::single, 1e-12, outer};
+}
+
+/// Returns the agreements of entries on the imaginary axis, and the number of missing ones.
+std::pair<std::vector<Agreement>, std::size_t> agreements(
+    const std::vector<double>& frequencies, const std::vector<proof::Enclosure>& discs) {
+  std::vector<Complex> list;
+  for (const double frequency : frequencies) list.emplace_back(0, frequency);
+  const auto judged = proof::judge(list, discs, {.top = 3}, 3e-4);  // 1e-4 of the top
+  std::vector<Agreement> found;
+  for (const auto& entry : judged.entries) found.push_back(entry.agreement);
+  return {found, judged.missing.size()};
+}
+
+// Eigenvalues closer to each other than the errors of the list take one entry each, whichever entry
+// is nearer to which. A second entry of one eigenvalue remains one too many.
+TEST(Discs, CloserThanTheToleranceTakeOneEntryEach) {
+  constexpr auto right = Agreement::right, repeated = Agreement::repeated;
+  const std::vector twins{discAbout(1, 5e-9), discAbout(1 + 2e-8, 5e-9), discAbout(2, 0.5)};
+  using Agreements = std::vector<Agreement>;
+  EXPECT_EQ(agreements({1, 1, 2}, twins), std::pair(Agreements(3, right), 0ul));
+  EXPECT_EQ(agreements({1, 2}, twins), std::pair(Agreements(2, right), 1ul));
+  EXPECT_EQ(agreements({1, 2, 1, 1}, twins),
+            std::pair(Agreements{right, right, right, repeated}, 0ul));
+  // Both entries are nearest to the second disc, and only one of them is near the first.
+  const std::vector pair{discAbout(1, 2e-5), discAbout(1 + 6e-5, 2e-5)};
+  for (const auto& list : {std::vector{1 + 5e-5, 1 + 1.5e-4}, {1 + 1.5e-4, 1 + 5e-5}})
+    EXPECT_EQ(agreements(list, pair), std::pair(Agreements(2, right), 0ul));
+  // At low frequencies the errors are relative to the frequency.
+  const std::vector low{discAbout(1e-3, 2e-4), discAbout(1.2e-3, 2e-4)};
+  EXPECT_EQ(agreements({1e-3, 1e-3}, low), std::pair(Agreements{right, repeated}, 1ul));
+}
+
 // One eigenvalue is left out, moved or listed twice; the list is complete and exact otherwise.
 TEST(Discs, FindOneFaultInAList) {
   std::mt19937 generator(4);

@@ -99,8 +99,15 @@ TEST(Lists, OfColumns) {
   expectList("% Hz\r\n" + hertz, Format::automatic, {}, 1e-12, 0);
   expectList(
       "friction,speed,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,name\n"
-      "0.6,1,1,12.5,6283.185307179586,1000,\n0.6,1,2,-3,12566.370614359172,2000,disc (0,2)\n",
+      "0.6,1,1,12.5,6283.185307179586,1000,\n0.6,1,2,-3,12566.370614359172,2000,\"disc (0,2)\"\n",
       Format::automatic, {}, 1e-12, 0);
+  // An empty cell moves none of the others.
+  expectList(
+      "name,growth_rate_1_per_s,angular_frequency_rad_per_s\n"
+      ",12.5,6283.185307179586\n\"disc; (0 2)\",-3,12566.370614359172\n",
+      Format::automatic, {}, 1e-12, 0);
+  expectList("imaginary_hz;real_hz\n1000;1.98943678864869\n2000;-0.47746482927568601\n",
+             Format::automatic, {}, 1e-12, 0);
   // Conjugates only: both halves have the same eigenvalues.
   expectList("12.5 -6283.185307179586\n-3 -12566.370614359172", Format::columns, Unit::radians,
              1e-12, 2);
@@ -114,6 +121,27 @@ TEST(Lists, NumbersAreThoseOfTheFile) {
   EXPECT_EQ(list.numbers, (std::vector<long>{1, 2, 4, 5}));
   EXPECT_EQ(list.conjugates, 2);
   EXPECT_EQ(list.mirrored, 1);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+// The heading of a page, or a note, between two rows does not end the table; other rows of numbers
+// do. A number without a row is counted.
+TEST(Lists, TextBetweenRows) {
+  const std::string second = "       2      -3.0000             12566.        2000.0        4.7";
+  for (const std::string between :
+       {"a note\n", "\n\n1   Abaqus 2022   Date 30-Nov   Page 12\n  MODE NO   REAL PART\n",
+        "       1\n  second run\n"})
+    expectList(replaced(abaqus, second, between + second), Format::abaqus, {}, 5e-5, 0);
+  const std::string nodes = "\n NODE  U1  U2  U3\n  7  1E-3 2E-3 0.0\n  3  1E-3 2E-3 0.0\n";
+  expectList(replaced(abaqus, "     THE ANALYSIS", nodes + "     THE ANALYSIS"), Format::abaqus, {},
+             5e-5, 0);
+  const auto list = eigenlist::parse(replaced(abaqus, "       2      -3.0", "       9      -3.0"),
+                                     Format::abaqus, {});
+  EXPECT_EQ(list.values.size(), 2u);
+  EXPECT_EQ(list.skipped, 7);
 }
 
 std::string refusal(const std::string& text, Format format, std::optional<Unit> unit) {
@@ -146,12 +174,27 @@ TEST(Lists, RefusedByName) {
   expect(abaqus, Format::abaqus, Unit::hertz, "leave -referee_unit out");
   expect(abaqus, Format::nastran, {}, "no eigenvalue was found (Nastran");
   expect(nastran + nastran, Format::automatic, {}, "several tables");
-  const auto replaced = [](std::string text, const std::string& from, const std::string& to) {
-    return text.replace(text.find(from), from.size(), to);
-  };
   expect(replaced(abaqus, "12.500", "*****"), Format::abaqus, {}, "'*****' is not a finite");
   expect(replaced(abaqus, "12566.", "12466."), Format::abaqus, {}, "do not agree");
   expect(replaced(abaqus, "-3.97887E-03", "3.97887E-03"), Format::abaqus, {}, "the signs of");
+  // Rows that are cut, or whose figures have run together.
+  expect(replaced(abaqus, "12566.        2000.0        4.77465E-04", ""), Format::abaqus, {},
+         "line 11: this is not a whole row of mode 2: 2 words");
+  expect(replaced(abaqus, "2000.0        4.77465E-04", "2000.0"), Format::abaqus, {},
+         "line 11: 4 words instead of 5 as in the rows above");
+  expect(replaced(nastran, "-3.000000E+00    1.2", "-3.000000E+00+1.2"), Format::nastran, {},
+         "this is not a whole row of mode 3: 5 words");
+  for (const std::string unit : {"kHz", "MHz", "deg/s", "rpm", "rad/ms", "1/min"})
+    expect("real [" + unit + "]; imag [" + unit + "]\n1;2\n", Format::columns, {},
+           "the header names the unit ");
+  // Units are whole words.
+  expect("rad/s\n1 2\n# Hz from here\n3 4\n", Format::columns, {},
+         "line 3: this comment between rows names another unit");
+  expect("results of Conrad\n1 2\n", Format::columns, {}, "give -referee_unit rad or Hz");
+  expect("imag rad/s, real rad/s, of the brake\n1 2\n", Format::columns, {},
+         "names the imaginary part first");
+  expect("name,growth_rate_1_per_s,angular_frequency_rad_per_s\n1,2\n", Format::columns, {},
+         "line 2: 2 cells instead of 3");
 }
 
 }  // namespace
