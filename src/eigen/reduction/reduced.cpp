@@ -347,38 +347,44 @@ linalg::DenseMatrix ReducedProblem::addResponses(linalg::Block forces) {
   return energy;
 }
 
-linalg::DenseProblem ReducedProblem::projectOwn(const PointProblem& point) const {
-  return basis_.projectOwn(basis_.state(point, {}));
-}
-
-linalg::DenseProblem ReducedProblem::projectOnAll(const PointProblem& point) const {
-  return basis_.projectOnAll(basis_.state(point, {}));
-}
-
-Improvement ReducedProblem::improve(
-    const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located) {
-  Improvement result;
+/// Collective. Returns the states of the points with these pairs, and sets their errors.
+std::vector<PointState> ReducedProblem::measuredStates(const LocatedPairs& located,
+                                                       Improvement& result) {
   std::vector<PointState> states;
   states.reserve(located.size());
-  std::vector<CorrectionRequest> requests;
   for (const auto& [point, pairs] : located) {
     basis_.load(point.set);
     PointState& state = states.emplace_back(basis_.state(point, norms_.nearby(point)));
     auto& band = state.solution.spectrum.band;
     band = pairs;
-    std::vector<const linalg::DensePair*> all;
-    for (auto& pair : band) {  // they may belong to a smaller basis
+    for (auto& pair : band)  // they may belong to a smaller basis
       for (auto* vector : {&pair.q, &pair.left})
         vector->resize(state.set->space.size(basis().size()));
-      all.push_back(&pair);
-    }
     estimator_.estimate(state, basis_.project(state));
     const auto& errors = state.solution.errors;
     result.backwardError.push_back(std::ranges::max(errors, {}, &PairErrors::backward).backward);
     result.roundOff.push_back(std::ranges::max(errors, {}, &PairErrors::roundOff).roundOff);
-    if (std::ranges::all_of(errors, &PairErrors::isRoundOff)) continue;
+  }
+  return states;
+}
+
+Improvement ReducedProblem::errorsOf(const LocatedPairs& located) {
+  Improvement result;
+  measuredStates(located, result);
+  basis_.extend({});
+  return result;
+}
+
+Improvement ReducedProblem::improve(const LocatedPairs& located) {
+  Improvement result;
+  auto states = measuredStates(located, result);
+  std::vector<CorrectionRequest> requests;
+  for (auto& state : states) {
+    if (std::ranges::all_of(state.solution.errors, &PairErrors::isRoundOff)) continue;
+    std::vector<const linalg::DensePair*> all;
+    for (const auto& pair : state.solution.spectrum.band) all.push_back(&pair);
     // Both parts of a residual relative to the whole residual: one part may be round-off.
-    requests.push_back({&state, state.pairs(all, true), std::vector<double>(pairs.size(), 1.0)});
+    requests.push_back({&state, state.pairs(all, true), std::vector<double>(all.size(), 1.0)});
   }
   result.changed = corrector_.correct(requests) > 0;
   basis_.extend({});

@@ -79,19 +79,21 @@ class ReducedProblem {
   }
   /// Collective. Returns, for each of these sets, the free modes in the band. They are corrected
   /// together, in the same way as the complex modes. Their vectors have the entries of all
-  /// unknowns. Their countConfirmed is true if the number of interior modes is confirmed and, at
-  /// some frequency above the band, both bounds by subspace::ModeCount equal the number of modes
-  /// found below this frequency. After this call, whether or not the count is confirmed, these
-  /// modes determine the top of the band at the points of the set. The eigenvalues that solve()
-  /// lists at these points thus do not depend on the other sets of the basis. Only K and M of
-  /// `pencil` are used.
+  /// unknowns. Their countConfirmed is true under two conditions. First, the number of interior
+  /// modes is confirmed. Second, at some frequency above the band, the lower and the upper bound of
+  /// subspace::ModeCount both equal the number of modes found below this frequency. After this
+  /// call, whether or not the count is confirmed, these modes determine the top of the band at the
+  /// points of the set. The eigenvalues that solve() lists at these points thus do not depend on
+  /// the other sets of the basis. Of `pencil`, only the terms of K0 and M0 are used
+  /// (Pencil::associated()).
   std::vector<modes::Modes> freeModes(const std::vector<int>& sets, const pencil::Pencil& pencil);
   /// Collective. Solves all points together and returns the complex modes of each. The dense
   /// problems are distributed over the ranks, and block solves give the corrections. The static
   /// responses are computed at the first point of the first batch. `trial` (T) maps vectors of the
   /// unknowns to nodal displacements.
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
-  /// Returns true if vectors are only added to the basis, as serialise() requires.
+  /// Returns true if the basis only grows, that is, if it is never compressed; serialise() requires
+  /// this.
   bool grows() const { return !settings_.compressed; }
   /// Makes solve() call `action`, which is collective, after each round of corrections.
   void afterEachRound(std::function<void()> action) { afterRound_ = std::move(action); }
@@ -121,13 +123,17 @@ class ReducedProblem {
   }
   /// Collective. Returns the projection with all boundary unknowns, even if the point has only some
   /// of them. Its coordinates are the same for all points.
-  linalg::DenseProblem projectOnAll(const PointProblem& point) const;
+  linalg::DenseProblem projectOnAll(const PointProblem& point) const {
+    return basis_.projectOnAll(basis_.state(point, {}));
+  }
   /// Converts a vector from the coordinates of the points of a set to those of the basis.
   std::vector<Complex> lifted(int set, const std::vector<Complex>& q) const {
     return basis_.set(set).space.lifted(q);
   }
   /// Collective. Returns the projection of the terms that belong only to the point.
-  linalg::DenseProblem projectOwn(const PointProblem& point) const;
+  linalg::DenseProblem projectOwn(const PointProblem& point) const {
+    return basis_.projectOwn(basis_.state(point, {}));
+  }
   /// Not collective. Returns K0 and M0 projected on the vectors that the points of a set use; the
   /// damping matrix is empty.
   linalg::DenseProblem projectAssociated(int set) const {
@@ -152,16 +158,20 @@ class ReducedProblem {
   /// values. It is infinity if the free modes span the whole space. If they do not, it is 0 with
   /// `-flutter_basis modal`, which corrects no eigenvalue.
   const pencil::WatchedBand& band() const { return band_; }
-  /// Collective. Adds to the basis, by one block solve, corrections from the residuals of these
-  /// pairs of several points. Their vectors may belong to an earlier, smaller basis.
-  Improvement improve(
-      const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
+  /// Eigenpairs of several points. Their vectors may belong to an earlier, smaller basis.
+  using LocatedPairs = std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>;
+  /// Collective. Returns the errors of these pairs, and adds corrections from their residuals to
+  /// the basis, by one block solve.
+  Improvement improve(const LocatedPairs& located);
+  /// Collective. Returns the errors of these pairs.
+  Improvement errorsOf(const LocatedPairs& located);
 
  private:
   std::vector<double> frequenciesUpTo(double top) const;
   int withBand(int number);
   std::vector<PointState> statesOf(const std::vector<PointProblem>& batch);
   void correct(std::vector<PointState>& states);
+  std::vector<PointState> measuredStates(const LocatedPairs& located, Improvement& result);
   void solveDense(const std::vector<PointState*>& open);
   std::vector<PointState*> incompleteStates(std::vector<PointState>& states);
   std::vector<PointState*> recheck(std::vector<PointState>& states);

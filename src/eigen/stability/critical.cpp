@@ -61,27 +61,24 @@ class Roots {
   std::vector<std::size_t> open() const {
     std::vector<int> is(roots_.size(), 0);
     for (std::size_t i = 0; i < roots_.size(); ++i) is[i] = mine(i) && !roots_[i].settled() ? 1 : 0;
-    mpi::reduce(family_.comm(), std::span(is), MPI_MAX);
-    auto list = indices(roots_.size());
-    std::erase_if(list, [&](auto i) { return is[i] == 0; });
-    return list;
+    return selected(std::move(is));
   }
 
   /// Improves the basis for these events and locates them again. Returns false if the basis has not
   /// changed.
   bool improve(const std::vector<std::size_t>& open) {
-    std::vector<PairsAtFriction> located;
-    for (const auto i : open) {
-      PairsAtFriction item = mine(i) ? roots_[i].located() : PairsAtFriction{};
-      mpi::broadcast(family_.comm(), item.friction, owner(i));
-      linalg::shareFrom(owner(i), family_.comm(), item.pairs, linalg::Vectors::both);
-      located.push_back(std::move(item));
-    }
-    const reduction::Improvement improvement = family_.improve(located);
-    for (std::size_t k = 0; k < improvement.backwardError.size(); ++k)
-      roots_[open[k]].setErrors(improvement.backwardError[k], improvement.roundOff[k]);
+    const reduction::Improvement improvement = family_.improve(located(open));
+    setErrors(open, improvement);
     locate(open, improvement.changed);
     return improvement.changed;
+  }
+
+  /// Sets the errors of the eigenvalues as they were located last.
+  void measure() {
+    std::vector<int> is(roots_.size(), 0);
+    for (std::size_t i = 0; i < roots_.size(); ++i) is[i] = mine(i) && roots_[i].found() ? 1 : 0;
+    const auto found = selected(std::move(is));
+    setErrors(found, family_.errorsOf(located(found)));
   }
 
   std::vector<Critical> results() const {
@@ -98,6 +95,29 @@ class Roots {
     std::vector<std::size_t> list(count);
     std::iota(list.begin(), list.end(), 0);
     return list;
+  }
+  /// Collective. Returns the indices of the events that their owners have marked.
+  std::vector<std::size_t> selected(std::vector<int> is) const {
+    mpi::reduce(family_.comm(), std::span(is), MPI_MAX);
+    auto list = indices(roots_.size());
+    std::erase_if(list, [&](auto i) { return is[i] == 0; });
+    return list;
+  }
+  /// Collective. Returns the eigenpairs of these events.
+  std::vector<PairsAtFriction> located(const std::vector<std::size_t>& events) const {
+    std::vector<PairsAtFriction> list;
+    for (const auto i : events) {
+      PairsAtFriction item = mine(i) ? roots_[i].located() : PairsAtFriction{};
+      mpi::broadcast(family_.comm(), item.friction, owner(i));
+      linalg::shareFrom(owner(i), family_.comm(), item.pairs, linalg::Vectors::both);
+      list.push_back(std::move(item));
+    }
+    return list;
+  }
+  /// Sets the errors of these events; none are known in the full problem.
+  void setErrors(const std::vector<std::size_t>& events, const reduction::Improvement& errors) {
+    for (std::size_t k = 0; k < errors.backwardError.size(); ++k)
+      roots_[events[k]].setErrors(errors.backwardError[k], errors.roundOff[k]);
   }
   int owner(std::size_t i) const { return i % ranks_; }
   bool mine(std::size_t i) const { return owner(i) == rank_; }
@@ -141,6 +161,7 @@ std::vector<Critical> criticalFrictions(const std::vector<Piece>& path, const Br
                                              open.size(), events[piece].size()));
       if (open.empty() || !roots.improve(open)) break;
     }
+    roots.measure();
     for (auto& found : roots.results()) list.push_back(std::move(found));
   }
   std::stable_sort(list.begin(), list.end(),

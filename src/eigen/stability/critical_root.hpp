@@ -26,6 +26,8 @@ class CriticalRoot {
   void locate(Family& family, bool changed);
   /// Returns true if the friction (at a jump, the eigenvalue) no longer moves, or was not found.
   bool settled() const { return settled_; }
+  /// Returns true if eigenvalues are known at the friction found so far.
+  bool found() const { return !known_.empty() && !std::isnan(friction_) && !lost_; }
   /// Returns the friction with a single pair at it. Its eigenvalue is the mean of the eigenvalues
   /// of the event: where two eigenvalues meet, so do their vectors.
   tracking::PairsAtFriction located() const;

@@ -51,6 +51,8 @@ class Family {
   /// Collective. Corrects the basis by the residuals of all these pairs together, and makes their
   /// frictions known to near().
   virtual reduction::Improvement improve(const std::vector<PairsAtFriction>&) { return {}; }
+  /// Collective. Returns the errors of these pairs.
+  virtual reduction::Improvement errorsOf(const std::vector<PairsAtFriction>&) { return {}; }
 };
 
 }  // namespace squeal::tracking

@@ -119,23 +119,43 @@ std::optional<linalg::DenseProblem> ReducedFamily::near(double friction) {
   return sum;
 }
 
-reduction::Improvement ReducedFamily::improve(const std::vector<PairsAtFriction>& located) {
-  std::vector<std::pair<reduction::PointProblem, std::vector<linalg::DensePair>>> list;
-  std::vector<std::size_t> places;
+ReducedFamily::LocatedProblems ReducedFamily::problemsOf(
+    const std::vector<PairsAtFriction>& located) const {
+  LocatedProblems result;
   for (std::size_t k = 0; k < located.size(); ++k)
     if (auto problem = source_.at(point(located[k].friction))) {
-      list.emplace_back(std::move(*problem), located[k].pairs);
-      places.push_back(k);
+      result.list.emplace_back(std::move(*problem), located[k].pairs);
+      result.places.push_back(k);
     }
-  const reduction::Improvement found = reduced_.improve(list);
-  reduction::Improvement result{found.changed || !source_.local,
-                                std::vector<double>(located.size(), NAN),
-                                std::vector<double>(located.size(), NAN)};
+  return result;
+}
+
+namespace {
+
+/// Returns the errors of the pairs at these places of a longer list, with NaN elsewhere.
+reduction::Improvement placed(const reduction::Improvement& found,
+                              const std::vector<std::size_t>& places, std::size_t count) {
+  reduction::Improvement result{found.changed, std::vector<double>(count, NAN),
+                                std::vector<double>(count, NAN)};
   for (std::size_t i = 0; i < places.size(); ++i) {
     result.backwardError[places[i]] = found.backwardError[i];
     result.roundOff[places[i]] = found.roundOff[i];
   }
+  return result;
+}
+
+}  // namespace
+
+reduction::Improvement ReducedFamily::errorsOf(const std::vector<PairsAtFriction>& located) {
+  const auto [list, places] = problemsOf(located);
+  return placed(reduced_.errorsOf(list), places, located.size());
+}
+
+reduction::Improvement ReducedFamily::improve(const std::vector<PairsAtFriction>& located) {
+  const auto [list, places] = problemsOf(located);
+  auto result = placed(reduced_.improve(list), places, located.size());
   if (source_.local) return result;
+  result.changed = true;
   const double apart =
       closest();  // older nodes must not be near these, which may be near each other
   for (std::size_t place : places)

@@ -46,6 +46,7 @@ class ReducedFamily : public Family {
   void addFrictions(const std::vector<double>& frictions) override;
   void progress(const std::string& text) override { progress_(text); }
   reduction::Improvement improve(const std::vector<PairsAtFriction>& located) override;
+  reduction::Improvement errorsOf(const std::vector<PairsAtFriction>& located) override;
 
  private:
   /// The terms of the point at one friction, projected on the basis at the time of the projection.
@@ -60,6 +61,12 @@ class ReducedFamily : public Family {
   void storeNode(Node node);
   std::vector<const Node*> nodesFor(double friction) const;
   double closest() const;
+  /// The problems of located pairs that exist, and their places in the list.
+  struct LocatedProblems {
+    reduction::ReducedProblem::LocatedPairs list;
+    std::vector<std::size_t> places;
+  };
+  LocatedProblems problemsOf(const std::vector<PairsAtFriction>& located) const;
 
   reduction::ReducedProblem& reduced_;
   MPI_Comm comm_;

@@ -174,13 +174,19 @@ TEST(Critical, HopfOfDampedModes) {
   }
 }
 
-/// Round-off adds `roundOff` to the entries of the problem.
+/// Round-off adds `roundOff` to the entries of the problem. The backward error of an eigenvalue is
+/// a thousandth of its friction.
 struct Rounded : Linear {
   double roundOff;
   Rounded(Linear linear, double amount) : Linear(std::move(linear)), roundOff(amount) {}
   reduction::Improvement improve(const std::vector<tracking::PairsAtFriction>& located) override {
     return {true, std::vector<double>(located.size(), 0.0),
             std::vector<double>(located.size(), roundOff)};
+  }
+  reduction::Improvement errorsOf(const std::vector<tracking::PairsAtFriction>& located) override {
+    reduction::Improvement errors{false, {}, std::vector<double>(located.size(), roundOff)};
+    for (const auto& item : located) errors.backwardError.push_back(1e-3 * item.friction);
+    return errors;
   }
 };
 
@@ -204,6 +210,7 @@ TEST(Critical, GrowthWithinTheRoundOffOfACrossing) {
     ASSERT_EQ(found.size(), 2u);
     for (const auto& one : found) {
       EXPECT_NEAR(one.friction, 0.1 + (one.loss ? -1 : 1) * root / 1e4, 1e-11);
+      EXPECT_EQ(one.backwardError, 1e-3 * one.friction);  // of the eigenvalue found last
       // The vectors are all but parallel to the axis of b.
       EXPECT_NEAR(one.errorEstimate, error, 0.1 * error);
     }
