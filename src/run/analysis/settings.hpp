@@ -34,9 +34,9 @@ struct MeshSettings {
   /// `-flutter_released`: largest number of contact nodes in which active sets that share a basis
   /// may differ; 0 if another setting needs the matrices of each active set.
   int released = 350;
-  std::string whySeparate;  ///< the setting by which active sets do not share a basis
-  bool audit = true;        ///< `-audit`: audit the model before the solution
-  int ownModes = 0;         ///< `-report_component_modes`: number of modes of each body by itself
+  std::string whySeparate = {};  ///< the setting by which active sets do not share a basis
+  bool audit = true;             ///< `-audit`: audit the model before the solution
+  int ownModes = 0;  ///< `-report_component_modes`: number of modes of each body by itself
 };
 
 /// Settings of the judgement of a list of eigenvalues.

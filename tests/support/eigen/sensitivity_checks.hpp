@@ -103,7 +103,9 @@ inline void expectBalance(const analysis::Analysis& analysis, const pencil::Comp
         sums[0], wanted, sums[1]);
     EXPECT_NEAR(sums[0], wanted, 1e-8 * std::abs(s));
     // The work on a neutral mode is round-off, of either sign.
-    if (wanted > 1e-8 * std::abs(s)) EXPECT_GT(sums[0], 0);
+    if (wanted > 1e-8 * std::abs(s)) {
+      EXPECT_GT(sums[0], 0);
+    }
     // All contributions to the growth rate add up to it [M.87], the shares to 1.
     double growth = 0, strain = 0, kinetic = 0;
     for (const auto& one : shape.components)

@@ -114,7 +114,7 @@ TEST(SecondDerivative, OfTwoOscillatorsThatHaveMerged) {
   point.eigenvalues = {{.s = s}, {.s = -std::conj(s)}};
   // (k1 + s²) x1 + f k3 x2 = 0.
   const Complex x2 = -(k1 + s * s) / (f * k3);
-  point.shapes.push_back({.index = 0});
+  point.shapes.emplace_back();
   point.shapes[0].unknowns = {vectorOf(system.k0(), true, {1, x2.real()}),
                               vectorOf(system.k0(), true, {0, x2.imag()})};
   const linalg::DenseProblem projected{denseCopy(system.m0()), {}, [&] {
