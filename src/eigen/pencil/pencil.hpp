@@ -37,7 +37,7 @@ struct Term {
   double coefficient(const sweep::Parameters& at) const;
   /// Returns the derivative of the coefficient with respect to one parameter.
   double slope(const sweep::Parameters& at, double sweep::Parameters::*parameter) const;
-  /// Returns the same term, which shares the matrix.
+  /// Returns a copy of this term that shares its matrix.
   Term share() const;
 };
 

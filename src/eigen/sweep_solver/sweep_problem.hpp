@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
-/// The problem of a sweep: the terms of its points, and the order of their active sets.
+/// The eigenvalue problem of one group of sweep points: the matrix terms at each point, and the
+/// sequence of active sets.
 #include <functional>
 #include <optional>
 #include <vector>
@@ -25,11 +26,12 @@ struct PointRange {
   PetscInt openNodes = 0;           ///< contact nodes that are not active, over all ranks
   /// [boundary unknown, over all ranks] 1 if it is an unknown of these points
   std::vector<unsigned char> has = {};
-  /// Collective. Returns the terms that only these points have; SweepProblem::pencil has those of
-  /// all points. If the function is empty, there are none.
+  /// Collective. Returns the terms that belong only to these points; SweepProblem::pencil has the
+  /// terms that all points share. An empty function means that no such terms exist.
   std::function<std::vector<pencil::Term>()> terms = {};
-  /// Of a set between points: the rows of SweepProblem::releasedFriction() whose nodes slide,
-  /// ascending, the same on all ranks. `terms` contains the products of these rows.
+  /// If the active set occurs only between points: the rows of SweepProblem::releasedFriction()
+  /// that belong to sliding nodes, ascending; the same on all ranks. `terms` contains the products
+  /// of these rows.
   std::vector<PetscInt> slidingRows = {};
 
   bool isPassed() const { return first == last; }  ///< it occurs only between points
@@ -37,28 +39,28 @@ struct PointRange {
 
 /// An interval of friction with one active set; the other parameters are fixed.
 struct PathPiece {
-  std::optional<std::size_t> range;  ///< index in SweepProblem::ranges; none: unknown
+  std::optional<std::size_t> range;  ///< index in SweepProblem::ranges; empty: unknown set
   double from = 0, to = 0;           ///< friction
 };
 
 /// The data of a point between two points of the sweep.
 struct PointBetween {
   std::vector<pencil::Term> terms;  ///< that belong only to this point
-  /// Collective. Returns the forms yᴴ (∂P/∂θ) x of all parameters θ. Borrows the pencil, which
-  /// contains the terms of the point, during the lifetime of the forms. If the function is empty,
-  /// there are no derivatives.
+  /// Collective. Returns the forms yᴴ (∂P/∂θ) x for all parameters θ. Borrows the pencil, which
+  /// contains the terms of the point, for the lifetime of the forms. An empty function means that
+  /// no derivatives are known.
   std::function<sensitivity::Forms(const pencil::Pencil&)> forms;
 };
 
 /// The factors of the friction terms of all ranges.
 struct RangeFactors {
   pencil::FrictionFactors factors;
-  /// [range] rows of the factors whose nodes slide, ascending; the same on all ranks
+  /// [range] rows of the factors that belong to sliding nodes, ascending; the same on all ranks
   std::vector<std::vector<PetscInt>> rowsOf;
 };
 
-/// The problem of consecutive steady points that share a basis and a factorisation, from a mesh or
-/// from matrix files. Handles are borrowed.
+/// The eigenvalue problem of a group: consecutive steady points that share one basis and one
+/// factorisation. The matrices come from a mesh or from files. Handles are borrowed.
 class SweepProblem {
  public:
   virtual ~SweepProblem() = default;
@@ -71,27 +73,28 @@ class SweepProblem {
   std::vector<sweep::Parameters>
       steadyPoints;                      ///< points with a steady state and a damping factor of 1
   std::vector<PointRange> ranges;        ///< one for each active set
-  std::optional<pencil::Pencil> pencil;  ///< the terms of all points; always has a value
+  std::optional<pencil::Pencil> pencil;  ///< the terms that all points share; has a value
   /// [steady point] the path to it from the preceding point, if the two differ only in friction.
-  /// The last piece has the active set of the point. It may be empty if all points have the same
-  /// active set.
+  /// The last piece has the active set of the point. The list `steps` may be empty if all points
+  /// have the same active set.
   std::vector<std::vector<PathPiece>> steps;
-  /// The friction of the last point of the preceding problem, if that point and the first one here
-  /// differ only in friction and this problem does not continue it.
+  /// The friction at the last point of the preceding problem. It is set only if that point and
+  /// steadyPoints[0] differ only in friction and `continues` is false.
   std::optional<double> frictionBefore;
-  std::string whyNoBasis;  ///< why this problem does not continue that one
-  /// [steady point] if a line begins there: why eigenvalues cannot be followed to it from friction
-  /// 0, empty if they can. It may have no entries.
+  std::string whyNoBasis;  ///< with frictionBefore: why this problem does not continue that one
+  /// [steady point] for the first point of a line (of consecutive points that differ only in
+  /// friction): the reason why eigenvalues cannot be tracked to it from friction 0; an empty text
+  /// if they can. The list may be empty.
   std::vector<std::string> whyNotFromZero;
   /// True if steadyPoints[0] is the last point of the preceding problem and differs from the next
-  /// point only in friction. It is solved again, in this basis, so that its eigenvalues can be
-  /// continued, and has no results here.
+  /// point only in friction. It is solved again in this basis so that its eigenvalues can be
+  /// continued; its results are those of the preceding problem.
   bool continues = false;
   bool isContinued = false;  ///< the next problem continues this one
-  int rangesBefore = 0;      ///< number of ranges with results in all preceding problems
+  int rangesBefore = 0;      ///< total number of ranges with results of the preceding problems
 
-  /// Returns the path through `count` consecutive points, from steadyPoints[first] on. The points
-  /// must differ only in friction, and all ranges must be known.
+  /// Returns the path through `count` consecutive points, starting at steadyPoints[first]. The
+  /// points must differ only in friction, and all ranges must be known.
   std::vector<PathPiece> path(std::size_t first, std::size_t count) const;
 
   /// Collective. Returns the terms that belong only to steadyPoints[i].

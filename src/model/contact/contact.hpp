@@ -3,35 +3,36 @@
 /// Contact as a change of variables, with trial functions T and test functions L(f):
 ///   u = T x + p u0 + u_g,   L(f) = T + f Nᵀ S   [3.6].
 /// Here u are the nodal displacements, x the unknowns, and f the coefficient of friction. u0 are
-/// the prescribed displacements; the pressure factor p scales them together with the hydraulic
-/// loads. u_g closes the initial gaps and shortens tightened bolts. N and S are explained below.
+/// the prescribed displacements; the factor p scales both u0 and the hydraulic loads. u_g closes
+/// the initial gaps and shortens the bolts by their preload. N and S are explained below.
 /// src/README.md lists all symbols. Numbers in brackets refer to equations in docs/method.md. Lists
 /// marked [contact node] have one entry per contact node of this rank. Nodal vectors have one entry
-/// per component of each node, and nodal matrices one row and one column per entry of a nodal
-/// vector.
+/// per displacement component of each node, and nodal matrices one row and one column per entry of
+/// a nodal vector.
 ///
-/// Let z be new nodal variables: at each contact node the tangential displacements and the gap g,
-/// at all other nodes the Cartesian components of the displacement. Contact nodes belong to the
-/// slave side; in this comment it is the pad (P), and the other side is the disc (D). A is the
-/// matrix of this change of variables, and n the unit normal from disc to pad:
+/// The vector z has new nodal variables: the tangential displacements and the gap g at contact
+/// nodes, and the Cartesian components of the displacement at all other nodes. Contact nodes belong
+/// to the slave side; in this comment it is the pad (P), and the other side is the disc (D). A is
+/// the matrix of this change of variables, and n the unit normal from disc to pad:
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
-/// A selection B removes from z the supported components, periodic images, components of tied
-/// nodes, closed gaps, and the tangential components of nodes that stick: T = A B. With u_g in u
-/// [3.6], n·u_P − n·u_D is g minus the initial gap [M.54].
+/// The selection matrix B removes the following from z: supported components, periodic images,
+/// components of tied nodes, closed gaps, and the tangential components of sticking nodes. Then T =
+/// A B. Equation [2.13] holds without initial gaps. With u_g in u [3.6], n·u_P − n·u_D equals g
+/// minus the initial gap [M.54].
 ///
 /// On faces with six or eight nodes (tri6, quad8), z contains gap coefficients h instead of the
 /// nodal gaps g = E h [M.12]. Under a uniform pressure, the forces conjugate to h are positive at
 /// all nodes; those conjugate to g are not. gap_basis.hpp defines E.
 ///
-/// Friction enters through two matrices, N and S. Their rows are empty, except those of the gaps of
-/// contact nodes. N extracts the normal forces from the nodal forces r. S maps the unknowns x to
-/// E⁻¹ φ τ·[u], where [u] = u_P − u_D is the jump between pad and disc, τ the sliding direction,
-/// and φ the friction law. E⁻¹ converts values at the nodes to coefficients, as it converts g to h:
+/// Friction enters through two matrices, N and S. Only the rows of the gaps of contact nodes have
+/// entries. N extracts the normal forces from the nodal forces r. S maps the unknowns x to E⁻¹ φ
+/// τ·[u], where [u] = u_P − u_D is the jump between pad and disc, τ the sliding direction, and φ
+/// the friction law. E⁻¹ converts values at the nodes to coefficients, as it converts g to h:
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u],   u = T x.
 /// The test functions add the friction force due to R_N to the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r.
-/// This force is −f φ τ E⁻ᵀ R_N on the pad ([3.4] if E = 1), and the opposite one on the disc. If
-/// interfaces have their own coefficients, S_0 + f S_1 replaces f S [M.56]. S_0 has the rows of
+/// This force is −f φ τ E⁻ᵀ R_N on the pad ([3.4] if E = 1); the disc receives the opposite force.
+/// If interfaces have their own coefficients, S_0 + f S_1 replaces f S [M.56]. S_0 has the rows of
 /// interfaces with a fixed coefficient, multiplied by this coefficient. S_1 has the rows of the
 /// other interfaces, multiplied by their factor on the swept friction f.
 #include <vector>
@@ -58,8 +59,8 @@ struct Slip {
   double slope = 0;   ///< dφ/d|w|, s/m
   interfaces::Coefficient coefficient;  ///< of friction, without φ; zero if the node does not slide
 
-  /// Return the coefficient of friction of the node, with φ, for the value `swept` of the swept
-  /// friction, and its derivative with respect to |w|, s/m.
+  /// friction() returns the coefficient of friction of the node, including φ, for the swept
+  /// coefficient `swept`. frictionSlope() returns its derivative with respect to |w|, s/m.
   double friction(double swept) const { return coefficient.at(swept) * law; }
   double frictionSlope(double swept) const { return coefficient.at(swept) * slope; }
 };
@@ -81,11 +82,11 @@ struct Contact {
   /// constant friction law.
   bool slipIsConstant() const { return !sliding.convected && law.constant(); }
   /// Collective. Returns the sliding velocities, [contact node], at the speed factor v (`speed`).
-  /// Let V be the velocity of the disc or obstacle at v = 1. Due to the displacement u_D of the
-  /// disc, the convective derivative D u_D = (V·∇) u_D is added to V. The relative velocity is
+  /// Let V be the velocity of the disc or obstacle at v = 1. The displacement u_D of the disc adds
+  /// its convective derivative D u_D = (V·∇) u_D to V. The relative velocity is
   ///   w = −v (V + D u_D)   [2.15],
-  /// projected on the tangent plane. Without convective terms, or if u (`displacement`) is null, it
-  /// is w = −v V.
+  /// projected onto the tangent plane. Without convective terms, or if u (`displacement`) is null,
+  /// D u_D is zero.
   std::vector<Slip> slip(double speed, Vec displacement) const;
   /// Collective. Returns the normal components E⁻ᵀ R_N of the forces at the nodes, given the forces
   /// R_N conjugate to the gap coefficients h. Both lists are [contact node], in newtons. The two
@@ -103,8 +104,8 @@ struct Contact {
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
   /// Collective. A soft layer has a layer node above each node of its face (mesh::LayerNode), and
   /// the layer node carries the gap. Returns the nodal forces, with the force on each layer node
-  /// added to that on the node below it. The forces of the layer on these two nodes cancel, so the
-  /// contact force on the face remains.
+  /// added to that on the node below it. In this sum the internal forces of the layer cancel, so
+  /// the result is the contact force on the face.
   OwnedVec movedFromLayers(Vec forces) const;
   /// Returns the exponents of the swept friction that occur in the coefficients of the interfaces:
   /// the list contains 0 if any coefficient is fixed, and 1 if any is swept. The same on all ranks.
@@ -113,16 +114,17 @@ struct Contact {
   bool hasSticking() const;
   /// Returns true if any interface has friction at `swept`. The same on all ranks.
   bool hasFriction(double swept) const;
-  /// Collective. Returns S_a, a = `exponent`, 0 or 1, with one row per entry of a nodal vector and
-  /// one column per unknown x. Only the gaps of contact nodes whose flag in `slides` is set have
-  /// nonempty rows, with S_a x = E⁻¹ c φ τ·[u] and u = T x. If a = 0, c is the fixed coefficient of
-  /// the node; if a = 1, its factor on the swept friction. c = 0 if the node has no such value.
+  /// Collective. Returns S_a, where a = `exponent` is 0 or 1. S_a has one row per entry of a nodal
+  /// vector and one column per unknown x. Only the gaps of contact nodes whose flag in `slides` is
+  /// set have nonempty rows, with S_a x = E⁻¹ c φ τ·[u] and u = T x. If a = 0, c is the fixed
+  /// coefficient of the node; if a = 1, its factor on the swept friction. c = 0 if the node has no
+  /// such value.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const Mask& slides, int exponent) const;
   /// Collective. Returns S_0 + f S_1 at the swept friction f.
   OwnedMat slipRowsAt(const Transformation& transformation, const std::vector<Slip>& slip,
                       const Mask& slides, double swept) const;
-  /// Collective. Returns the matrix Φ with S_0 + f S_1 = Φ J T at the swept friction f. J maps
+  /// Collective. Returns the matrix Φ such that S_0 + f S_1 = Φ J T at the swept friction f. J maps
   /// displacements to jumps (sliding.hpp). Φ has a row and a column per entry of a nodal vector.
   OwnedMat slipOfJumpsAt(const std::vector<Slip>& slip, const Mask& slides, double swept) const;
 

@@ -55,8 +55,8 @@ class Assembly {
   /// row-major. With `scalar`, it is [node][node] and is added for each component; otherwise its
   /// rows and columns are [node][component].
   void add(std::span<const PetscInt> nodes, const std::vector<double>& matrix, bool scalar);
-  /// Not collective. Adds a matrix with entries between the components of each node; it may be
-  /// null.
+  /// Not collective. Adds a matrix that couples only components of the same node, such as springs
+  /// to the ground; null adds nothing.
   void addRows(Mat matrix);
   /// Collective. Returns the sum over all ranks. The object must not be used afterwards.
   OwnedMat finish(SymmetryClass symmetry);

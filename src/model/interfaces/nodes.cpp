@@ -221,7 +221,9 @@ std::string describe(const Interfaces& all, int interface) {
     line += formatted("; %.4g m2 are tied, %" PetscInt_FMT " nodes are not", report.coveredArea,
                       report.untied);
   else if (report.dropped > 0)
-    line += formatted("; %" PetscInt_FMT " nodes at its rim have no condition", report.dropped);
+    line +=
+        formatted("; %" PetscInt_FMT " nodes at the edge of the overlap have no contact condition",
+                  report.dropped);
   if (report.bonded > 0)
     line += formatted("; %" PetscInt_FMT " more are bonded to it by a tie", report.bonded);
   if (options.layerStiffness > 0)

@@ -16,7 +16,7 @@ const std::vector<std::string> roleNames{"sliding", "sticking", "frictionless", 
 
 const TextOption padOption(
     "contact", "contact_<interface>_pad", "",
-    "pad side of an interface (a pair of surfaces in contact): a named surface of the mesh");
+    "pad side of a contact interface (two surfaces that can touch): a named surface of the mesh");
 const TextOption discOption(
     "contact", "contact_<interface>_disc", "",
     "disc side of an interface: a named surface; the two meshes need not match");
@@ -29,7 +29,7 @@ const RealListOption obstacleDisplacementOption(
     "prescribed displacement that presses the rigid obstacle against the pad");
 const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, "sliding",
                               "role of an interface; sliding: friction opposes the sliding "
-                              "velocity; sticking: no sliding unless nodes are released; "
+                              "velocity; sticking: nodes do not slide unless they are released; "
                               "frictionless: no tangential force; tied: bonded");
 const RealOption factorOption(
     "contact", "contact_<interface>_friction_factor", 1.0, "", nonNegative,
@@ -37,13 +37,14 @@ const RealOption factorOption(
 const OptionalRealOption frictionOption(
     "contact", "contact_<interface>_friction", "", nonNegative,
     "on a sliding interface: fixed coefficient of friction, in place of the swept one (0: "
-    "frictionless); on a sticking interface: limit of the ratio of tangential to normal force at a "
-    "node (not given: no limit)");
+    "frictionless); on a sticking interface: largest ratio of tangential to normal force at which "
+    "a "
+    "node sticks; no limit if not given");
 const FlagOption releaseOption(
     "contact", "contact_<interface>_release", false,
-    "release of the nodes of a sticking interface whose ratio of tangential to normal force "
-    "exceeds the limit -contact_<interface>_friction; on: they slide, with this limit as "
-    "coefficient of friction; off: they stick and are reported");
+    "release of nodes of a sticking interface at which the ratio of tangential to normal force "
+    "exceeds -contact_<interface>_friction; on: they slide, with this limit as their coefficient "
+    "of friction; off: they stick and are reported");
 const WordOrRealOption gapOption(
     "contact", "contact_<interface>_gap", 0.0, "m", "measured",
     "initial gap, without load; 'measured': the distance between the two "
@@ -57,17 +58,16 @@ const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m",
                               "size)");
 const FlagOption separationOption(
     "contact", "contact_<interface>_separation", true,
-    "separation of the two sides; off: none, and nodes without friction can carry tension; if a "
-    "node with friction is under tension, the run reports that this point of the sweep has no "
-    "solution");
+    "separation of the two sides; off: they cannot separate, and nodes without friction can carry "
+    "tension; if a node with friction is under tension, the point of the sweep has no solution");
 const RealOption stiffnessOption(
     "contact", "contact_<interface>_stiffness", 0.0, "N/m3", nonNegative,
-    "contact stiffness: pressure per compression of a soft layer on the face; 0 = hard contact");
+    "normal stiffness of a soft layer on the face: contact pressure per unit of compression; 0 = "
+    "hard contact");
 const RealOption tangentialStiffnessOption(
     "contact", "contact_<interface>_stiffness_tangential", 0.0, "N/m3", nonNegative,
-    "tangential stiffness of a soft layer: shear stress per tangential displacement of the layer; "
-    "used on a sticking interface, where it must be > 0 if -contact_<interface>_stiffness is "
-    "> 0");
+    "tangential stiffness of a soft layer: shear stress per unit of tangential displacement; used "
+    "only on sticking interfaces, where it must be > 0 if -contact_<interface>_stiffness is > 0");
 const TextOption tieSlaveOption(
     "tie", "tie_<name>_slave", "",
     "slave surface group of a tie, preferably the one with the finer mesh");
@@ -118,8 +118,8 @@ void rejectIdleOptions(const InterfaceSettings& interface) {
                              " replaces; give one of them");
   if (interface.isTied()) reject(separationOption, "has no effect on a tied interface");
   if (!interface.separates && (interface.gapIsMeasured || interface.gap > 0))
-    throw Error("option " + separationOption.dashed(name) + " off needs " + gapOption.dashed(name) +
-                " zero or negative: it would pull an open gap shut");
+    throw Error("option " + separationOption.dashed(name) + " off requires " +
+                gapOption.dashed(name) + " to be a number <= 0: it would pull an open gap shut");
   if (interface.isTied())
     reject(stiffnessOption, "has no effect on a tied interface; model the layer as a body");
   if (interface.role != Role::sticking || interface.layerStiffness == 0)
@@ -149,7 +149,8 @@ mesh::InterfaceRequest surfacesOf(const std::string& name) {
                                                        obstacleDisplacementOption.given(name);
   if (disc == obstacle)
     throw Error("option " + padOption.dashed(name) + ": give either " + discOption.dashed(name) +
-                " or " + obstacleVelocityOption.dashed(name));
+                " or an obstacle (" + obstacleVelocityOption.dashed(name) + ", " +
+                obstacleDisplacementOption.dashed(name) + "), not both");
   return {name, "interface '" + name + "'", groupOf(padOption, name),
           disc ? groupOf(discOption, name) : mesh::GroupRequest{}};
 }

@@ -14,7 +14,7 @@ namespace squeal::cycles {
 /// A direction in the unknowns (q, v, period, friction), each multiplied by a scale that gives it
 /// the unit √J. The scale of q is the angular frequency; v needs no scale, since its unit is √J.
 /// The scale of the period is the norm of the motion divided by the period; that of the friction is
-/// the norm divided by the friction or by 0.001, whichever is larger.
+/// the norm divided by max(friction, 0.001).
 using Direction = std::vector<double>;
 
 /// Floquet multipliers: the factors by which disturbances of a periodic motion grow in a period.
@@ -28,32 +28,33 @@ struct Multipliers {
 /// The equations of a periodic motion, linearised about an orbit:
 ///   (M − 1) δx + ∂x(T)/∂T δT + ∂x(T)/∂f δf = −(x(T) − x),   ẋᵀ δx = 0,   and δf = 0 or tᵀδ = 0.
 /// The last equation is tᵀδ = 0 if a tangent t of the branch is given, where δ is the Direction of
-/// the changes. x consists of q and v with the scales of Direction, and of the slips in z of the
-/// nodes that stick at the start of the period. M is the monodromy matrix.
+/// the changes. x consists of q and v, scaled as in Direction, and of the slip displacements of the
+/// nodes that stick at the start of the period. These are entries of z, the boundary of the reduced
+/// model (march::ReducedModel). M is the monodromy matrix.
 class Linearisation {
  public:
   /// Collective.
   Linearisation(const Period& period, const Orbit& at);
   const Monodromy& monodromy() const { return monodromy_; }
 
-  /// A change of the unknowns, and the resulting change of all entries of z, the boundary of the
-  /// reduced model (march::ReducedModel), at the end of a period.
+  /// A change of the unknowns, and the resulting change of z at the end of a period.
   struct Step {
     Direction direction;
     std::vector<double> stuck;  ///< changes of the slips of nodes that stick at the start, m
     std::vector<double> z;      ///< m
   };
   /// Not collective. Returns the step that makes the end of a period equal to its start, to first
-  /// order. The step is orthogonal to the tangent; if this is empty, the step leaves the friction
-  /// unchanged.
+  /// order. The step is orthogonal to the tangent; if `tangent` is empty, the step leaves the
+  /// friction unchanged.
   Step step(const InitialState& start, const InitialState& end, const Direction& tangent) const;
-  /// Not collective. Returns the tangent of the branch, with the 2-norm 1, oriented along `near`.
+  /// Not collective. Returns the tangent of the branch, with unit 2-norm, oriented along `near`.
   Direction tangent(const Direction& near) const;
-  /// Returns the change of the friction per unit length, √J, along a direction.
+  /// Returns the change of the friction per unit step along a direction; the length of a step has
+  /// the unit √J.
   double frictionAlong(const Direction& direction) const {
     return direction.back() / frictionScale_;
   }
-  /// Not collective. Returns the eigenvalues of the monodromy.
+  /// Not collective. Returns the eigenvalues of the monodromy matrix.
   Multipliers multipliers() const;
   /// Returns the orbit plus a factor times the direction.
   Orbit along(const Orbit& orbit, const Direction& direction, double factor) const;
@@ -85,23 +86,23 @@ struct ShootingResult {
   Orbit orbit;
   bool converged = false;
   int derivatives = 0;  ///< number of linearisations
-  double change = 0;    ///< relative change over a period
+  double change = 0;    ///< relative difference of end and start, change() of passage.hpp
   Measures measures;
   std::shared_ptr<const Linearisation> linearisation;  ///< about the orbit; null unless converged
 };
 
 /// The state of Newton's method.
 struct Iteration {
-  double change = 0;    ///< relative change over a period
+  double change = 0;    ///< relative difference of end and start, change() of passage.hpp
   int derivatives = 0;  ///< number of linearisations so far
 };
 /// Called on all ranks before each linearisation and after each step.
 using Progress = std::function<void(const Iteration&)>;
 
 struct ShootingRequest {
-  double tolerance = 0;    ///< tolerance of change()
+  double tolerance = 0;    ///< largest change() of a periodic motion
   Progress progress = {};  ///< empty: none
-  /// If given, the friction is an unknown too, and the search is orthogonal to this tangent.
+  /// If given, the friction is an unknown too, and the steps are orthogonal to this tangent.
   Direction tangent = {};
   /// A linearisation about a nearby orbit, for reuse; null: none.
   std::shared_ptr<const Linearisation> linearisation = nullptr;

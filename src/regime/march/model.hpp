@@ -6,10 +6,10 @@
 ///   q̈ + C q̇ + Λ q + K_zqᵀ z + C_zqᵀ ż = jᵀ R*,
 ///   M_z z̈ + C_z ż + K_z z + K_zq q + C_zq q̇ = R*,
 /// where u_s is the steady displacement, V are modes, Ψ are static responses, and R = R_s + R* are
-/// the contact forces. The jump y contains gaps and slips. It is the sum of j q, the part that the
-/// modes represent, and z, the part that they do not. The unknowns z are called the boundary. Only
-/// the scheme of Moreau and Jean uses M_z. Without M_z the boundary is massless, and a contact that
-/// closes causes no impulse.
+/// the contact forces. The jump y contains the gap and the slips of each node relative to steady
+/// sliding. It is the sum of j q, the part that the modes represent, and z, the part that they do
+/// not. The unknowns z are called the boundary. Only the scheme of Moreau and Jean uses M_z.
+/// Without M_z the boundary is massless, and a contact that closes causes no impulse.
 #include <array>
 #include <functional>
 #include <vector>
@@ -80,8 +80,8 @@ struct LinearMode {
 };
 
 /// Not collective. Returns an eigenpair of the model linearised about steady sliding, found by
-/// Newton's method starting from s. In the linearised model, closed nodes stay closed, and sliding
-/// ones obey
+/// Newton's method starting from s. In the linearised model, with the steady relative velocity w
+/// and the steady normal force R_N of a node, closed nodes stay closed, and sliding ones obey
 ///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7].
 /// Sticking nodes do not slip, and open nodes are free. Throws Error if the method does not
 /// converge. Throws Interrupted, only on this rank, once stopRequested() is true.

@@ -39,12 +39,11 @@ struct RunCost {
 /// The size of a group of points that share a basis. Independent of the number of ranks.
 struct GroupSize {
   double unknowns = 0;
-  double modes = 0;   ///< free modes
-  double points = 0;  ///< of the sweep
-  double activeSets =
-      0;  ///< number of times that the active set changes from point to point, plus 1
-  double differing = 0;  ///< number of contact nodes in which these sets differ
-  double spectra = 0;    ///< number of spectra between the points that tracking takes
+  double modes = 0;       ///< free modes
+  double points = 0;      ///< of the sweep
+  double activeSets = 0;  ///< number of times that the active set changes between points, plus 1
+  double differing = 0;   ///< number of contact nodes in which these sets differ
+  double spectra = 0;     ///< number of spectra between the points that tracking takes
   /// Operations of a factorisation and entries of the factor; 0: those of a solid.
   double factorFlops = 0, factorEntries = 0;
 };

@@ -152,8 +152,8 @@ void printCost(MPI_Comm comm, const Settings& settings, Mat k0, const RunSize& s
     const double changes = changesOnStep(size.contactUnknowns);
     const std::string whenever =
         changes < 1.5
-            ? std::string(" if a contact node opens or closes from point to point")
-            : formatted(" if about %.0f contact nodes open or close from point to point", changes);
+            ? std::string(" if a contact node opens or closes between points")
+            : formatted(" if about %.0f contact nodes open or close between points", changes);
     const RunCost different = runCost(size, true, speed);
     if (different.bytes > noticeable * same.bytes)
       memory += ", " + gigabytes(different.bytes) + whenever;

@@ -27,8 +27,8 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
 /// The problem of one group of points.
 class MeshSweep : public sweep_solver::SweepProblem {
  public:
-  /// Collective. Borrows all arguments during the life of the object. `segmentsBefore` is the
-  /// number of segments of the preceding groups.
+  /// Collective. Borrows all arguments for the lifetime of the object. `segmentsBefore` is the
+  /// total number of segments of the preceding groups (rangesBefore).
   MeshSweep(const SlidingBrake& brake, const PointGroup& group, int segmentsBefore,
             CurrentSystem& current, terms::Influences& influences,
             const energies::Components& components);
@@ -44,8 +44,8 @@ class MeshSweep : public sweep_solver::SweepProblem {
                pencil::ComplexModes& point) override;
   std::vector<pencil::CriticalMode> describe(const std::vector<pencil::ComplexMotion>& motions,
                                              const modes::Modes& modes) const override;
-  /// Collective. Adds to the modes of a segment the shares of the components of the model, and to
-  /// its complex modes the participation of the free modes.
+  /// Collective. Adds the energy shares of the parts of the model to all modes of a segment, and
+  /// the participation of the free modes to its complex modes.
   void addComponents(sweep_solver::ModalSegment& segment) const;
 
  private:
@@ -92,9 +92,9 @@ class MeshSweep : public sweep_solver::SweepProblem {
   };
 
   std::vector<SetOnPath> sets_;        // [range]
-  std::vector<contact::Mask> slides_;  // nodes that slide, of consecutive ranges
-  std::vector<SlidingTerms> sliding_;  // those used last
-  contact::ActiveSet anywhere_;        // a node is closed if it is in any of the sets
+  std::vector<contact::Mask> slides_;  // nodes that slide; a range that repeats the mask adds none
+  std::vector<SlidingTerms> sliding_;  // of the masks used last
+  contact::ActiveSet anywhere_;        // union: a node is closed if any of the sets closes it
   OwnedMat prestress_;                 // K_σ of the first point, which is part of K0
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;
   const contact::CoupledSystem* interior_ = nullptr;  // closed: the nodes closed in any set

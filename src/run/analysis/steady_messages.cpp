@@ -21,10 +21,10 @@ void reportSticking(const steady::Solution& solution, MPI_Comm comm) {
     const std::string head =
         sweep::parameterText(solution.at) + ": interface '" + resultant.interface + "': ";
     if (resultant.released + resultant.unheld > 0)
-      printLine(comm, head + formatted("after %d revisions of the active set, nodes that slide: "
-                                       "%" PetscInt_FMT
-                                       "; nodes without a consistent state (held, they separate; "
-                                       "free, they close), which are left free: %" PetscInt_FMT,
+      printLine(comm, head + formatted("after %d revisions of the active set, %" PetscInt_FMT
+                                       " nodes slide, and %" PetscInt_FMT
+                                       " without a consistent state (they open if held and close "
+                                       "if free) are left free",
                                        solution.revisions, resultant.released, resultant.unheld));
     if (resultant.returned > 0)
       printWarning(comm, head + formatted("%" PetscInt_FMT

@@ -12,12 +12,13 @@ namespace squeal::impedance {
 
 /// The free unknowns and the friction of a condensed problem.
 struct ContactConditions {
-  /// [entry of w] 1 if F = 0, as for open gaps and for nodes that are not held; 0 if w = 0
+  /// [entry of w] 1: free, F = 0 (gap of an open node, tangential displacement of a node that is
+  /// not held); 0: held, w = 0. impedance.hpp defines w, F and t.
   std::vector<unsigned char> free;
   std::vector<double> coefficient;  ///< [contact node] c
-  /// S_wᵀ, [entry of w]×[contact node]: its product with t is the friction that acts on sliding
-  /// nodes of sticking interfaces (steady::Hold::released) in their own rows. Borrowed; null if
-  /// there is none.
+  /// S_wᵀ, [entry of w]×[contact node]. S_wᵀ t is the friction that acts directly in the rows of w,
+  /// at nodes of sticking interfaces that slide (steady::Hold::released). Borrowed; null without
+  /// such nodes.
   Mat direct = nullptr;
 };
 
@@ -66,11 +67,11 @@ class ContactSolver {
   /// ignored.
   ContactSolution withGaps(const std::vector<double>& gaps, ContactCase one);
   /// Collective. Returns for each case its solution, in column 0, and its responses to changes of
-  /// the entries `changed` of w, numbered over all ranks. The cases must differ in their
-  /// coefficients and given forces only. Column k + 1, without the given forces, is the response to
-  /// w = 1 of changed[k] if it is held, and to a unit force on it if it is free. F excludes this
-  /// unit force, so it is −1 in the row of such an unknown. The sum of the solution and of
-  /// multiples of the responses solves the case with other F or w of the changed unknowns.
+  /// the entries `changed` of w, numbered over all ranks. The cases may differ only in their
+  /// coefficients and given forces. Column k + 1, without the given forces, is the response to w =
+  /// 1 of changed[k] if it is held, and to a unit force on it if it is free. F does not include
+  /// this unit force, so F = −1 in the row of changed[k] if it is free. The sum of the solution and
+  /// of multiples of the responses solves the case with other F or w of the changed unknowns.
   /// `frictionUnits`, [changed], is the ContactCase::frictionUnit of the responses.
   std::vector<ContactResponses> respond(std::span<const ContactCase> cases,
                                         const std::vector<PetscInt>& changed,

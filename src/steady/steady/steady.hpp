@@ -5,8 +5,9 @@
 /// where g is the gap, R_N and R_T the normal and the friction force, f the coefficient of
 /// friction, φ the friction law and τ the sliding direction. On tri6 and quad8 faces, g stands for
 /// the gap coefficient h (ContactState). src/README.md explains the other symbols. Numbers in
-/// brackets refer to equations in docs/method.md. Nodal vectors have one entry per component of
-/// each node. [contact node] marks a list with one entry per contact node of this rank.
+/// brackets refer to equations in docs/method.md. Nodal vectors have one entry per displacement
+/// component of each node. [contact node] marks a list with one entry per contact node of this
+/// rank.
 #include <string>
 #include <vector>
 
@@ -42,13 +43,14 @@ struct Resultant {
   Point worst{};  ///< position of the node with the largest ratio, m
   std::optional<double>
       stickingLimit;       ///< coefficient of friction of a sticking interface, if given
-  PetscInt overLimit = 0;  ///< sticking nodes above the limit of the interface
+  PetscInt overLimit = 0;  ///< sticking nodes with |R_T| / R_N above the limit of the interface
   PetscInt pulled = 0;     ///< those of `overLimit` under tension; no coefficient suffices for them
   PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
-  PetscInt returned = 0;   ///< those of `released` that slide along their friction
-  PetscInt unheld = 0;     ///< closed nodes of a sticking interface without tangential force
+  PetscInt returned = 0;   ///< those of `released` that slide in the direction of their
+                           ///< friction force, which is inconsistent
+  PetscInt unheld = 0;     ///< closed free nodes of a sticking interface (Hold::open)
   /// Magnitude of the sum of the moments of the contact forces on both sides, N·m. It is nonzero if
-  /// surfaces whose meshes do not match are a distance apart.
+  /// the meshes do not match and the two surfaces do not coincide.
   double momentDefect = 0;
 };
 
@@ -57,8 +59,8 @@ struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< why SNES, PETSc's nonlinear solver, stopped, or why no solution exists
-  /// Set only if no solution was found at this point. The program then followed the solutions from
-  /// another point towards this one; these are the parameters at which they end.
+  /// Set only if no solution was found at this point. The program then followed the solution from
+  /// another point towards this one; beyond these parameters it does not exist.
   std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< relative tolerance of SNES
   int iterations = 0;    ///< Newton steps of SNES; 0 if SNES is not called
@@ -93,24 +95,25 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
 /// The matrix T maps the unknowns x to displacements, and N extracts normal forces from nodal
-/// forces. Here S includes the coefficients of friction; contact.hpp calls this matrix f S.
-/// The factors v and p scale speed and pressure. Of the loads, b_p are scaled by p, b_0 are
-/// constant, and b_c are the centrifugal forces. u_g closes the initial gaps [M.54] and shortens
-/// tightened bolts.
+/// forces. Here S includes the coefficients of friction: it is the matrix S_0 + f S_1 of
+/// contact.hpp, which is f S if all interfaces have the swept coefficient. The factors v and p
+/// scale speed and pressure. The loads b have three parts: b_p, which scales with p; b_0, which is
+/// constant; and the centrifugal forces b_c, which scale with v². The displacement u_g closes the
+/// initial gaps [M.54] and shortens the bolts by their preload.
 ///
-/// Convective terms arise because moving matter carries its displacement along. Without them
-/// (-motion_convective off, approximation A of Moirot and Nguyen) the problem is linear except for
-/// the inequalities. With them, S depends on u through the relative velocity w = −v (V + D u_D),
-/// where V is the velocity of the disc or obstacle at v = 1, and D u_D = (V·∇) u_D the convective
-/// derivative of its displacement.
+/// Convective terms arise because the material moves through the mesh, which is fixed in space, and
+/// carries its displacement with it. Without them (-motion_convective off, approximation A of
+/// Moirot and Nguyen) the problem is linear except for the inequalities. With them, S depends on u
+/// through the relative velocity w = −v (V + D u_D), where V is the velocity of the disc or
+/// obstacle at v = 1, and D u_D = (V·∇) u_D the convective derivative of its displacement.
 ///
-/// The *hold* of a node of a sticking interface is one of three. A held node sticks. A node without
-/// a hold (Hold::open) has tangential unknowns and no tangential force. A released node has
-/// tangential unknowns and slides; its row in S has the sticking limit of the interface as
+/// A node of a sticking interface is in one of three states, its *hold*. A held node sticks. A free
+/// node (Hold::open) has tangential unknowns and no tangential force. A released node has
+/// tangential unknowns and slides; its row in S uses the sticking limit of the interface as the
 /// coefficient of friction.
 class Problem {
  public:
-  /// Collective. Borrows mesh, bodies and contact during the lifetime of the object. All nodes of
+  /// Collective. Borrows mesh, bodies and contact for the lifetime of the object. All nodes of
   /// sticking interfaces are held.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
@@ -143,9 +146,9 @@ class Problem {
   /// holds would leave a body under-constrained, if the limit of revisions is reached, or if a node
   /// with friction has a tensile normal force and its interface cannot separate.
   std::optional<Sticking> nextHolds(Solution& solution) const;
-  /// Collective. Computes the other members of a solution from its unknowns x, and rejects it if it
-  /// fails a check. The caller has set `at`, `converged`, `reason`, `tolerance`, `iterations` and
-  /// `residual`. `left` is the 2-norm, in newtons, of the natural residual at x
+  /// Collective. Computes the other members of `solution` from the unknowns x, and rejects the
+  /// solution if a check fails. The caller has set `at`, `converged`, `reason`, `tolerance`,
+  /// `iterations` and `residual`. `left` is the 2-norm, in newtons, of the natural residual at x
   /// (naturalResidual()).
   void conclude(Vec x, double left, Solution& solution) const;
   /// Collective. Returns the loads b at this point, a nodal vector in newtons.
@@ -154,7 +157,8 @@ class Problem {
   OwnedVec springForces(double speed, Vec displacement) const;
   /// Collective. Returns R_N = N r of nodal forces r, [contact node].
   std::vector<double> normalForces(Vec forces) const;
-  /// Collective. Returns the numerator of [M.16], an estimate of the round-off of F, in newtons:
+  /// Collective. Returns the numerator of [M.16], an estimate of the round-off error in F, in
+  /// newtons:
   ///   ε (‖diag(K) u‖ + ‖b‖).
   /// `loads` b may be null.
   double rounding(Vec displacement, Vec loads) const;
@@ -165,7 +169,7 @@ class Problem {
   /// released nodes of sticking interfaces.
   const contact::Transformation& transformation() const { return transformation_; }
   const elasticity::Bodies& bodies() const { return bodies_; }
-  /// Returns Tᵀ K T and N K T with T of transformation(). The first call computes them and is
+  /// Returns Tᵀ K T and N K T, where T is transformation(). The first call computes them and is
   /// collective.
   const contact::Projection& stiffness() const;
 

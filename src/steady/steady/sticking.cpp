@@ -106,8 +106,8 @@ std::vector<double> excesses(const contact::Contact& contact, const Solution& so
   return found;
 }
 
-/// Collective. Returns 1 for the released nodes that are closed and slide along their friction,
-/// [contact node].
+/// Collective. Returns 1 for the released nodes that are closed and slide in the direction of their
+/// friction force, [contact node].
 contact::Mask slidingBack(const contact::Contact& contact, const Solution& solution) {
   const auto jumps = tangentialJumps(contact, solution.displacement);
   const double nothing = slipRounding * largestLength(contact.mesh->comm, jumps);

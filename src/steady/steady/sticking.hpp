@@ -61,7 +61,8 @@ bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std
 /// released.
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution);
 
-/// Collective. Counts the released nodes that slide along their friction, Resultant::returned.
+/// Collective. Counts the released nodes that slide in the direction of their friction
+/// force, Resultant::returned.
 void countReturned(const contact::Contact& contact, Solution& solution);
 
 /// The largest number of times that a node is held again after it has slid back.
