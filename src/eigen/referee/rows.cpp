@@ -11,8 +11,8 @@ namespace {
 
 bool isSingle(const proof::Enclosure& disc) { return disc.isolation == proof::Isolation::single; }
 
-/// Returns the disc of a neutral eigenvalue about the nearest imaginary point, which is no farther
-/// away; other discs as they are.
+/// Returns the disc of a neutral eigenvalue about the nearest imaginary point, which is as near
+/// or nearer; other discs as they are.
 proof::Enclosure placed(proof::Enclosure disc) {
   if (disc.neutral) disc.s = {0, disc.s.imag()};
   return disc;
