@@ -40,9 +40,10 @@ void recordCount(const proof::Region& region, const proof::CountProof& count,
   found.discs = static_cast<int>(count.discs);
 }
 
-void keepBetter(pencil::Completeness first, pencil::Completeness& found) {
-  const bool hasFailed = found.top == 0;
-  if (hasFailed || (first.proved && !found.proved)) found = std::move(first);
+bool keepBetter(pencil::Completeness first, pencil::Completeness& found) {
+  const bool isWorse = found.top == 0 || (first.proved && !found.proved);
+  if (isWorse) found = std::move(first);
+  return isWorse;
 }
 
 void judgeList(const std::vector<proof::Enclosure>& discs, const proof::Region& region,

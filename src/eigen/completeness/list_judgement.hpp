@@ -30,8 +30,9 @@ void recordCount(const proof::Region& region, const proof::CountProof& count,
                  pencil::Completeness& found);
 
 /// Not collective. Replaces what a second proof of a point has found by what the first one had, if
-/// the second one has failed or no longer proves the count. Discs of both remain valid.
-void keepBetter(pencil::Completeness first, pencil::Completeness& found);
+/// the second one has failed or no longer proves the count; returns true if so. Discs of both
+/// remain valid.
+bool keepBetter(pencil::Completeness first, pencil::Completeness& found);
 
 /// Not collective. Sets Eigenvalue::radius of the listed eigenvalues, and records in
 /// ComplexModes::completeness which eigenvalues are missing, spurious or undecided.

@@ -145,9 +145,8 @@ SetBounds setBounds(const SetMatrices& set, double reach) {
   for (double& entry : heavy.entries()) entry *= std::sqrt(1 + 1 / t) * square;
   bounds.forces = timesTransposed(stiff);
   linalg::addScaled(bounds.forces, 1, timesTransposed(heavy));
-  bounds.forces = rootOf(std::move(bounds.forces), "a sum of squares is negative",
-                         bounds.normalOnC * bounds.normalOnC)
-                      .factor;
+  bounds.forces =
+      rootOf(std::move(bounds.forces), "a sum of squares is negative", (a + b) * (a + b)).factor;
   return bounds;
 }
 

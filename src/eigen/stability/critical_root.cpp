@@ -83,7 +83,7 @@ Critical CriticalRoot::result() const {
     result.errorEstimate = 0.5 * (event_.high - event_.low);
     result.angularFrequency = 0.5 * (mean(event_.below) + mean(event_.above)).imag();
   } else {
-    result.converged = moved_ <= tolerance_ * friction_ &&
+    result.converged = !lost_ && moved_ <= tolerance_ * friction_ &&
                        rootTolerance() <= std::max(tolerance_ * friction_, 1e-12);
     result.errorEstimate = moved_ + rootTolerance() + roundOffError();
     result.angularFrequency = mean(nearest(friction_).pairs()).imag();

@@ -185,7 +185,9 @@ void proveAgain(const SweepProblem& problem, const reduction::ReducedProblem& re
   for (const auto* point : points) first.push_back(*point->list->completeness);
   proveTogether(problem, reduced, points, request, 1);
   for (std::size_t i = 0; i < points.size(); ++i)
-    completeness::keepBetter(std::move(first[i]), *points[i]->list->completeness);
+    if (completeness::keepBetter(std::move(first[i]), *points[i]->list->completeness))
+      printLine(reduced.basis().comm(),
+                "proof: the first result remains at " + sweep::parameterText(points[i]->list->at));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 ///   u = T x + p u0 + u_g,   L(f) = T + f Nᵀ S   [3.6].
 /// Here u are the nodal displacements, x the unknowns, and f the coefficient of friction. u0 are
 /// the prescribed displacements; the factor p scales both u0 and the hydraulic loads. u_g closes
-/// the initial gaps and shortens the bolts by their preload. N and S are explained below.
+/// the initial gaps and imposes the shortening of the bolts. N and S are explained below.
 /// src/README.md lists all symbols. Numbers in brackets refer to equations in docs/method.md. Lists
 /// marked [contact node] have one entry per contact node of this rank. Nodal vectors have one entry
 /// per displacement component of each node, and nodal matrices one row and one column per entry of

@@ -37,9 +37,8 @@ const RealOption factorOption(
 const OptionalRealOption frictionOption(
     "contact", "contact_<interface>_friction", "", nonNegative,
     "on a sliding interface: fixed coefficient of friction, in place of the swept one (0: "
-    "frictionless); on a sticking interface: largest ratio of tangential to normal force at which "
-    "a "
-    "node sticks; no limit if not given");
+    "frictionless); on a sticking interface: limit of the ratio of tangential to normal force at a "
+    "node; no limit if not given");
 const FlagOption releaseOption(
     "contact", "contact_<interface>_release", false,
     "release of nodes of a sticking interface at which the ratio of tangential to normal force "

@@ -13,12 +13,35 @@ namespace {
 
 bool isSeparator(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == ';'; }
 
-/// Returns the parts of a text between these characters, without blanks at their ends. Double
-/// quotes enclose a part that contains the characters itself.
-std::vector<std::string> cellsOf(std::string_view text, char delimiter) {
+Line lineOf(std::string_view text, long number) {
+  Line line{.number = number, .title = {}, .words = {}, .text = std::string(text)};
+  std::string word;
+  for (const char c : text) {
+    if (isSeparator(c)) {
+      if (!word.empty()) line.words.push_back(std::move(word));
+      word.clear();
+      continue;
+    }
+    word += c;
+    line.title += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  }
+  if (!word.empty()) line.words.push_back(std::move(word));
+  return line;
+}
+
+}  // namespace
+
+char delimiterOf(const Line& line) {
+  for (const char delimiter : {';', ',', '\t'})
+    if (line.text.find(delimiter) != std::string::npos) return delimiter;
+  return ' ';
+}
+
+std::vector<std::string> cellsOf(const Line& line, char delimiter) {
+  if (delimiter == ' ') return line.words;
   std::vector<std::string> cells(1);
   bool isQuoted = false;
-  for (const char c : text) {
+  for (const char c : line.text) {
     if (c == '"') isQuoted = !isQuoted;
     if (c == delimiter && !isQuoted)
       cells.emplace_back();
@@ -33,27 +56,6 @@ std::vector<std::string> cellsOf(std::string_view text, char delimiter) {
   }
   return cells;
 }
-
-Line lineOf(std::string_view text, long number) {
-  Line line{.number = number, .title = {}, .words = {}, .cells = {}};
-  std::string word;
-  for (const char c : text) {
-    if (isSeparator(c)) {
-      if (!word.empty()) line.words.push_back(std::move(word));
-      word.clear();
-      continue;
-    }
-    word += c;
-    line.title += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  }
-  if (!word.empty()) line.words.push_back(std::move(word));
-  line.cells = line.words;
-  for (const char delimiter : {',', ';'})
-    if (auto cells = cellsOf(text, delimiter); cells.size() > 1) line.cells = std::move(cells);
-  return line;
-}
-
-}  // namespace
 
 std::vector<Line> linesOf(std::string_view text) {
   std::vector<Line> lines;

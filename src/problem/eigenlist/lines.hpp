@@ -12,14 +12,19 @@ struct Line {
   long number = 0;                 ///< counted from 1
   std::string title;               ///< the line without blanks, in capitals
   std::vector<std::string> words;  ///< separated by blanks, tabs, commas and semicolons
-  /// Separated by semicolons, or by commas if the line has none, without blanks at their ends; they
-  /// may be empty, and double quotes enclose one that contains a delimiter. The words, if the line
-  /// has neither.
-  std::vector<std::string> cells;
+  std::string text;                ///< the line itself
 
   /// Returns true if the title contains `text`, which must be in capitals and without blanks.
   bool has(std::string_view text) const { return title.find(text) != std::string::npos; }
 };
+
+/// Returns the delimiter of a line: the first of semicolon, comma and tab that it contains, or a
+/// blank.
+char delimiterOf(const Line& line);
+/// Returns the cells of a line between these delimiters, without blanks at their ends. A cell may
+/// be empty, and double quotes enclose one that contains the delimiter. Between blanks, the cells
+/// are the words.
+std::vector<std::string> cellsOf(const Line& line, char delimiter);
 
 /// Returns all lines that are not blank.
 std::vector<Line> linesOf(std::string_view text);

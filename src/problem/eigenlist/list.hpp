@@ -21,7 +21,7 @@ struct List {
   std::string layout;   ///< program, units and signs, for messages
   long conjugates = 0;  ///< dropped entries, whose conjugates are listed too
   long mirrored = 0;    ///< entries with Im s < 0, replaced by their conjugates
-  long skipped = 0;     ///< modes without a row, between others, in the table of a program
+  long skipped = 0;     ///< modes below the last one that have no row in the table of a program
 };
 
 /// Returns the list in this text. Throws Error, without the name of the file, if the text contains

@@ -140,11 +140,24 @@ std::string layoutOf(Format format) {
 
 namespace {
 
-/// Returns true if the line begins as the row of a mode does, with its number and a figure or with
-/// its number only.
-bool beginsAsRow(const Line& line) {
-  return line.words.size() == 1 ||
+/// Returns true if a number, or what may be one, follows the number of the mode.
+bool hasFigures(const Line& line) {
+  return line.words.size() > 1 &&
          std::string_view("+-.0123456789").find(line.words[1][0]) != std::string_view::npos;
+}
+
+/// Returns true if the figures of a row agree with each other, which those of other tables do not.
+bool isConsistent(const Line& line, Format format) {
+  try {
+    const Complex s = rowOf(line, format);
+    const double size = std::abs(s.imag());
+    if (size == 0) return false;
+    if (format != Format::abaqus || line.words.size() > 4) return true;
+    const double ratio = -2 * s.real() / size;
+    return std::abs(finiteNumber(line, 3) - ratio) <= 1e-4 + 0.01 * std::abs(ratio);
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 /// Reads the tables of a format.
@@ -159,6 +172,7 @@ class Tables {
 
  private:
   enum class Place { outside, head, rows, between };  // between: after text that follows rows
+  void takeRow(const Line& line, long mode);
   void add(const Line& line, long mode);
 
   Format format_;
@@ -174,23 +188,27 @@ void Tables::take(const Line& line) {
     return;
   }
   const std::size_t place = format_ == Format::calculix && line.words.size() == 5 ? 1 : 0;
-  const auto mode = count(line.words[place]);
-  if (!mode) {
-    if (place_ == Place::rows) place_ = Place::between;
+  if (const auto mode = count(line.words[place]))
+    takeRow(line, *mode);
+  else if (place_ == Place::rows)
+    place_ = Place::between;
+}
+
+/// Takes a line that begins with a mode, or another number.
+void Tables::takeRow(const Line& line, long mode) {
+  const bool isWhole = isRow(line, format_);
+  if (place_ == Place::between) {
+    if (!hasFigures(line)) return;  // such as the number of a page
+    if (isWhole && line.words.size() == words_ && mode > last_ && isConsistent(line, format_))
+      add(line, mode);
+    else
+      place_ = Place::outside;  // another table
     return;
   }
-  const bool isNext = *mode == last_ + 1;
-  if (!isRow(line, format_)) {
-    if (isNext && last_ > 0 && beginsAsRow(line))
-      throw Error(formatted("line %ld: this is not a whole row of mode %ld: %zu words", line.number,
-                            *mode, line.words.size()));
-    return;
-  }
-  // Other tables follow, with other numbers; a row of this one continues it.
-  if (place_ == Place::between && !isNext)
-    place_ = Place::outside;
-  else
-    add(line, *mode);
+  if (isWhole) return add(line, mode);
+  if (mode == last_ + 1 && (hasFigures(line) || (last_ > 0 && line.words.size() == 1)))
+    throw Error(formatted("line %ld: this is not a whole row of mode %ld: %zu words", line.number,
+                          mode, line.words.size()));
 }
 
 void Tables::add(const Line& line, long mode) {
@@ -202,7 +220,7 @@ void Tables::add(const Line& line, long mode) {
   if (format_ != Format::ansys && words_ > 0 && line.words.size() != words_)
     throw Error(formatted("line %ld: %zu words instead of %zu as in the rows above", line.number,
                           line.words.size(), words_));
-  list.skipped += last_ > 0 ? mode - last_ - 1 : 0;
+  list.skipped += mode - last_ - 1;
   place_ = Place::rows;
   last_ = mode;
   words_ = line.words.size();

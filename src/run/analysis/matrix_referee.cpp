@@ -50,8 +50,7 @@ eigenlist::List readList(MPI_Comm comm, const Settings& settings, const sweep::S
                             eigenlist::listOption().c_str(), s.real(), s.imag(), largest));
   std::string halves;
   if (list.conjugates > 0) halves = formatted("; %ld conjugates dropped", list.conjugates);
-  if (list.skipped > 0)
-    halves += formatted("; %ld mode numbers between them without a row", list.skipped);
+  if (list.skipped > 0) halves += formatted("; %ld mode numbers without a row", list.skipped);
   if (list.mirrored > 0)
     halves += formatted("; %ld with Im s < 0 taken as their conjugates", list.mirrored);
   stage.finish(formatted("%zu eigenvalues with Im s ≥ 0 (%s)%s", list.values.size(),

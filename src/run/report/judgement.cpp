@@ -32,7 +32,9 @@ std::string lineOf(const referee::Row& row, const eigenlist::List& list) {
       return entry + formatted(" is inexact by %.3g rad/s: the eigenvalue is ", row.distance) +
              proved;
     case Verdict::repeated:
-      return entry + " is listed twice: only one eigenvalue is there, " + proved;
+      return entry +
+             " is one entry too many: the eigenvalues there have other entries; the nearest is " +
+             proved;
     case Verdict::artefact:
       return entry + " is an artefact: " +
              (row.proved ? formatted("the nearest eigenvalue is %.3g rad/s away", row.distance)

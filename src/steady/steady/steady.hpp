@@ -99,7 +99,7 @@ contact::ActiveSet activeSet(const Solution& solution);
 /// contact.hpp, which is f S if all interfaces have the swept coefficient. The factors v and p
 /// scale speed and pressure. The loads b have three parts: b_p, which scales with p; b_0, which is
 /// constant; and the centrifugal forces b_c, which scale with v². The displacement u_g closes the
-/// initial gaps [M.54] and shortens the bolts by their preload.
+/// initial gaps [M.54] and imposes the shortening of the bolts.
 ///
 /// Convective terms arise because the material moves through the mesh, which is fixed in space, and
 /// carries its displacement with it. Without them (-motion_convective off, approximation A of

@@ -108,6 +108,21 @@ TEST(Lists, OfColumns) {
       Format::automatic, {}, 1e-12, 0);
   expectList("imaginary_hz;real_hz\n1000;1.98943678864869\n2000;-0.47746482927568601\n",
              Format::automatic, {}, 1e-12, 0);
+  expectList("imaginary,real\nHz,Hz\n1000,1.98943678864869\n2000,-0.47746482927568601\n",
+             Format::automatic, {}, 1e-12, 0);
+  // A tab delimits cells, too.
+  expectList(
+      "growth_rate_1_per_s\tradius\tangular_frequency_rad_per_s\tname\n"
+      "12.5\t\t6283.185307179586\tdisc (0,2)\n-3\t1e-3\t12566.370614359172\t\n",
+      Format::automatic, {}, 1e-12, 0);
+  // Both names of the first header say "frequency"; comments may name other figures.
+  for (const std::string header :
+       {"frequency_real_hz,frequency_imag_hz", "Re/Hz;Im/Hz",
+        "# complex frequency: real, imaginary, Hz",
+        "# 53151 degrees of freedom, disc at 10 rpm\n# cycles per second"})
+    expectList(header + "\n" + hertz + "# cut off at 9000 rad/s\n", Format::automatic, {}, 1e-12,
+               0);
+  expectList("real rad/second; imag radians per sec.\n" + rows, Format::automatic, {}, 1e-12, 0);
   // Conjugates only: both halves have the same eigenvalues.
   expectList("12.5 -6283.185307179586\n-3 -12566.370614359172", Format::columns, Unit::radians,
              1e-12, 2);
@@ -138,6 +153,19 @@ TEST(Lists, TextBetweenRows) {
   const std::string nodes = "\n NODE  U1  U2  U3\n  7  1E-3 2E-3 0.0\n  3  1E-3 2E-3 0.0\n";
   expectList(replaced(abaqus, "     THE ANALYSIS", nodes + "     THE ANALYSIS"), Format::abaqus, {},
              5e-5, 0);
+  // Without the column in rad/s, figures of other tables must not pass as a third mode.
+  const std::string four =
+      replaced(replaced(abaqus, "6283.2        1000.0       -3", "1000.0       -3"),
+               "12566.        2000.0", "2000.0");
+  for (const std::string other :
+       {"\n NODE  U1  U2  U3\n  3  1E-3 2E-3 0.0\n  4  1E-3 2E-3 0.0\n", "\n NODE\n  3 0 0 0\n",
+        "\n EIGENVALUE OUTPUT\n 1 1. 2. 3. 4. 5.\n 2 1. 2. 3. 4. 5.\n 3 1. 2. 3. 4. 5.\n"})
+    expectList(replaced(four, "     THE ANALYSIS", other + "     THE ANALYSIS"), Format::abaqus, {},
+               5e-5, 0);
+  EXPECT_EQ(eigenlist::parse(replaced(four, "       2      -3.0", "  page\n       4      -3.0"),
+                             Format::abaqus, {})
+                .skipped,
+            2);
   const auto list = eigenlist::parse(replaced(abaqus, "       2      -3.0", "       9      -3.0"),
                                      Format::abaqus, {});
   EXPECT_EQ(list.values.size(), 2u);
@@ -184,6 +212,9 @@ TEST(Lists, RefusedByName) {
          "line 11: 4 words instead of 5 as in the rows above");
   expect(replaced(nastran, "-3.000000E+00    1.2", "-3.000000E+00+1.2"), Format::nastran, {},
          "this is not a whole row of mode 3: 5 words");
+  expect(replaced(abaqus, "6283.2        1000.0       -3.97887E-03", ""), Format::abaqus, {},
+         "line 10: this is not a whole row of mode 1: 2 words");
+  expect("growth_rate_1_per_second,frequency_hz\n1,2\n", Format::columns, {}, "both Hz and rad/s");
   for (const std::string unit : {"kHz", "MHz", "deg/s", "rpm", "rad/ms", "1/min"})
     expect("real [" + unit + "]; imag [" + unit + "]\n1;2\n", Format::columns, {},
            "the header names the unit ");
